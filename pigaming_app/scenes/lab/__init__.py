@@ -1,1 +1,1 @@
-"""The Lab: a robot learns from nothing, just by trying; people watch, turn knobs, and play against it."""
+"""The Lab: a robot learns from scratch by trial and error; visitors watch, adjust rewards and play against it."""

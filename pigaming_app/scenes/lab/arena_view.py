@@ -1,7 +1,7 @@
-"""The match from which the robot learns, half as large as it is played: walls, robots, shots, and where they were.
+"""The training match at reduced scale: walls, robots, shots and trails.
 
-It is shown as often as the training tells how it stands; between two such moments the robots glide, and where they have
-jumped (the training runs faster than eyes can follow) their shadows stay for a moment.
+It is updated at the rate at which the training publishes states. Robots are interpolated between two states; where they
+jump, because training runs faster than real time, they leave fading shadows.
 """
 
 import math
@@ -23,23 +23,23 @@ from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, faded, put, step
 from pigaming_app.ui.draw.surface_cache import cached
 
-JUMP = 150.0  # px of the arena between two moments: too far to have been driven before one's eyes
-SHADOWS = 4  # moments for which a jump is seen
-DOTS, DOT_EVERY = 14, 0.05  # of a trail; seconds
-LONGEST = 0.12  # seconds that a glide may take
-WAVE = 0.45  # seconds
-Pose = tuple[float, float, float]  # px of the arena, rad
-Wall = tuple[float, float, float, float, float, int, int]  # both ends, half its width (px), health when whole, and now
+JUMP = 150.0  # arena px between two states: too far for visible driving
+SHADOWS = 4  # states for which a jump stays visible
+DOTS, DOT_EVERY = 14, 0.05  # number of trail dots; s between them
+MAX_GLIDE = 0.12  # s, maximum interpolation interval
+WAVE = 0.45  # s, shock wave
+Pose = tuple[float, float, float]  # arena px, arena px, rad
+Wall = tuple[float, float, float, float, float, int, int]  # both ends, half the width (px), initial and current health
 
 
 class ArenaView:
-    """The picture of a running match. `ground`: the page on which it lies, whole."""
+    """Live view of a training match. `ground`: the background of the whole page."""
 
     def __init__(self, ground: pygame.Surface) -> None:
         self.bare = ground.subsurface(MATCH).copy()
         self.floor = self.bare.copy()
         self.walls: list[Wall] = []
-        self.painted: list[Wall] = []  # the walls on the floor
+        self.painted: list[Wall] = []  # walls baked into the floor
         self.before: list[Pose] = []
         self.now: list[Pose] = []
         self.seats: list[int] = []
@@ -47,16 +47,16 @@ class ArenaView:
         self.taken: list[int] = []
         self.shadows: deque[list[Pose]] = deque(maxlen=SHADOWS)
         self.trails: deque[list[Pose]] = deque(maxlen=DOTS)
-        self.waves: list[tuple[float, float, int, float]] = []  # px, px, seat, seconds old
-        self.age, self.glide, self.dotted = 0.0, LONGEST, 0.0
+        self.waves: list[tuple[float, float, int, float]] = []  # px, px, seat, age in s
+        self.age, self.glide, self.since_dot = 0.0, MAX_GLIDE, 0.0
         self.jobs = PrewarmQueue()
 
     def show(self, state: Any) -> None:
-        """How the match stands now."""
+        """Take over a new match state."""
         if not self.seats:
             self.jobs = PrewarmQueue(jobs(state))
         walls = (state.walls[i] for i in range(state.wall_count))
-        self.walls = [(one.ax, one.ay, one.bx, one.by, one.half, one.whole, one.health) for one in walls]
+        self.walls = [(wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.whole, wall.health) for wall in walls]
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         poses = [(robot.x, robot.y, robot.heading) for robot in state.robots]
         self.before = self.blended() or poses
@@ -67,7 +67,7 @@ class ArenaView:
             self.before = poses
         elif self.shadows:
             self.shadows.popleft()
-        self.glide = min(LONGEST, max(0.01, 0.8 * self.glide + 0.2 * self.age))
+        self.glide = min(MAX_GLIDE, max(0.01, 0.8 * self.glide + 0.2 * self.age))
         self.age = 0.0
         self._hits(state)
         self.shots = [
@@ -77,20 +77,19 @@ class ArenaView:
         ]
 
     def warm(self, milliseconds: float) -> None:
-        """Make sprites ahead for so long, while there are any to make."""
+        """Prewarm sprites for at most this many milliseconds."""
         self.jobs.work(milliseconds)
 
     def update(self, seconds: float) -> None:
-        """Let it glide on."""
         self.age += seconds
         self.waves = [(x, y, seat, age + seconds) for x, y, seat, age in self.waves if age + seconds < WAVE]
-        self.dotted += seconds
-        if self.dotted >= DOT_EVERY and self.now:
-            self.dotted = 0.0
+        self.since_dot += seconds
+        if self.since_dot >= DOT_EVERY and self.now:
+            self.since_dot = 0.0
             self.trails.append(self.blended())
 
     def blended(self) -> list[Pose]:
-        """Where the robots are between the last two moments."""
+        """Robot poses interpolated between the last two states."""
         share = min(1.0, self.age / self.glide)
         out = []
         for old, new in zip(self.before, self.now, strict=True):
@@ -99,7 +98,6 @@ class ArenaView:
         return out
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint it where the page has room for it."""
         self._paint_walls()
         screen.blit(self.floor, MATCH)
         under: Batch = []
@@ -113,11 +111,11 @@ class ArenaView:
                 put(under, shadow(seat, step(poses[seat][2], HEADINGS // 4), i + 1), *_at(*poses[seat][:2]))
         poses = self.blended()
         for seat in self.seats:
-            put(over, little_tank(seat, step(poses[seat][2], HEADINGS)), *_at(*poses[seat][:2]))
+            put(over, small_tank(seat, step(poses[seat][2], HEADINGS)), *_at(*poses[seat][:2]))
         for seat, x, y, angle in self.shots:
-            put(light, little_bullet(seat, step(angle, effects.TURNS)), *_at(x, y))
+            put(light, small_bullet(seat, step(angle, effects.TURNS)), *_at(x, y))
         for x, y, seat, age in self.waves:
-            put(light, little_wave(seat, int(age / WAVE * effects.WAVE_STEPS)), *_at(x, y))
+            put(light, small_wave(seat, int(age / WAVE * effects.WAVE_STEPS)), *_at(x, y))
         screen.set_clip(ARENA)
         screen.fblits(under, ADD)
         screen.fblits(over, PRE)
@@ -131,8 +129,8 @@ class ArenaView:
         return any(abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP for old, new in pairs)
 
     def _hits(self, state: Any) -> None:
-        """A wave where a robot was hit since the moment before."""
-        taken = [one.taken for one in state.tanks]
+        """Start a shock wave where a robot was hit since the last state."""
+        taken = [tank_state.taken for tank_state in state.tanks]
         for seat, (before, after) in enumerate(zip(self.taken, taken, strict=False)):
             if after == before + 1:
                 x, y, _ = self.now[seat]
@@ -140,88 +138,87 @@ class ArenaView:
         self.taken = taken
 
     def _paint_walls(self) -> None:
-        """Paint the walls again when one has been hit, or when another match has begun."""
+        """Repaint the walls if any changed."""
         if self.walls == self.painted:
             return
         batch: Batch = []
         for wall in self.walls:
-            put(batch, little_wall(*wall), *_at((wall[0] + wall[2]) / 2, (wall[1] + wall[3]) / 2))
+            put(batch, small_wall(*wall), *_at((wall[0] + wall[2]) / 2, (wall[1] + wall[3]) / 2))
         self.floor.blit(self.bare, (0, 0))
         self.floor.fblits([(image, (x - MATCH.x, y - MATCH.y)) for image, (x, y) in batch], PRE)
         self.painted = self.walls
 
 
 def jobs(state: Any) -> Iterator[Job]:
-    """Sprites that will be wanted: walls as they break, robots and shots in every direction."""
-    for health in range(max(one.whole for one in state.walls), -1, -1):
+    """Prewarm jobs: wall damage states, robots and shots in every heading."""
+    for health in range(max(wall.whole for wall in state.walls), -1, -1):
         for i in range(state.wall_count):
-            one = state.walls[i]
-            if one.whole != SOLID:
-                yield partial(little_wall, one.ax, one.ay, one.bx, one.by, one.half, one.whole, health)
+            wall = state.walls[i]
+            if wall.whole != SOLID:
+                yield partial(small_wall, wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.whole, health)
     for seat in (0, 1):
         for turn in range(HEADINGS):
-            yield partial(little_tank, seat, turn)
+            yield partial(small_tank, seat, turn)
         for turn in range(effects.TURNS):
-            yield partial(little_bullet, seat, turn)
+            yield partial(small_bullet, seat, turn)
         for turn in range(HEADINGS // 4):
             for level in range(1, SHADOWS + 1):
                 yield partial(shadow, seat, turn, level)
 
 
 def _at(x: float, y: float) -> tuple[float, float]:
-    """A place of the arena on the canvas."""
+    """Arena to canvas coordinates, px."""
     return ARENA.x + SCALE * x, ARENA.y + SCALE * y
 
 
-def little(sprite: Sprite) -> Sprite:
-    """A sprite of the arena at the size of this picture."""
+def scaled(sprite: Sprite) -> Sprite:
+    """Scale an arena sprite down to this view."""
     w, h = sprite.image.get_size()
     size = max(1, round(w * SCALE)), max(1, round(h * SCALE))
     return Sprite(pygame.transform.smoothscale(sprite.image, size), round(sprite.dx * SCALE), round(sprite.dy * SCALE))
 
 
 @cached
-def little_tank(player: int, turn: int) -> Sprite:
-    """A robot at heading `turn` of HEADINGS."""
-    return little(tank(player, turn))
+def small_tank(player: int, turn: int) -> Sprite:
+    """Robot at heading `turn` of HEADINGS."""
+    return scaled(tank(player, turn))
 
 
 @cached
 def shadow(player: int, turn: int, level: int) -> Sprite:
-    """Where a robot was, at heading `turn` of a quarter of HEADINGS, `level` of SHADOWS bright."""
-    sprite = little_tank(player, 4 * turn)
+    """Shadow of a robot at heading `turn` of HEADINGS / 4, brightness `level` of SHADOWS."""
+    sprite = small_tank(player, 4 * turn)
     flat = pygame.Surface(sprite.image.get_size())
     flat.blit(sprite.image, (0, 0), special_flags=PRE)
     return faded(Sprite(flat, sprite.dx, sprite.dy), 0.45 * level / SHADOWS)
 
 
 @cached
-def little_bullet(player: int, turn: int) -> Sprite:
-    """A shot, flying at heading `turn` of TURNS."""
-    return little(effects.bullet(player, turn * HEADINGS // effects.TURNS))
+def small_bullet(player: int, turn: int) -> Sprite:
+    """Shot at heading `turn` of TURNS."""
+    return scaled(effects.bullet(player, turn * HEADINGS // effects.TURNS))
 
 
 @cached
-def little_wave(player: int, stage: int) -> Sprite:
-    """The shock of a hit, `stage` of WAVE_STEPS."""
-    return little(effects.wave(PLAYERS[player], stage))
+def small_wave(player: int, stage: int) -> Sprite:
+    """Shock wave of a hit, `stage` of WAVE_STEPS."""
+    return scaled(effects.wave(PLAYERS[player], stage))
 
 
 @cached
 def dot(player: int, level: int) -> Sprite:
-    """A dot of a trail, `level` of TREAD_LEVELS bright."""
+    """Trail dot, brightness `level` of TREAD_LEVELS."""
     ink = GlowCanvas(28, 28).disc(14, 14, 5, dim(PLAYERS[player], 0.08 + 0.07 * level))
     return Sprite(ink.lit(0.5), -14, -14)
 
 
 class _Wall:
-    """A wall as `wall_sprite` wants it."""
+    """Wall in the form `wall_sprite` needs."""
 
     def __init__(self, ax: float, ay: float, bx: float, by: float, half: float, whole: int) -> None:
         self.ax, self.ay, self.bx, self.by, self.half, self.whole = ax, ay, bx, by, half, whole
 
 
 @cached
-def little_wall(ax: float, ay: float, bx: float, by: float, half: float, whole: int, health: int) -> Sprite:
-    """A wall with so much health."""
-    return little(wall_sprite(_Wall(ax, ay, bx, by, half, whole), health))
+def small_wall(ax: float, ay: float, bx: float, by: float, half: float, whole: int, health: int) -> Sprite:
+    return scaled(wall_sprite(_Wall(ax, ay, bx, by, half, whole), health))

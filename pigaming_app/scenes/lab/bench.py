@@ -1,4 +1,4 @@
-"""The Lab as the pages above it see it."""
+"""Interface of the Lab for the pages above it."""
 
 from typing import Protocol
 
@@ -7,8 +7,8 @@ import pygame
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.lab.trainer import Trainer
 
-IDLE = 90.0  # seconds without a press until the Lab
-DARK = 72  # of 255: how bright the Lab is behind a page
+IDLE = 90.0  # s without input before the return to the Lab
+DARK = 72  # 0..255, brightness of the Lab behind a page
 
 
 class LabHost(Protocol):
@@ -19,17 +19,17 @@ class LabHost(Protocol):
     name: str
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint it."""
+        """Draw the Lab."""
 
     def say(self, sentence: str, wrong: bool = False) -> None:
-        """Show a sentence for a while."""
+        """Show a message for a few seconds."""
 
     def begin(self) -> None:
-        """Everything from an empty table."""
+        """Restart from an empty table."""
 
 
-def behind(lab: LabHost) -> pygame.Surface:
-    """The Lab as it lies behind a page."""
+def dimmed_background(lab: LabHost) -> pygame.Surface:
+    """The Lab, dimmed, as the background of a page."""
     canvas = pygame.Surface((1920, 1080))
     lab.draw(canvas)
     canvas.fill((DARK, DARK, DARK), special_flags=pygame.BLEND_RGB_MULT)

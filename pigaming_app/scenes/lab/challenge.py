@@ -1,4 +1,4 @@
-"""Play against what the robot has learned so far: a minute by the rules it was trained by, then back to the Lab."""
+"""Challenge match against the robot as trained so far: one minute by the training rules, then back to the Lab."""
 
 import pygame
 
@@ -10,7 +10,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
-from pigaming_app.scenes.results.scene import LATE, LEAVE, filled
+from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -18,33 +18,31 @@ from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, overlay
 
 MINUTES = 1.0
-ROBOT = 1  # its seat; the person sits on the first
-DEAF = 1.0  # seconds in which presses are ignored
-IDLE = 60.0  # seconds without a press until the Lab
+ROBOT = 1  # seat of the trained robot; the person has seat 0
+DEAF = 1.0  # s during which input is ignored
+IDLE = 60.0  # s without input before the return to the Lab
 
 
 class Challenge:
-    """One match of a person against the robot."""
+    """A match of one person against the trained robot."""
 
     def __init__(self, context: Context, kind: BrainKind, device: Device, arena: str = ARENA) -> None:
         self.context, self.kind, self.device, self.arena = context, kind, device, arena
         off = Seat("off", 2), Seat("off", 3)
         setup = Setup(GAME, arena, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
         self.inner = MatchScene(context, setup, [device])
-        self.inner.open = False  # nobody else takes the robot's seat
+        self.inner.open = False  # the robot's seat cannot be taken over
         self.inner.match.sit(ROBOT, BrainPlayer(kind, setup.seed))
         self.inner.runner.players[ROBOT] = kind.name
 
     def entered(self) -> None:
-        """Begin, or go on after an interruption."""
         self.inner.entered()
 
     def on(self, event: InputEvent) -> Turn:
-        """As in every match."""
         return self.inner.on(event)
 
     def update(self, seconds: float) -> Turn:
-        """Let the match run on; ended by hand, it leads back at once."""
+        """Advance the match; stopped by hand, it returns to the Lab at once."""
         inner = self.inner
         if inner.repeated:
             return Swap(self.again(inner.devices[0]))
@@ -57,16 +55,15 @@ class Challenge:
         return inner.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The match."""
         self.inner.draw(screen)
 
     def again(self, device: Device | None) -> "Challenge":
-        """Once more, driven with this device, or with the same one."""
+        """A rematch, driven by `device`, or by the same device if None."""
         return Challenge(self.context, self.kind, device or self.device, self.arena)
 
 
 class ChallengeResult:
-    """Who won, and whether once more."""
+    """Result of a challenge, with a rematch prompt."""
 
     def __init__(self, fight: Challenge) -> None:
         self.fight, self.context = fight, fight.context
@@ -79,12 +76,11 @@ class ChallengeResult:
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
-        """Let it be heard."""
-        mine, its = self.scores
-        self.context.sounds.play("win" if mine > its else "lose" if mine < its else "tie", 0)
+        own, theirs = self.scores
+        self.context.sounds.play("win" if own > theirs else "lose" if own < theirs else "tie", 0)
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE plays again, with whatever device presses it; BACK leads to the Lab, held as after every match."""
+        """FIRE starts a rematch with the device that pressed it; BACK, held, returns to the Lab."""
         event = self.prompts.as_button(event)
         admitted = self.access.admit(event)
         if admitted is None and event.button not in (Button.FIRE, Button.START):
@@ -107,7 +103,6 @@ class ChallengeResult:
         return Pop()
 
     def update(self, seconds: float) -> Turn:
-        """Wait for somebody."""
         self.age += seconds
         self.idle += seconds
         if self.leaving.update(seconds) or self.access.update(seconds):
@@ -115,32 +110,32 @@ class ChallengeResult:
         return Pop() if self.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page over the last picture of the match."""
+        """Draw the result over the last frame of the match."""
         if self.picture is None:
-            mine, its = self.scores
-            color = PLAYERS[0] if mine > its else PLAYERS[ROBOT] if its > mine else ICE
+            own, theirs = self.scores
+            color = PLAYERS[0] if own > theirs else PLAYERS[ROBOT] if theirs > own else ICE
             self.picture = overlay(self.fight.inner.picture(), color, self._paint)
         screen.blit(self.picture, (0, 0))
         self.prompts.draw(screen)
         if self.leaving.share:
-            filled(screen, self.leaving.share)
+            hold_bar(screen, self.leaving.share)
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        mine, its = self.scores
+        own, theirs = self.scores
         name = self.fight.kind.name.upper()
-        if mine == its:
+        if own == theirs:
             sheet_title(layer, None, words("results.tie"), ICE)
         else:
-            seat = 0 if mine > its else ROBOT
+            seat = 0 if own > theirs else ROBOT
             sheet_title(
-                layer, seat, words("lab.you_win") if mine > its else words("lab.it_wins", name=name), PLAYERS[seat]
+                layer, seat, words("lab.you_win") if own > theirs else words("lab.it_wins", name=name), PLAYERS[seat]
             )
         middle = (HEAD + FOOT) / 2
-        for seat, side, score, who in ((0, -1, mine, words("lab.you")), (ROBOT, 1, its, name)):
+        for seat, side, score, player_name in ((0, -1, own, words("lab.you")), (ROBOT, 1, theirs, name)):
             layer.canvas.text(
                 str(score).replace("-", "−"), HERO - 70, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
             )
             badge(layer.glow, seat, 960 + side * 430, middle - 28, 44)
-            layer.canvas.body(who, 960 + side * 430, middle + 66, MIST, "c")
+            layer.canvas.body(player_name, 960 + side * 430, middle + 66, MIST, "c")
         layer.canvas.text(":", HERO - 90, 960, middle - 8, MIST, "hero", "c")

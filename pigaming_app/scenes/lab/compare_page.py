@@ -1,6 +1,6 @@
-"""A small league of what the robot knew after 0, 10, 50 and 200 matches, what it knows now, and the hand-made robot.
+"""League of the robot's checkpoints at 0, 10, 50 and 200 matches, its present state and the hand-made robot.
 
-Everyone plays everyone, a little in every frame; the table sorts itself while the matches come in.
+Round robin, a few ticks per frame; the table is sorted while matches finish.
 """
 
 from dataclasses import dataclass
@@ -23,24 +23,24 @@ from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 
-MATCHES = {True: 10, False: 2}  # of every two, compiled and plain
+MATCHES = {True: 10, False: 2}  # matches per pair, compiled and interpreted
 MINUTES = 1.0
 SEED = 3000
-SLICE = 0.005  # seconds of a frame
-TICKS = 60  # between two looks at the clock
+SLICE = 0.005  # s per frame
+TICKS = 60  # ticks between two checks of the clock
 TOP, PITCH, HIGH = 292, 104, 88
-COLUMNS = (("won", 1130), ("tied", 1330), ("lost", 1540), ("points", 1772))  # right edges, px
-WIN, TIE = 3, 1  # points, as in football
-GLIDE = 8.0  # of the way to its new place that a row goes in a second
+COLUMNS = (("won", 1130), ("tied", 1330), ("lost", 1540), ("points", 1772))  # px, right edges
+WIN, TIE = 3, 1  # points
+GLIDE = 8.0  # 1/s, rate at which a row approaches its new position
 
 
 @dataclass
 class Entrant:
-    """One row of the table."""
+    """Row of the table."""
 
     name: str
     kind: BrainKind
-    own: bool = True  # a robot of this training
+    own: bool = True  # checkpoint of this training
     won: int = 0
     tied: int = 0
     lost: int = 0
@@ -52,15 +52,15 @@ class Entrant:
 
 
 class ComparePage:
-    """The league of one training."""
+    """League of one training."""
 
     def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
         words, trainer = self.context.words, lab.trainer
-        kept = trainer.checkpoints()
-        self.players = [Entrant(words("lab.after", matches=n), kept[n].kind) for n in sorted(kept)]
+        checkpoints = trainer.checkpoints()
+        self.players = [Entrant(words("lab.after", matches=n), checkpoints[n].kind) for n in sorted(checkpoints)]
         now = trainer.moment.matches
-        if now not in kept:
+        if now not in checkpoints:
             self.players.append(Entrant(words("lab.now", matches=now), trainer.checkpoint("now").kind))
         self.players.append(Entrant(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
         for i, player in enumerate(self.players):
@@ -71,10 +71,10 @@ class ComparePage:
         self.prompts = self.context.prompts([(Button.BACK, "lab.hint_lab")])
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """Any button leads back."""
+        """Any button returns to the Lab."""
         event = self.prompts.as_button(event)
         if event.button in (Button.BACK, Button.FIRE, Button.START):
             self.context.sounds.play("back")
@@ -82,19 +82,18 @@ class ComparePage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Play on for some milliseconds, and let the rows glide."""
+        """Advance the matches within the time slice, and animate the rows."""
         if self.context.idle > IDLE:
             return Pop()
         end = perf_counter() + SLICE
         while self.pairs and perf_counter() < end:
             self._play()
         for row, player in enumerate(self.order()):
-            away = TOP + PITCH * row - player.y
-            player.y += away * min(1.0, GLIDE * seconds) if abs(away) > 1.0 else away
+            offset = TOP + PITCH * row - player.y
+            player.y += offset * min(1.0, GLIDE * seconds) if abs(offset) > 1.0 else offset
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the table."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("lab.compare_title")).draw(screen)
@@ -112,27 +111,28 @@ class ComparePage:
         self.prompts.draw(screen)
 
     def order(self) -> list[Entrant]:
-        """The players, the best first; equals as they were."""
+        """The entrants by points, best first; stable for ties."""
         return sorted(self.players, key=lambda player: -player.points)
 
     # ---- inside
 
     def _play(self) -> None:
-        one, other = self.pairs[0]
+        first, second = self.pairs[0]
         if self.exam is None:
             fast, arena = self.lab.trainer.fast, self.lab.trainer.training.arena
-            self.exam = Evaluation(one.kind, other.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
+            self.exam = Evaluation(first.kind, second.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
         self.exam.play(TICKS)
         if self.exam.over:
             exam, self.exam = self.exam, None
             self.pairs.pop(0)
-            one.won, one.tied, one.lost = one.won + exam.wins, one.tied + exam.ties, one.lost + exam.losses
-            other.won, other.tied, other.lost = other.won + exam.losses, other.tied + exam.ties, other.lost + exam.wins
+            for entrant, wins, losses in ((first, exam.wins, exam.losses), (second, exam.losses, exam.wins)):
+                entrant.won, entrant.lost = entrant.won + wins, entrant.lost + losses
+                entrant.tied += exam.ties
             if not self.pairs:
                 self.context.sounds.play("win")
 
     def _bar(self, screen: pygame.Surface) -> None:
-        """How much has been played."""
+        """Draw the progress bar."""
         done = (self.whole - len(self.pairs)) / self.whole
         box = pygame.Rect(LEFT, 926, RIGHT - LEFT, 10)
         screen.fill(NOTHING, box)
@@ -141,7 +141,7 @@ class ComparePage:
 
 @cached
 def row(name: str, own: bool, best: bool) -> LitImage:
-    """A row without its numbers; upper left at (0, 0)."""
+    """Row without its numbers; top left at (0, 0)."""
     w = RIGHT - LEFT
     layer = Layer(0, 0, w, HIGH)
     layer.glow.line(cut_box(0, 0, w, HIGH, 14), FOCUS if best else STEEL, THIN, True)

@@ -1,4 +1,4 @@
-"""A knob from -10 to +10: zero at the top, lit from zero to its value, good one way and bad the other."""
+"""Dial from -10 to +10, zero at the top: one colour for positive values, another for negative ones."""
 
 import math
 
@@ -7,18 +7,18 @@ from pigaming_app.ui.draw import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 
-MOST = 10
+LIMIT = 10
 RADIUS = 48  # px
-SWEEP = math.radians(135)  # from zero to either end
+SWEEP = math.radians(135)  # rad, from zero to either end
 TOP = -math.pi / 2
-ARROW = 88  # px from the middle of a knob that is held to the tip of an arrow
+ARROW = 88  # px from the centre of a held knob to the tip of an arrow
 
 
 @cached
 def dial(value: int, held: bool) -> LitImage:
-    """The knob at `value`, round (0, 0); `held`: somebody is turning it."""
+    """Knob at `value`, centred on (0, 0). `held`: it is being adjusted."""
     layer = Layer(-110, -80, 220, 160)
-    ink, end = layer.glow, TOP + SWEEP * value / MOST
+    ink, end = layer.glow, TOP + SWEEP * value / LIMIT
     layer.canvas.crisp.arc(0, 0, RADIUS, TOP - SWEEP, TOP + SWEEP, NOTHING, 12)
     if value:
         ink.arc(0, 0, RADIUS, TOP, end, GOOD if value > 0 else BAD, 12)
@@ -36,5 +36,5 @@ def dial(value: int, held: bool) -> LitImage:
 
 
 def signed(value: int) -> str:
-    """A number with its sign; zero has none."""
+    """A number with its sign; none for zero."""
     return f"{value:+d}".replace("-", "−") if value else "0"

@@ -1,11 +1,11 @@
-"""Where everything of the Lab stands on the canvas, px, and the colours that only the Lab has."""
+"""Layout of the Lab on the canvas, in px, and the colours specific to it."""
 
 import pygame
 
 from pigaming_app.scenes.brain.rose import BAD, GOOD
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
-LEFT, RIGHT, MIDDLE = 96, 1824, 968  # MIDDLE: where the right column begins
+LEFT, RIGHT, MIDDLE = 96, 1824, 968  # MIDDLE: left edge of the right column
 TITLE_Y, PROMPTS_Y = 100, 992
 MATCH = pygame.Rect(LEFT, 160, 848, 484)
 KNOBS = pygame.Rect(LEFT, 664, 848, 282)
@@ -26,7 +26,7 @@ WORDS_X = PLAN.left + 456
 BAR_Y = PLAN.bottom - 40
 
 PLOT = pygame.Rect(CURVE.left + 36, CURVE.top + 84, 560, 172)
-NOTHING = (34, 42, 54)  # what is there but not lit
+NOTHING = (34, 42, 54)  # unlit elements
 
 __all__ = ["ARENA", "BAD", "BAR_Y", "CURVE", "GOOD", "KNOBS", "KNOB_NAMES", "KNOB_Y", "LEFT", "MATCH", "MIDDLE",
            "NOTHING", "PLAN", "PLAY", "PLOT", "PROMPTS_Y", "RIGHT", "ROSE", "SCALE", "SPEED", "TITLE_Y",
@@ -34,6 +34,6 @@ __all__ = ["ARENA", "BAD", "BAR_Y", "CURVE", "GOOD", "KNOBS", "KNOB_NAMES", "KNO
 
 
 def knob_rect(i: int) -> pygame.Rect:
-    """What is clicked on and shown in focus: the i-th knob; its name stands below."""
+    """Click and focus area of the i-th knob; its label stands below."""
     w = KNOBS.w // len(KNOB_NAMES)
     return pygame.Rect(KNOBS.left + w * i + w // 2 - 72, KNOB_Y - 64, 144, 120)

@@ -1,5 +1,6 @@
-"""How often it wins against the hand-made robot, over the matches it has learned from: dots as measured, a line through
-them. A tie is half a win, so the hand-made robot itself would be on the dashed line: above it, it has been outdone.
+"""Learning curve: win rate against the hand-made robot over training matches, as measured dots and a smoothed line.
+
+A tie counts as half a win, so the hand-made robot itself would lie on the dashed line at 0.5.
 """
 
 from collections.abc import Sequence
@@ -14,71 +15,71 @@ from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text, word
 
-FIRST = 50  # matches that the plot has room for in the beginning; it doubles
-HANDMADE = 0.5  # how often one wins against one like itself
-NAME_FROM = 0.4  # of the width, where its name begins
-CALM = 0.3  # share of a new measure in the line
-GLOW = ((17, 0.14), (11, 0.3), (6, 1.0))  # px wide, brightness
+MIN_RANGE = 50  # initial range of the x axis, matches; doubles as needed
+EVEN = 0.5  # expected win rate against an equal opponent
+NAME_FROM = 0.4  # share of the width, start of its label
+SMOOTHING = 0.3  # smoothing factor: weight of a new measurement
+GLOW = ((17, 0.14), (11, 0.3), (6, 1.0))  # width in px, brightness
 
 
 @dataclass(frozen=True)
 class Measure:
-    """After so many matches it won this share, 0..1."""
+    """Win rate `share`, 0..1, after a number of matches."""
 
     matches: float
     share: float
 
 
 def smoothed(measures: Sequence[Measure]) -> list[float]:
-    """The line through the dots: each measure moves it by CALM of the way; the first one is where it begins."""
+    """Exponentially smoothed win rates with factor CALM; the first value is the first measurement."""
     out: list[float] = []
-    for one in measures:
-        out.append(one.share if not out else out[-1] + CALM * (one.share - out[-1]))
+    for measure in measures:
+        out.append(measure.share if not out else out[-1] + SMOOTHING * (measure.share - out[-1]))
     return out
 
 
 def room(matches: float) -> int:
-    """How many matches the plot shows."""
-    most = FIRST
-    while most < matches:
-        most *= 2
-    return most
+    """Range of the x axis for `matches`."""
+    limit = MIN_RANGE
+    while limit < matches:
+        limit *= 2
+    return limit
 
 
 class LearningCurve:
-    """The picture of the measures, painted again only when there is a new one. `ground`: the page, whole."""
+    """Plot of the measurements, repainted only when one is added. `ground`: the background of the whole page."""
 
     def __init__(self, ground: pygame.Surface) -> None:
         self.bare = ground.subsurface(CURVE).copy()
         self.sheet = self.bare.copy()
-        self.share: float | None = None  # where the line has come to
-        self.shown = -1  # measures
-        self.above = False  # the name of the hand-made robot stands above its line: below it there is a curve
+        self.share: float | None = None  # end of the line
+        self.drawn = -1  # number of measurements drawn
+        self.above = False  # label of the hand-made robot above its line, because the curve runs below
 
     def show(self, measures: Sequence[Measure]) -> None:
-        """What has been measured so far."""
-        if len(measures) == self.shown:
+        """Update the plot with all measurements so far."""
+        if len(measures) == self.drawn:
             return
-        self.shown = len(measures)
+        self.drawn = len(measures)
         self.sheet.blit(self.bare, (0, 0))
         left, foot = PLOT.left - CURVE.left, PLOT.bottom - CURVE.top
-        _dashes(self.sheet, left, foot - round(PLOT.h * HANDMADE))
+        _dashes(self.sheet, left, foot - round(PLOT.h * EVEN))
         self.share = None
         if measures:
             line = smoothed(measures)
             self.share = line[-1]
-            most = room(measures[-1].matches)
-            xs = [left + PLOT.w * one.matches / most for one in measures]
-            for x, one in zip(xs, measures, strict=True):
-                pygame.draw.circle(self.sheet, dim(GOOD, 0.42), (x, foot - PLOT.h * one.share), 4)
+            limit = room(measures[-1].matches)
+            xs = [left + PLOT.w * measure.matches / limit for measure in measures]
+            for x, measure in zip(xs, measures, strict=True):
+                pygame.draw.circle(self.sheet, dim(GOOD, 0.42), (x, foot - PLOT.h * measure.share), 4)
             late = [share for x, share in zip(xs, line, strict=True) if x > left + PLOT.w * NAME_FROM]
-            self.above = sum(late) < HANDMADE * len(late)
+            self.above = sum(late) < EVEN * len(late)
             _tube(self.sheet, [(x, foot - PLOT.h * share) for x, share in zip(xs, line, strict=True)])
 
     def draw(self, screen: pygame.Surface, name: str, waiting: str) -> None:
-        """Paint it; `name`: of the hand-made robot; `waiting`: what to say before anything is measured."""
+        """Draw the plot. `name`: label of the hand-made robot; `waiting`: text before the first measurement."""
         screen.blit(self.sheet, CURVE)
-        y = PLOT.bottom - PLOT.h * HANDMADE
+        y = PLOT.bottom - PLOT.h * EVEN
         text(name, BODY, MIST, "body", "r", PLOT.w - 20).draw(screen, PLOT.right, y + (-34 if self.above else 36))
         if self.share is None:
             text(waiting, BODY, MIST, "body", "r", 190).draw(screen, RIGHT - 36, CURVE.centery)
@@ -87,13 +88,13 @@ class LearningCurve:
 
 
 def _height(share: float) -> float:
-    """Where the number stands: beside the end of the line, but within the panel."""
+    """y of the percentage beside the end of the line, px, clamped to the panel."""
     return max(CURVE.top + 104.0, min(CURVE.bottom - 64.0, PLOT.bottom - PLOT.h * share))
 
 
 @cached
 def number(percent: int) -> LitImage:
-    """How often, round (0, 0)."""
+    """Win rate in percent, centred on (0, 0)."""
     return word(f"{percent}%", TITLE - 16, ICE, "head", 0.45)
 
 
@@ -103,7 +104,7 @@ def _dashes(sheet: pygame.Surface, left: int, y: int) -> None:
 
 
 def _tube(sheet: pygame.Surface, points: list[tuple[float, float]]) -> None:
-    """A line that glows, without the cost of a blur: wide and dim, then narrow and bright."""
+    """Draw a glowing line without a blur: wide and dim strokes first, then narrow and bright ones."""
     for width, share in GLOW:
         color = dim(GOOD, share)
         for a, b in pairwise(points):

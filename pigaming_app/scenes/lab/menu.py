@@ -1,9 +1,9 @@
-"""What else there is to do in the Lab: save the robot, open another one, compare, begin from nothing."""
+"""Lab menu: save the robot, open another one, compare, start over."""
 
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
-from pigaming_app.scenes.lab.bench import IDLE, LabHost, behind
+from pigaming_app.scenes.lab.bench import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.compare_page import ComparePage
 from pigaming_app.scenes.lab.name_page import NamePage
 from pigaming_app.scenes.lab.open_page import OpenPage
@@ -19,11 +19,11 @@ ITEMS = ("save", "open", "compare", "anew")
 
 
 class LabMenu:
-    """The menu over the Lab, which rests."""
+    """The menu; the Lab below it is paused."""
 
     def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
-        self.sure = False  # the next press on it forgets everything
+        self.sure = False  # confirmation pending: the next press discards the training
         self.picture: pygame.Surface | None = None
         self.focus = Focus(menu_spots(ITEMS))
         self.prompts = self.context.prompts(
@@ -31,10 +31,10 @@ class LabMenu:
         )
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE takes what has the focus; START and BACK lead back."""
+        """FIRE selects the focused item; START and BACK return to the Lab."""
         event = self.prompts.as_button(event)
         if event.button in (Button.START, Button.BACK):
             self.context.sounds.play("back")
@@ -46,20 +46,18 @@ class LabMenu:
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
-        """Only the focus moves."""
         self.focus.update(seconds)
         return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page, painted once, and the item in focus."""
         if self.picture is None:
-            self.picture = overlay(behind(self.lab), ICE, self._paint)
+            self.picture = overlay(dimmed_background(self.lab), ICE, self._paint)
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen, ALARM if self.sure else FOCUS)
-        said = self.context.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
+        label = self.context.words("lab.sure" if self.sure else f"lab.{self.focus.name}")
         if self.sure:
             pygame.draw.rect(screen, (0, 0, 0), self.focus.spot.rect)
-        word(said, LABEL, ALARM if self.sure else FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
+        word(label, LABEL, ALARM if self.sure else FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
         self.prompts.draw(screen)
 
     def _do(self, name: str) -> Turn:

@@ -1,4 +1,4 @@
-"""A name for the robot, chosen with a stick and one button: up and down change a letter, FIRE goes on, START saves."""
+"""Name entry for the robot with a stick and one button: up and down change a letter, FIRE goes on, START saves."""
 
 import pygame
 
@@ -24,33 +24,33 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters
 
-DEAF = 0.3  # seconds in which presses are ignored
-W, H, GAP, MIDDLE = 176, 240, 32, 510  # px of a letter's box
-SIZE = 168  # px of a letter
+DEAF = 0.3  # s during which input is ignored
+W, H, GAP, MIDDLE = 176, 240, 32, 510  # px, letter boxes
+SIZE = 168  # px, letter size
 
 
 class NamePage:
-    """Asks for a name and saves the robot under it."""
+    """Prompts for a name and saves the robot under it."""
 
     def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
         self.picker = LetterPicker(LETTERS, (lab.name or proposal()).ljust(LENGTH))
         self.age = 0.0
-        self.taken = False  # the name belongs to another robot; START again replaces it
+        self.taken = False  # the name is in use; START again overwrites
         self.prompts = self.context.prompts(
             [(Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save")],
         )
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        """Nothing to do."""
 
     @property
     def name(self) -> str:
-        """What is spelled now."""
+        """The current spelling."""
         return self.picker.spelled.strip()
 
     def on(self, event: InputEvent) -> Turn:
-        """Choose letters; START saves; BACK goes a letter back, and from the first one to the Lab."""
+        """Edit letters; START saves; BACK goes back one letter, and from the first one to the Lab."""
         event = self.prompts.as_button(event)
         if self.age < DEAF:
             return None
@@ -77,13 +77,11 @@ class NamePage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let a letter roll."""
         self.age += seconds
         self.picker.update(seconds)
         return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the question and the letters."""
         screen.blit(backdrop(), (0, 0))
         words = self.context.words
         heading(words("lab.name_title")).draw(screen)
@@ -92,13 +90,13 @@ class NamePage:
             box().draw(screen, x, MIDDLE)
         draw_letters(screen, self.picker, xs, MIDDLE, SIZE, 50, ICE)
         cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
-        said, color = self._said()
-        text(said, BODY, color).draw(screen, 960, MIDDLE + 290)
+        line, color = self._hint()
+        text(line, BODY, color).draw(screen, 960, MIDDLE + 290)
         self.prompts.draw(screen)
 
     # ---- inside
 
-    def _said(self) -> tuple[str, Color]:
+    def _hint(self) -> tuple[str, Color]:
         words = self.context.words
         if self.taken:
             return words("lab.taken", name=self.name), ALARM
@@ -109,7 +107,7 @@ class NamePage:
             self.context.sounds.play(sound)
 
     def _click(self, at: tuple[float, float]) -> None:
-        """The upper half of a letter's column goes one letter back, the lower one on."""
+        """The upper half of a letter's column selects the previous letter, the lower half the next."""
         for i in range(LENGTH):
             if abs(at[0] - middle(i)) <= W / 2 and abs(at[1] - MIDDLE) <= H / 2 + 90:
                 self.picker.slot = i
@@ -117,7 +115,7 @@ class NamePage:
                     self._play(self.picker.turn(-1 if at[1] < MIDDLE else 1))
 
     def _save(self) -> Turn:
-        """Save it, unless the name is another robot's and this is the first time that START was pressed."""
+        """Save, unless the name is in use and not yet confirmed."""
         name = self.name
         if not name:
             self.context.sounds.play("refused")
@@ -131,19 +129,19 @@ class NamePage:
             self.lab.trainer.hold(lambda training: save_robot(training, name))
             self.lab.name = name
             self.lab.say(words("lab.saved", name=name))
-        except RobotFileError as trouble:
-            self.lab.say(words(str(trouble)), wrong=True)
+        except RobotFileError as error:
+            self.lab.say(words(str(error)), wrong=True)
         return Pop()
 
 
 def middle(slot: int) -> float:
-    """Where a letter stands, x in px."""
+    """Centre of a letter, x in px."""
     return 960 + (slot - (LENGTH - 1) / 2) * (W + GAP)
 
 
 @cached
 def box() -> LitImage:
-    """A letter's box, round (0, 0)."""
+    """Box of a letter, centred on (0, 0)."""
     layer = Layer(-W / 2, -H / 2, W, H)
     panel(layer.glow, -W / 2, -H / 2, W, H)
     layer.glow.line(cut_box(-W / 2, -H / 2, W, H, 20), STEEL, THIN, True)

@@ -1,4 +1,4 @@
-"""The saved robots: choose one to go on with."""
+"""Selection of a saved robot to continue with."""
 
 from datetime import datetime
 
@@ -17,11 +17,11 @@ from pigaming_app.ui.widgets.labels import black_out, heading
 
 COLUMNS, ROWS = 3, 4
 TOP, HIGH, PITCH = 236, 140, 164
-DEAF = 0.3  # seconds in which presses are ignored
+DEAF = 0.3  # s during which input is ignored
 
 
 class OpenPage:
-    """Cards of the robots, the last saved first; those of one page at a time."""
+    """Paged cards of the saved robots, most recent first."""
 
     def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
@@ -31,10 +31,10 @@ class OpenPage:
         self.prompts = self.context.prompts(self._hints())
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE opens, BACK leads to the Lab, Y shows the next page."""
+        """FIRE opens, BACK returns to the Lab, Y shows the next page."""
         event = self.prompts.as_button(event)
         if event.button is Button.BACK or (not self.names and event.button in (Button.FIRE, Button.START)):
             self.context.sounds.play("back")
@@ -51,13 +51,11 @@ class OpenPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the focus glide."""
         self.age += seconds
         self.focus.update(seconds)
         return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the cards."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         count = f"{self.page + 1} / {self.pages}" if self.pages > 1 else ""
@@ -75,7 +73,7 @@ class OpenPage:
 
     @property
     def pages(self) -> int:
-        """How many pages there are."""
+        """Number of pages."""
         return max(1, -(-len(self.names) // (COLUMNS * ROWS)))
 
     def _spots(self) -> list[FocusSpot]:
@@ -95,19 +93,19 @@ class OpenPage:
             trainer.take(training)
             self.lab.name = name
             self.lab.say(words("lab.opened_other" if other_engine else "lab.opened", name=name))
-        except RobotFileError as trouble:
-            self.lab.say(words(str(trouble), name=name), wrong=True)
+        except RobotFileError as error:
+            self.lab.say(words(str(error), name=name), wrong=True)
         return Pop()
 
 
 def place(i: int) -> pygame.Rect:
-    """Where the i-th card of a page lies."""
+    """Rectangle of the i-th card of a page."""
     x, w = span(4 * (i % COLUMNS), 4)
     return pygame.Rect(x, TOP + PITCH * (i // COLUMNS), w, HIGH)
 
 
 def saved(name: str) -> str:
-    """When a robot was saved; nothing if its file has just gone."""
+    """Local time at which a robot was saved, or "" if its file no longer exists."""
     try:
         return f"{datetime.fromtimestamp(file_of(name).stat().st_mtime):%d.%m.  %H:%M}"
     except OSError:
@@ -116,7 +114,7 @@ def saved(name: str) -> str:
 
 @cached
 def card(name: str, when: str, hot: bool) -> LitImage:
-    """A robot's name and when it was saved; upper left at (0, 0)."""
+    """Name and save time of a robot; top left at (0, 0)."""
     w = span(0, 4)[1]
     layer = Layer(0, 0, w, HIGH)
     layer.glow.line(cut_box(0, 0, w, HIGH, 16), STEEL, THIN, True)

@@ -1,6 +1,6 @@
-"""The Lab. Any device steers it: directions move the focus, fire chooses; a knob in hand is turned by directions.
+"""The Lab scene. Any device controls it: directions move the focus, FIRE selects; a held knob is turned by directions.
 
-The training goes on while the page is shown, rests while people play against the robot, and goes on after that.
+Training runs while the page is shown and pauses during a challenge match.
 """
 
 import math
@@ -13,9 +13,9 @@ from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
-from pigaming_app.scenes.lab.knob import MOST
+from pigaming_app.scenes.lab.knob import LIMIT
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
-from pigaming_app.scenes.lab.learning_curve import HANDMADE
+from pigaming_app.scenes.lab.learning_curve import EVEN
 from pigaming_app.scenes.lab.progress import Progress
 from pigaming_app.scenes.lab.trainer import Trainer
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
@@ -25,30 +25,30 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
-FIRST = replace(RECIPES[1], behind_always=1)  # each knob counts at every decision, so that turning it is seen soon
-IDLE = 300.0  # seconds without a press until the title; then the next visitors begin with an empty table
-DEAF = 0.35  # seconds in which the press that led here counts for nothing
-LAST = 20.0  # seconds before that in which it asks
-SAID = 4.0  # seconds for which a sentence stays
-PATIENT = 2.0  # seconds of compiling after which a word about it is due
-LEAST = 2.0  # Q that makes at least a whole petal
+FIRST = replace(RECIPES[1], behind_always=1)  # each knob affects every decision, so that a change shows quickly
+IDLE = 300.0  # s without input before the return to the title, which resets the table for the next visitors
+DEAF = 0.35  # s during which input is ignored after entering
+CONFIRM_SECONDS = 20.0  # s before the end of IDLE at which a confirmation prompt appears
+MESSAGE_SECONDS = 4.0  # s, display time of a message
+COMPILE_NOTICE = 2.0  # s of compiling before a notice is shown
+MIN_SCALE = 2.0  # Q value that fills at least one petal
 TURNS = {Button.LEFT: -1, Button.DOWN: -1, Button.RIGHT: 1, Button.UP: 1}
 
 
 class Lab:
-    """A robot that learns, from an empty table on. `fast`: compiled; left out: if numba is there."""
+    """A robot that learns from an empty table. `fast`: compiled; None: if numba is available."""
 
     def __init__(self, context: Context, fast: bool | None = None) -> None:
         self.context = context
         self.trainer = Trainer(FIRST, new_seed(), fast, context.compiler)
-        self.lagged: Progress | None = None  # in which it won less often than the hand-made robot
-        self.cheered: Progress | None = None  # in which that was over
+        self.was_behind: Progress | None = None  # the training that has been behind the hand-made robot
+        self.celebrated: Progress | None = None  # the training whose overtaking was celebrated
         self.name = ""  # under which it was saved or opened
         self.shown = LabState()
         self.page: LabPage | None = None
-        self.seen = -1  # number of the picture that the page has
-        self.held = ""  # the knob in hand
-        self.age = self.said = self.compiling = 0.0
+        self.seen = -1  # number of the last frame shown
+        self.held = ""  # knob being adjusted
+        self.age = self.message_left = self.compiling = 0.0
         self.sentence, self.wrong = "", False
         self.focus = Focus([FocusSpot("speed", SPEED), FocusSpot("play", PLAY)]
                            + [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
@@ -64,17 +64,16 @@ class Lab:
         )
         self.turning = context.prompts([(Button.RIGHT, "lab.hint_turn"), (Button.FIRE, "lab.hint_done")], PROMPTS_Y)
 
-    # ---- what happens to it
+    # ---- scene
 
     def entered(self) -> None:
-        """Begin, or go on."""
         self.age, self.held = 0.0, ""
         self.context.sounds.music(True)
         if self.page and self.page.language != self.context.words.language:
             self.page = None
 
     def on(self, event: InputEvent) -> Turn:
-        """Turn the knob in hand, or choose, play, hurry, open the menu, leave."""
+        """Adjust the held knob, or select, play, change speed, open the menu, leave."""
         event = (self.turning if self.held else self.prompts).as_button(event)
         if self.held and event.button not in (Button.X, Button.Y):
             return self._turn(event)
@@ -83,7 +82,7 @@ class Lab:
             case Button.X:
                 return self.play(event.device)
             case Button.Y:
-                self._hurry((self.trainer.speed + 1) % len(SPEEDS))
+                self._next_speed((self.trainer.speed + 1) % len(SPEEDS))
             case Button.START:
                 return self._menu()
             case Button.BACK:
@@ -98,9 +97,9 @@ class Lab:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the training go on and the page follow it."""
+        """Feed the trainer and update the page."""
         self.age += seconds
-        self.said -= seconds
+        self.message_left -= seconds
         self.focus.update(seconds)
         self.trainer.feed(seconds)
         self.compiling = self.compiling + seconds if self.trainer.compiling else 0.0
@@ -112,35 +111,34 @@ class Lab:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         if self.page is None:
             self.page, self.seen = LabPage(self.context), -1
         self.page.draw(screen, self.shown)
         if not self.held:
             self.focus.draw(screen)
         words = self.context.words
-        if self.said > 0.0:
+        if self.message_left > 0.0:
             caption(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
         else:
             (self.turning if self.held else self.prompts).draw(screen)
-        if self.context.idle > IDLE - LAST:
+        if self.context.idle > IDLE - CONFIRM_SECONDS:
             caption(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
-        elif self.compiling > PATIENT:
+        elif self.compiling > COMPILE_NOTICE:
             warming(words("lab.warming")).draw(screen)
 
     def left(self) -> None:
-        """Taken off the stack: the training rests."""
+        """Pause the training when the scene is removed."""
         self.trainer.close()
 
-    # ---- what the pages above it may do
+    # ---- interface for the pages above
 
     def say(self, sentence: str, wrong: bool = False) -> None:
-        """Show a sentence for a while."""
-        self.sentence, self.wrong, self.said = sentence, wrong, SAID
+        """Show a message for a few seconds."""
+        self.sentence, self.wrong, self.message_left = sentence, wrong, MESSAGE_SECONDS
         self.context.sounds.play("error" if wrong else "accept")
 
     def play(self, device: Device) -> Turn:
-        """A match against what the robot is now."""
+        """A challenge match against the robot as trained so far."""
         from pigaming_app.scenes.lab.challenge import Challenge
 
         self.context.sounds.play("accept")
@@ -150,12 +148,12 @@ class Lab:
         return Push(Challenge(self.context, robot.kind, driver, self.trainer.training.arena))
 
     def begin(self) -> None:
-        """Everything from an empty table."""
+        """Restart from an empty table."""
         self.trainer.begin(new_seed())
         self.name, self.seen = "", -1
 
     def leave(self, turn: Turn) -> Turn:
-        """The training rests."""
+        """Pause the training and return `turn`."""
         self.trainer.close()
         return turn
 
@@ -168,7 +166,7 @@ class Lab:
         if chosen == "speed":
             at = event.at
             here = self.trainer.speed
-            self._hurry(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
+            self._next_speed(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
         elif chosen and event.at:
             self._set(chosen, self._value(chosen) + (1 if event.at[0] > self.focus.rect(chosen).centerx else -1))
         elif chosen:
@@ -177,7 +175,7 @@ class Lab:
         return None
 
     def _turn(self, event: InputEvent) -> Turn:
-        """A press while a knob is in hand."""
+        """Handle input while a knob is held."""
         if event.button in TURNS:
             self._set(self.held, self._value(self.held) + TURNS[event.button])
         elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.CLICK):
@@ -185,7 +183,7 @@ class Lab:
             self.context.sounds.play("set_down")
         return None
 
-    def _hurry(self, speed: int) -> None:
+    def _next_speed(self, speed: int) -> None:
         self.trainer.speed = speed
         self.context.sounds.play("move")
 
@@ -196,45 +194,45 @@ class Lab:
         return self.leave(Push(LabMenu(self)))
 
     def _value(self, knob: str) -> int:
-        return max(-MOST, min(MOST, int(getattr(self.trainer.recipe, knob))))
+        return max(-LIMIT, min(LIMIT, int(getattr(self.trainer.recipe, knob))))
 
     def _set(self, knob: str, value: int) -> None:
-        """Turn a knob as far as it goes."""
-        value = max(-MOST, min(MOST, value))
+        """Set a knob, clamped to its range."""
+        value = max(-LIMIT, min(LIMIT, value))
         if value != self._value(knob):
             self.trainer.recipe = turned(self.trainer.recipe, knob, value)
             self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
-        """Tell the page what is so."""
-        trainer, shown, moment = self.trainer, self.shown, self.trainer.moment
+        """Update the page state."""
+        trainer, now, moment = self.trainer, self.shown, self.trainer.moment
         if self.page and moment.number != self.seen:
             self.seen = moment.number
             self.page.watch(moment.state)
         if self.page:
             self.page.update(seconds)
-        shown.matches, shown.knowing, shown.measures = moment.matches, moment.knowing, trainer.progress.measures
-        self._cheer(trainer.progress)
-        shown.speed, shown.focus, shown.held = trainer.speed, self.focus.name, self.held
-        shown.values = {name: self._value(name) for name in KNOB_NAMES}
+        now.matches, now.knowing, now.measures = moment.matches, moment.knowing, trainer.progress.measures
+        self._celebrate(trainer.progress)
+        now.speed, now.focus, now.held = trainer.speed, self.focus.name, self.held
+        now.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = trainer.progress.plan
-        most = max([LEAST] + [abs(one.worth) for one in plan if one])
-        shown.levels = [level(one.worth / most) if one else 0 for one in plan]
-        shown.signs = [one.deed if one else SIGNS[-1] for one in plan]
+        scale = max([MIN_SCALE] + [abs(entry.worth) for entry in plan if entry])
+        now.levels = [level(entry.worth / scale) if entry else 0 for entry in plan]
+        now.signs = [entry.deed if entry else SIGNS[-1] for entry in plan]
 
-    def _cheer(self, progress: Progress) -> None:
-        """The moment in which it wins more often than the hand-made robot, once in a training."""
+    def _celebrate(self, progress: Progress) -> None:
+        """Celebrate once per training that it overtook the hand-made robot."""
         share = self.page.curve.share if self.page else None
-        if share is not None and share < HANDMADE:
-            self.lagged = progress
-        elif share is not None and share > HANDMADE and self.lagged is progress is not self.cheered:
-            self.cheered = progress
+        if share is not None and share < EVEN:
+            self.was_behind = progress
+        elif share is not None and share > EVEN and self.was_behind is progress is not self.celebrated:
+            self.celebrated = progress
             self.say(self.context.words("lab.outdone"))
             self.context.sounds.play("win")
 
 
 def level(share: float) -> int:
-    """How long a petal is whose worth is this share of the best one's, -1..1; by its root, so that little is seen."""
+    """Petal length for a value relative to the largest, -1..1; square root, so that small values stay visible."""
     return round(math.copysign(LEVELS * math.sqrt(abs(share)), share))
 
 

@@ -1,8 +1,8 @@
-"""The training behind the Lab's page: it goes on while pictures are painted, and never makes one wait.
+"""Background training for the Lab; it never delays a frame.
 
-Compiled, it runs in a thread of its own that holds no lock of the interpreter. Without numba, and while numba still
-compiles (in another process), the page gives it some milliseconds of every frame. The thread ends by itself soon after
-nobody feeds it any more, whatever became of the page.
+With numba it runs in its own thread, which releases the GIL. Without numba, or while numba compiles (in another
+process), the page grants it a few milliseconds per frame. The thread ends shortly after the last `feed`, even after
+a failure of the page.
 """
 
 import gc
@@ -21,38 +21,38 @@ from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui import memory as heap
 
-FASTEST = 2  # the place of "as fast as it can" among the speeds
-FACTORS = (1, 10)  # of real time
-CHUNK = 1500  # ticks in one go when it is as fast as it can; compiled, less than a millisecond
-MOST = 4  # frames' worth of ticks that are made up for; what is more is dropped
-HUNGRY = 0.7  # seconds after which a thread that nobody feeds ends
-SLICE = 0.007  # seconds of a frame for plain training and its exams; a picture takes 2 of the 16 ms
-TRAINING = 0.4  # of a slice, where it is as fast as it can
-SWITCH = 0.001  # seconds for which a thread may keep the interpreter from the others
+FASTEST = 2  # index of full speed
+FACTORS = (1, 10)  # times real time
+CHUNK = 1500  # ticks per batch at full speed; under 1 ms compiled
+MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
+FEED_TIMEOUT = 0.7  # s without `feed` after which the thread ends
+SLICE = 0.007  # s per frame for interpreted training and evaluation; rendering takes 2 of the 16 ms
+TRAINING_SHARE = 0.4  # share of a slice for training at full speed
+SWITCH = 0.001  # s, thread switch interval
 
 log = logging.getLogger("pigaming")
 
 
 class Trainer:
-    """A robot that learns. `recipe` and `speed` may be set at any time; `moment` is how it stands, for the page."""
+    """Runs one training. `recipe` and `speed` may be set at any time; `moment` is the published state."""
 
     def __init__(self, recipe: Recipe, seed: int, fast: bool | None = None, compiler: Compiler | None = None) -> None:
-        """`fast`: compiled as soon as `compiler` is done; left out: if numba is there."""
+        """`fast`: compiled as soon as `compiler` is done; None: if numba is available."""
         self._compiler = compiler or Compiler()
         self.recipe, self.speed = recipe, 0
         self.may_compile = can_compile() if fast is None else fast
         self.training = Training(recipe, seed, fast=False)
         self.progress = Progress(self.training)
         self.compiling = False
-        self._lock = threading.Lock()  # whoever holds it may touch the training
+        self._lock = threading.Lock()  # guards the training
         self._thread: threading.Thread | None = None
-        self._fed = 0.0
+        self._last_feed = 0.0
         self._open = False
-        self._owed = 0.0  # ticks
+        self._backlog = 0.0  # ticks
 
     @property
     def moment(self) -> TrainingState:
-        """How it stands."""
+        """The latest snapshot."""
         return self.progress.moment
 
     @property
@@ -60,10 +60,10 @@ class Trainer:
         return self.training.fast
 
     def feed(self, seconds: float) -> None:
-        """Called in every frame, `seconds` after the last one: let it go on."""
-        self._fed, self._open = monotonic(), True
+        """Called every frame, `seconds` after the last call: keep the training running."""
+        self._last_feed, self._open = monotonic(), True
         if self.may_compile and (self._thread is None or not self._thread.is_alive()):
-            self._thread = threading.Thread(target=self._work, name="lab")
+            self._thread = threading.Thread(target=self._thread_main, name="lab")
             self._thread.start()
         if not self.training.fast and self._lock.acquire(blocking=False):
             try:
@@ -73,37 +73,37 @@ class Trainer:
                 self._lock.release()
 
     def close(self) -> None:
-        """Rest until it is fed again; the thread ends within a moment."""
+        """Pause until the next `feed`; the thread ends shortly after."""
         self._open = False
 
     def join(self, seconds: float = 1.0) -> bool:
-        """Wait until its thread has ended; true if it has."""
+        """Wait for the thread to end; True if it has."""
         if self._thread:
             self._thread.join(seconds)
         return self._thread is None or not self._thread.is_alive()
 
     def checkpoint(self, name: str) -> Checkpoint:
-        """What it has learned so far, as a brain."""
+        """The current policy as a named checkpoint."""
         with self._lock:
             return self.training.checkpoint(name)
 
     def checkpoints(self) -> dict[int, Checkpoint]:
-        """What it knew after 0, 10, 50 and 200 matches, as far as it has come."""
+        """Checkpoints after 0, 10, 50 and 200 matches, as far as reached."""
         with self._lock:
             return dict(self.progress.checkpoints)
 
     def hold(self, work: Callable[[Training], None]) -> None:
-        """Do something with the training while it stands still; what `work` raises is raised."""
+        """Run `work` on the training under the lock. Exceptions of `work` propagate."""
         with self._lock:
             work(self.training)
 
     def begin(self, seed: int) -> None:
-        """Forget everything and begin anew."""
+        """Restart from an empty table."""
         with self._lock:
             self._train(Training(self.recipe, seed, fast=self.training.fast))
 
     def take(self, training: Training) -> None:
-        """Go on with this training instead."""
+        """Continue with another training."""
         with self._lock:
             self.recipe = training.recipe
             self._train(training)
@@ -111,97 +111,97 @@ class Trainer:
     # ---- inside
 
     def _train(self, training: Training) -> None:
-        self.training, self._owed = training, 0.0
+        self.training, self._backlog = training, 0.0
         self.progress = Progress(training)
 
     @property
-    def _wanted(self) -> bool:
-        return self._open and monotonic() - self._fed < HUNGRY
+    def _active(self) -> bool:
+        return self._open and monotonic() - self._last_feed < FEED_TIMEOUT
 
     def _due(self, seconds: float) -> int:
-        """The ticks to play now that so much real time has passed, at one of the slow speeds."""
+        """Ticks due after `seconds` of real time at one of the slower speeds."""
         factor = FACTORS[self.speed]
-        self._owed = min(self._owed + seconds * HZ * factor, MOST * factor)
-        ticks = int(self._owed)
-        self._owed -= ticks
+        self._backlog = min(self._backlog + seconds * HZ * factor, MAX_BACKLOG * factor)
+        ticks = int(self._backlog)
+        self._backlog -= ticks
         return ticks
 
     def _slice(self, seconds: float) -> None:
-        """A frame's share of plain training."""
+        """One frame's slice of interpreted training."""
         end = perf_counter() + SLICE
         self._follow_recipe()
         if self.speed < FASTEST:
-            self.progress.practise(self._due(seconds))
+            self.progress.train(self._due(seconds))
         else:
-            while perf_counter() < end - (1 - TRAINING) * SLICE:
-                self.progress.practise(20)
-        self.progress.look(self.speed == FASTEST)
+            while perf_counter() < end - (1 - TRAINING_SHARE) * SLICE:
+                self.progress.train(20)
+        self.progress.publish(self.speed == FASTEST)
         exam = self.progress.exam_due()
         while exam and not exam.over and perf_counter() < end:
             exam.play(20)
-        self.progress.note()
+        self.progress.record_exam()
 
     def _follow_recipe(self) -> None:
         if self.training.recipe != self.recipe:
             self.training.recipe = self.recipe
 
-    def _work(self) -> None:
-        """The thread: get ready, then train until nobody wants it any more."""
+    def _thread_main(self) -> None:
+        """Thread body: compile, then train until no longer fed."""
         before = sys.getswitchinterval()
         sys.setswitchinterval(SWITCH)
         try:
-            if self.training.fast or self._get_ready():
+            if self.training.fast or self._load_compiled():
                 self._run()
         except Exception:
-            log.exception("the Lab goes on without compiled training")
+            log.exception("compiled training failed; falling back to interpreted training")
             self.may_compile = False
-            self._hand_over(fast=False)
+            self._switch_to(fast=False)
         finally:
             sys.setswitchinterval(before)
 
-    def _get_ready(self) -> bool:
-        """Wait for the compiler, then load what it made and take the training over; false: nobody waits any more."""
+    def _load_compiled(self) -> bool:
+        """Wait for the compiler, load its output and take over the training; False if no longer fed."""
         self.compiling = True
         try:
             self._compiler.start()
             while (code := self._compiler.code) is None:
-                if not self._wanted:
+                if not self._active:
                     return False
                 sleep(0.05)
             if code:
                 raise RuntimeError(f"compiling ended with exit code {code}")
-            with heap.uncollected():  # looking through numba takes up to 100 ms, in whichever frame it happens
+            with heap.uncollected():  # a collection over numba's objects takes up to 100 ms and would stall a frame
                 compile_all()
-                gc.freeze()  # it stays loaded
-            self._hand_over(fast=True)
+                gc.freeze()  # they stay loaded
+            self._switch_to(fast=True)
             return True
         finally:
             self.compiling = False
 
-    def _hand_over(self, fast: bool) -> None:
-        """Go on with the same table in the other body."""
+    def _switch_to(self, fast: bool) -> None:
+        """Continue with the same table, compiled or interpreted."""
         with self._lock:
             old = self.training
             if old.fast != fast:
                 self.training = Training(self.recipe, old.seed, old.arena, fast, old.table, old.minutes)
-                self.progress.go_on(self.training)
+                self.progress.replace_training(self.training)
 
     def _run(self) -> None:
         last = perf_counter()
-        while self._wanted:
+        while self._active:
             now = perf_counter()
             with self._lock:
                 self._follow_recipe()
                 ticks = CHUNK if self.speed == FASTEST else self._due(now - last)
                 exam = self.progress.exam_due()
                 if not (exam and self.speed == FASTEST):
-                    self.progress.practise(ticks)
-                self.progress.look(self.speed == FASTEST)
+                    self.progress.train(ticks)
+                self.progress.publish(self.speed == FASTEST)
                 progress = self.progress
             last = now
             if exam and not exam.over:
                 exam.play(CHUNK * HZ)
             with self._lock:
-                progress.note()
+                progress.record_exam()
             if self.speed < FASTEST:
                 sleep(max(0.0, 1 / HZ - (perf_counter() - now)))

@@ -1,4 +1,4 @@
-"""What the Lab shows. The still part is painted once; what moves is added piece by piece."""
+"""Rendering of the Lab page: a static background painted once, with dynamic widgets on top."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -64,47 +64,46 @@ from pigaming_app.ui.widgets.labels import black_out, blit_sprite
 
 SPEEDS = ("1×", "10×", "max")
 SPEED_SIGNS = ("play", "faster", "fastest")
-WARM = 1.5  # ms of a frame
-STEPS = 2  # petals that change in one frame
+WARM = 1.5  # ms per frame for prewarming
+STEPS = 2  # petals changed per frame
 UP = round(HEADINGS * 3 / 4)
 
 
 @dataclass
 class LabState:
-    """What is so, as the page needs to know it."""
+    """State shown on the page."""
 
     matches: int = 0
     measures: Sequence[Measure] = ()
-    levels: list[int] = field(default_factory=lambda: [0] * PETALS)  # how good it is in each direction
+    levels: list[int] = field(default_factory=lambda: [0] * PETALS)  # petal length of each direction
     signs: Sequence[str] = ("unknown",) * PETALS
-    knowing: float = 0.0  # 0: it only guesses, 1: it does what it knows
-    values: Mapping[str, int] = field(default_factory=dict)  # of the knobs
-    speed: int = 0  # place in SPEEDS
+    knowing: float = 0.0  # 0: only explores, 1: only exploits
+    values: Mapping[str, int] = field(default_factory=dict)  # knob values
+    speed: int = 0  # index into SPEEDS
     focus: str = ""
-    held: str = ""  # the knob that is being turned
+    held: str = ""  # knob being adjusted
 
 
 class LabPage:
-    """The page; `draw` is told what is so."""
+    """The Lab page, without focus and button prompts."""
 
     def __init__(self, context: Context) -> None:
         self.words, self.language = context.words, context.words.language
         self.ground = ground(context.words.language)
         self.arena = ArenaView(self.ground)
         self.curve = LearningCurve(self.ground)
-        self.levels = [0] * PETALS  # on their way
+        self.levels = [0] * PETALS  # animated towards the target
 
     def watch(self, state: Any) -> None:
-        """How the match stands now."""
+        """Take over a new match state."""
         self.arena.show(state)
 
     def update(self, seconds: float) -> None:
-        """Let robots glide, and make a little of what will be shown."""
+        """Animate the robots and prewarm sprites."""
         self.arena.update(seconds)
         self.arena.warm(WARM)
 
     def draw(self, screen: pygame.Surface, now: LabState) -> None:
-        """Paint everything but the focus and the hints."""
         screen.blit(self.ground, (0, 0))
         self.arena.draw(screen)
         blit_sprite(screen, tag(self.words("lab.match", number=now.matches + 1)), ARENA.left + 12, ARENA.bottom - 66)
@@ -121,7 +120,7 @@ class LabPage:
     # ---- inside
 
     def _plan(self, screen: pygame.Surface, now: LabState) -> None:
-        """The rose and the bar below it."""
+        """Draw the rose and the bar below it."""
         changes = [k for k in range(PETALS) if self.levels[k] != now.levels[k]]
         for k in changes[:STEPS]:
             self.levels[k] += 1 if now.levels[k] > self.levels[k] else -1
@@ -135,14 +134,14 @@ class LabPage:
 @cached
 @resumable
 def ground(language: str) -> Steps[pygame.Surface]:
-    """Everything of the page that never changes."""
+    """The static background."""
     words, canvas = Words(language), LayeredCanvas()
     out = black_out(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, SPEED, PLAY)
     yield
     title = words("lab.title")
     canvas.text(title, TITLE, LEFT, TITLE_Y, ICE)
     yield
-    _saying(canvas, words("lab.saying"), LEFT + text_width(title, TITLE) + 44)
+    _subtitle(canvas, words("lab.saying"), LEFT + text_width(title, TITLE) + 44)
     yield
     canvas.glow.line(outline(MATCH, 20), WALL, THIN, True)
     yield
@@ -153,8 +152,8 @@ def ground(language: str) -> Steps[pygame.Surface]:
     for box in (KNOBS, CURVE, PLAN):
         panel(canvas.glow, *box)
     yield
-    _named(canvas, words("lab.likes"), KNOBS)
-    _named(canvas, words("lab.wins"), CURVE)
+    _caption(canvas, words("lab.likes"), KNOBS)
+    _caption(canvas, words("lab.wins"), CURVE)
     canvas.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")
     canvas.crisp.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
     yield
@@ -167,26 +166,26 @@ def ground(language: str) -> Steps[pygame.Surface]:
     return out
 
 
-def _named(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
+def _caption(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
     canvas.body(name, box.left + 32, box.top + 40, ICE, "l", fit_size(name, BODY + 4, box.w - 64, "body"))
 
 
-def _saying(canvas: LayeredCanvas, said: str, x: float) -> None:
-    """What the Lab is about, in two lines beside its title, where there is room."""
-    lines = wrap_balanced(said, 2)
+def _subtitle(canvas: LayeredCanvas, label: str, x: float) -> None:
+    """Subtitle in two lines beside the title, if it fits."""
+    lines = wrap_balanced(label, 2)
     if all(text_width(line, BODY, "body") <= MATCH.right - x for line in lines):
         for i, line in enumerate(lines):
             canvas.body(line, x, TITLE_Y + 24 * (2 * i + 1 - len(lines)), MIST)
 
 
 def _legend(canvas: LayeredCanvas, words: Words) -> None:
-    """What the rose means."""
+    """Legend of the rose."""
     y, room = PLAN.top, PLAN.right - WORDS_X - 28
     title = words("lab.plan")
     canvas.text(title, fit_size(title, 60, room), WORDS_X, y + 56, ICE)
     for i, key in enumerate(("lab.enemy", "lab.does")):
-        said = words(key)
-        canvas.body(said, WORDS_X, y + 116 + 48 * i, MIST, "l", fit_size(said, BODY, room, "body"))
+        label = words(key)
+        canvas.body(label, WORDS_X, y + 116 + 48 * i, MIST, "l", fit_size(label, BODY, room, "body"))
     for i, (name, key) in enumerate((("shoot", "shoot"), ("ahead", "drive"), ("turn_right", "turn"))):
         icon(canvas.crisp, name, WORDS_X + 20, y + 226 + 52 * i, 18, ICE, 5 if name == "shoot" else 6)
         canvas.body(words(f"lab.{key}"), WORDS_X + 60, y + 226 + 52 * i)
@@ -200,7 +199,7 @@ def _legend(canvas: LayeredCanvas, words: Words) -> None:
 
 
 def bar_ends(words: Words) -> tuple[float, float]:
-    """Where the bar from guessing to knowing begins and ends, px."""
+    """Left and right end of the bar from guessing to knowing, px."""
     left = PLAN.left + 36 + text_width(words("lab.guessing"), BODY, "body") + 32
     return left, PLAN.right - 36 - text_width(words("lab.knowing"), BODY, "body") - 32
 
@@ -216,27 +215,27 @@ def _bar(canvas: LayeredCanvas, words: Words) -> None:
                         (x + (right - left) / steps + 1, BAR_Y + 7), (x, BAR_Y + 7)], color)  # fmt: skip
 
 
-def _play(canvas: LayeredCanvas, said: str) -> None:
-    """The button that leads into a match against it."""
+def _play(canvas: LayeredCanvas, label: str) -> None:
+    """Button that starts a challenge match."""
     canvas.glow.line(outline(PLAY), GREEN, THIN, True)
     icon(canvas.glow, "pad", PLAY.left + 58, PLAY.centery, 34, GREEN, THIN)
-    canvas.body(said, PLAY.left + 112, PLAY.centery, ICE, "l", fit_size(said, BODY + 2, PLAY.w - 136, "body"))
+    canvas.body(label, PLAY.left + 112, PLAY.centery, ICE, "l", fit_size(label, BODY + 2, PLAY.w - 136, "body"))
 
 
 @cached
-def speed(most: str, chosen: int) -> LitImage:
-    """The three speeds, one of them lit; upper left at (0, 0)."""
+def speed(max_label: str, chosen: int) -> LitImage:
+    """The three speeds, the selected one lit; top left at (0, 0)."""
     layer = Layer(0, 0, SPEED.w, SPEED.h)
     layer.glow.line(cut_box(0, 0, SPEED.w, SPEED.h, 16), BLUE, THIN, True)
-    for i, (said, name) in enumerate(zip((*SPEEDS[:-1], most), SPEED_SIGNS, strict=True)):
+    for i, (label, name) in enumerate(zip((*SPEEDS[:-1], max_label), SPEED_SIGNS, strict=True)):
         x, w = speed_part(i)
         on = i == chosen
         if on:
             layer.canvas.crisp.fill(cut_box(x + 8, 8, w - 16, SPEED.h - 16, 10), dim(BLUE, 0.3))
-        wide = text_width(said, BODY)
-        left = x + (w - wide - 44) / 2
+        width = text_width(label, BODY)
+        left = x + (w - width - 44) / 2
         icon(layer.canvas.crisp, name, left + 16, SPEED.h / 2, 17, BLUE if on else STEEL, THIN)
-        layer.canvas.crisp.text(said, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
+        layer.canvas.crisp.text(label, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
     return layer.done()
 
 
@@ -246,15 +245,15 @@ def speed_part(i: int) -> tuple[int, int]:
 
 
 def speed_at(x: float) -> int:
-    """The speed at x px from the left edge of the button."""
+    """Index of the speed at `x` px from the left edge of the button."""
     return next(i for i in (2, 1, 0) if x >= speed_part(i)[0] or i == 0)
 
 
 @cached
-def knob_name(said: str, focus: bool) -> LitImage:
-    """What a knob turns, in two lines at most below it; round the middle of the knob."""
+def knob_name(label: str, focus: bool) -> LitImage:
+    """Label of a knob in at most two lines below it, relative to the knob's centre."""
     color: Color = FOCUS if focus else ICE
-    lines = wrap_balanced(said, 2)
+    lines = wrap_balanced(label, 2)
     layer = Layer(-104, 60, 208, 90)
     for i, line in enumerate(lines):
         y = 84 + 40 * i + (20 if len(lines) == 1 else 0)
@@ -263,33 +262,33 @@ def knob_name(said: str, focus: bool) -> LitImage:
 
 
 @cached
-def warming(said: str) -> LitImage:
-    """What is being waited for, beside a clock: above the middle of the plot, where no curve comes so early."""
+def warming(label: str) -> LitImage:
+    """Notice beside a clock above the centre of the plot, which early curves do not reach."""
     layer = Layer(PLOT.x, PLOT.y - 10, PLOT.w, 92)
     icon(layer.canvas.crisp, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
-    for i, line in enumerate(wrap_balanced(said, 2)):
+    for i, line in enumerate(wrap_balanced(label, 2)):
         size = fit_size(line, BODY, PLOT.w - 92, "body")
         layer.canvas.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
     return layer.done()
 
 
 @cached
-def tag(said: str) -> Sprite:
-    """A word on a black plate, from its upper left corner."""
-    w = round(text_width(said, BODY, "body")) + 40
+def tag(label: str) -> Sprite:
+    """Text on a black plate, relative to its top left."""
+    w = round(text_width(label, BODY, "body")) + 40
     ink = GlowCanvas(w + 48, 102).to(24, 24)
     ink.solid(cut_box(0, 0, w, 54, 12)).line(cut_box(0, 0, w, 54, 12), STEEL, 3, True)
-    ink.text(said, BODY, w / 2, 27, ICE, "body", "c")
+    ink.text(label, BODY, w / 2, 27, ICE, "body", "c")
     return Sprite(ink.sprite(0.5), -24, -24)
 
 
 @cached
 def bar_knob() -> LitImage:
-    """Where on the bar it is, round (0, 0)."""
+    """Position marker on the bar, centred on (0, 0)."""
     ink = GlowCanvas(80, 80).disc(40, 40, 17, WHITE)
     return LitImage(ink.lit(0.5), (-40, -40))
 
 
 def outline(box: pygame.Rect, c: float = 16) -> Points:
-    """The house shape of a box."""
+    """Box outline with cut corners."""
     return cut_box(box.x, box.y, box.w, box.h, c)

@@ -1,4 +1,4 @@
-"""Another game for the same people: a tile for each game. Whoever played keeps the seat and the device."""
+"""Game selection after a match: one tile per game. Players keep their seats and devices."""
 
 from collections.abc import Callable, Sequence
 
@@ -16,14 +16,14 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, heading
 
-IDLE = 60.0  # seconds without a press until the title
-DOWN = (1080 - TILE_H) // 2 - tile_rect(0).y + 20  # px by which the tiles stand lower than on the title
+IDLE = 60.0  # s without input before the return to the title
+DOWN = (1080 - TILE_H) // 2 - tile_rect(0).y + 20  # px, offset of the tiles below their position on the title screen
 
-LobbyOf = Callable[[Context, str, Sequence[Device | str | None]], Scene]  # for a game, with these drivers
+LobbyOf = Callable[[Context, str, Sequence[Device | str | None]], Scene]  # lobby factory: context, game, drivers
 
 
 class GameChoice:
-    """The page after a match of `setup`, whose seats were driven with `devices`; the next game has the focus."""
+    """Selection page after a match of `setup`, whose seats were driven by `devices`. Initial focus: the next game."""
 
     def __init__(self, context: Context, setup: Setup, devices: Sequence[Device | None], lobby: LobbyOf) -> None:
         self.context, self.setup, self.devices, self.lobby = context, setup, list(devices), lobby
@@ -35,10 +35,10 @@ class GameChoice:
         self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE chooses a game, BACK leads back to the results."""
+        """FIRE selects a game, BACK returns to the results."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
             return None
@@ -51,7 +51,7 @@ class GameChoice:
         return self._open(game) if game else None
 
     def update(self, seconds: float) -> Turn:
-        """The focus moves; leave when nobody is there."""
+        """Animate the focus; leave when idle or abandoned."""
         self.focus.update(seconds)
         if self.access.update(seconds):
             self.context.sounds.play("back")
@@ -59,7 +59,6 @@ class GameChoice:
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("choice.title")).draw(screen)
@@ -73,7 +72,7 @@ class GameChoice:
         self.prompts.draw(screen)
 
     def _open(self, game: str) -> Turn:
-        """The lobby of a game, with everybody seated whose device is there, and the AIs."""
+        """Open the lobby of a game with the connected devices and the AIs already seated."""
         self.context.sounds.play("accept")
         drivers: list[Device | str | None] = []
         for device, seat in zip(self.devices, self.setup.seats, strict=True):

@@ -1,6 +1,6 @@
-"""Where, how long and by which rules: the last page before a match. Whatever was chosen last is chosen again.
+"""Match setup, the last page before a match: arena, goal, duration, rules. Starts with the previous selection.
 
-Any seated device may steer it: up and down from row to row, left and right change, fire begins.
+Any seated device may operate it: up and down select a row, left and right change its value, FIRE starts.
 """
 
 import logging
@@ -34,41 +34,41 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, frame, heading
 
-IDLE = 60.0  # seconds without a press until the title
-DEAF = 0.35  # seconds in which nobody can begin: the press that said "ready" may be hammered
-SLIDE = 0.18  # seconds in which another arena comes in
+IDLE = 60.0  # s without input before the return to the title
+DEAF = 0.35  # s during which a start is ignored, because players may still hammer on "ready"
+SLIDE_SECONDS = 0.18  # s, slide-in of another arena
 FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 PICTURE = FRAME.inflate(-24, -24)
-MARGIN = 8  # px round the arena in its picture
+MARGIN = 8  # px around the arena preview
 ROW_X, ROW_W = span(8, 4)
-HIGH = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px
+HEIGHTS = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px, row heights
 GAP = 16  # px between rows
 GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
 log = logging.getLogger(__name__)
 
 
 class MatchSetupPage:
-    """The choice of the match that `seats` are going to play. `game_choice`: see `Results`."""
+    """Setup page for the match of `seats`. `game_choice`: see `Results`."""
 
     def __init__(self, context: Context, game: str, seats: Seats, game_choice: After | None = None) -> None:
         self.context, self.game, self.seats, self.game_choice = context, games()[game], seats, game_choice
         self.arenas = playable_arenas(game)
         self.chosen = last_choice(context, game)
         self.rows = rows(self.game)
-        self.clock, self.slid, self.way = 0.0, SLIDE, 1
+        self.clock, self.slide, self.direction = 0.0, SLIDE_SECONDS, 1
         self.access = Access(context, seats.devices)
-        self.going = False  # a match was asked for
+        self.going = False  # start requested, waiting for the preloader
         hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), (Button.BACK, "setup.hint_back")]
         self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
         self.navigation = Navigation(context, self.focus, hints, IDLE, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
-        """Shown, or come back to from the results."""
+        """Reset on first display and on return from the results."""
         self.clock, self.going = 0.0, False
         self.context.sounds.music(True)
 
     def on(self, event: InputEvent) -> Turn:
-        """Change, begin, or go back."""
+        """Change a value, start or go back."""
         admitted = self.access.admit(self.navigation.prompts.as_button(event))
         if admitted is None or self.going:
             return None
@@ -86,23 +86,22 @@ class MatchSetupPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the picture slide in; go back when a seat has lost its device, and leave when nobody is there."""
+        """Animate the preview; go back if a seat lost its device, leave when abandoned."""
         self.clock += seconds
         if any(device and not self.context.controls.connected(device) for device in self.seats.devices()):
             return Pop()
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()
-        self.slid = min(SLIDE, self.slid + seconds)
+        self.slide = min(SLIDE_SECONDS, self.slide + seconds)
         turn = self.navigation.update(seconds)
         return self._begin() if self.going else turn
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("setup.title")).draw(screen)
-        choice.lineup(self._signs()).draw(screen, RIGHT, 112)
+        choice.lineup(self._lineup()).draw(screen, RIGHT, 112)
         black_out(screen, FRAME, *self.rows.values())
         self._picture(screen)
         for name, box in self.rows.items():
@@ -115,13 +114,13 @@ class MatchSetupPage:
     # ---- inside
 
     def _go(self) -> Turn:
-        self._keep()
+        self._save_selection()
         self.context.sounds.play("accept")
         self.going = True
         return self._begin()
 
     def _begin(self) -> Turn:
-        """The match, unless what it needs is still being prepared."""
+        """Push the match, or return None while the preloader is busy."""
         from pigaming_app.scenes.play.scene import new_seed
         from pigaming_app.scenes.robots.start_match import match_of
 
@@ -133,25 +132,25 @@ class MatchSetupPage:
         )
 
     def _setup(self) -> Setup:
-        """The match as it is chosen now, without a seed."""
+        """The setup selected now, without a seed."""
         now = self.chosen
         seats, minutes = self.seats.seats(), float(now.minutes)
         return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
-    def _keep(self) -> None:
-        """Remember the choice for the next time, also after a power cut."""
+    def _save_selection(self) -> None:
+        """Save the selection for the next match."""
         try:
             self.context.settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)
 
     def _row(self, name: str) -> LitImage:
-        """What a row says."""
+        """Render a row."""
         words, now, game = self.context.words, self.chosen, self.game
         if name == "arena":
-            place = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
-            where = arena_title(load_cached(game.name, now.arena), words.language)
-            return choice.row(words(f"setup.arena_{game.name}"), where, place)
+            position = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
+            arena = arena_title(load_cached(game.name, now.arena), words.language)
+            return choice.row(words(f"setup.arena_{game.name}"), arena, position)
         if name == "goal":
             return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, game.goals)), str(now.goal))
         if name == "minutes":
@@ -159,27 +158,27 @@ class MatchSetupPage:
         if name == "rules":
             line = words(f"setup.{now.variant}_line")
             return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
-        return choice.begin(words("setup.go"))
+        return choice.start_button(words("setup.go"))
 
-    def _change(self, name: str, by: int) -> None:
-        """The next value of a row, or the one before it."""
+    def _change(self, name: str, delta: int) -> None:
+        """Step a row's value by `delta`."""
         now, game = self.chosen, self.game
         before = replace(now)
         if name == "arena":
-            now.arena = self.arenas[(self.arenas.index(now.arena) + by) % len(self.arenas)]
-            self.slid, self.way = 0.0, by
+            now.arena = self.arenas[(self.arenas.index(now.arena) + delta) % len(self.arenas)]
+            self.slide, self.direction = 0.0, delta
         elif name == "goal":
-            now.goal = stepped(game.goals, now.goal, by)
+            now.goal = step_clamped(game.goals, now.goal, delta)
         elif name == "minutes":
-            now.minutes = stepped(game.minutes, now.minutes, by)
+            now.minutes = step_clamped(game.minutes, now.minutes, delta)
         elif name == "rules":
-            now.variant = game.variants[(game.variants.index(now.variant) + by) % len(game.variants)]
+            now.variant = game.variants[(game.variants.index(now.variant) + delta) % len(game.variants)]
         if now != before:
             self.context.sounds.play("move")
         self.context.settings.games[game.name] = now
 
     def _click(self, event: InputEvent) -> Turn:
-        """The arrows and chips of a row, the picture (the next arena), the button."""
+        """Handle a click on the arrows or chips of a row, the preview (next arena) or the start button."""
         name = self.focus.under(event)
         at = event.at or (0.0, 0.0)
         if name == "go":
@@ -197,7 +196,7 @@ class MatchSetupPage:
         return None
 
     def _records(self, screen: pygame.Surface) -> None:
-        """The best so far with this choice, where the rows leave room for it."""
+        """Draw the best scores for this selection, if the rows leave room."""
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
         lines = []
         for feat in self.game.record_kinds:
@@ -205,26 +204,26 @@ class MatchSetupPage:
             if best:
                 name = self.context.words(f"setup.best_{feat.name}")
                 lines.append((name, self.context.words.decimal(format_score(best[0].score, feat)), best[0].initials))
-        if lines and low + choice.records_high(len(lines)) <= GO.top - GAP:
+        if lines and low + choice.records_height(len(lines)) <= GO.top - GAP:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
-    def _signs(self) -> tuple[tuple[int, str], ...]:
-        """Who plays: seats and the icons of what drives them."""
+    def _lineup(self) -> tuple[tuple[int, str], ...]:
+        """(seat, driver icon) of every occupied seat."""
         kinds = ((i, place) for i, place in enumerate(self.seats.places) if place.kind != EMPTY)
         signs = {"pad": "pad", "keys": "keys"}
         return tuple((i, signs[place.device.kind] if place.device else "ai") for i, place in kinds)
 
     def _picture(self, screen: pygame.Surface) -> None:
-        """The arena, coming in from the side, and light where the robots of this match begin."""
+        """Draw the arena preview sliding in, with markers at the start positions."""
         frame(*FRAME.size).draw(screen, *FRAME.topleft)
-        left = (1.0 - self.slid / SLIDE) ** 2
-        dx = round(self.way * 160 * left)
+        left = (1.0 - self.slide / SLIDE_SECONDS) ** 2
+        dx = round(self.direction * 160 * left)
         screen.set_clip(FRAME.inflate(-12, -12))
         picture(self.game.name, self.chosen.arena).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
-        starts = begins(self.game.name, self.chosen.arena, self.seats.seats())
-        for i, _ in self._signs():
+        starts = start_positions(self.game.name, self.chosen.arena, self.seats.seats())
+        for i, _ in self._lineup():
             stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
             if stage < effects.WAVE_STEPS // 2:
                 wave = effects.wave(PLAYERS[i], stage)
@@ -233,7 +232,7 @@ class MatchSetupPage:
                     (round(x0 + dx + k * starts[i][0] + wave.dx), round(y0 + k * starts[i][1] + wave.dy)),
                     special_flags=pygame.BLEND_RGB_ADD,
                 )
-            if self.game.team_mode == PAIRS:  # where a robot begins depends on its team
+            if self.game.team_mode == PAIRS:  # start positions depend on the team
                 choice.mark(i).draw(screen, round(x0 + dx + k * starts[i][0]), round(y0 + k * starts[i][1]))
         screen.set_clip(None)
 
@@ -241,14 +240,14 @@ class MatchSetupPage:
 @cached
 @resumable
 def picture(game: str, name: str) -> Steps[LitImage]:
-    """A large picture of an arena, where the page shows it."""
+    """Large preview of an arena, positioned for the page."""
     image = yield from preview(load_cached(game, name), *PICTURE.size)
     return LitImage(image, PICTURE.topleft)
 
 
 @lru_cache(maxsize=16)
-def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
-    """Where the robots of these seats begin, px."""
+def start_positions(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
+    """Start positions of the robots of these seats, px."""
     rules, state = games()[game], games()[game].state()
     setup = Setup(game, name, seats, rules.default_minutes, 1, rules.variants[0], rules.default_goal)
     rules.start(state, load_cached(game, name), setup)
@@ -256,16 +255,16 @@ def begins(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[t
 
 
 def rows(game: Game) -> dict[str, pygame.Rect]:
-    """Where the rows of a game stand: those in which there is something to choose, and the button."""
+    """Rectangles of the rows that offer a choice, and of the start button."""
     there = {"arena": True, "goal": bool(game.goals), "minutes": len(game.minutes) > 1, "rules": len(game.variants) > 1}
     boxes, y = {}, FRAME.top
-    for name, high in HIGH.items():
+    for name, height in HEIGHTS.items():
         if there[name]:
-            boxes[name] = pygame.Rect(ROW_X, y, ROW_W, high)
-            y += high + GAP
+            boxes[name] = pygame.Rect(ROW_X, y, ROW_W, height)
+            y += height + GAP
     return {**boxes, "go": GO}
 
 
-def stepped(values: Sequence[int], value: int, by: int) -> int:
-    """The value so many places after another one; the last and the first stop it."""
-    return values[max(0, min(len(values) - 1, values.index(value) + by))]
+def step_clamped(values: Sequence[int], value: int, delta: int) -> int:
+    """The element `delta` places after `value`, clamped at both ends."""
+    return values[max(0, min(len(values) - 1, values.index(value) + delta))]

@@ -1,4 +1,4 @@
-"""Rows in which something is chosen, and the small things round them, for the page before a match."""
+"""Rows and small widgets of the match setup page."""
 
 from pigaming_app.ui.draw import (
     BODY,
@@ -21,17 +21,17 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_lines, fit_size
 
 W = span(8, 4)[1]
-PAD = 32  # px between a row's edge and what is in it
-CHIP, APART, CLOSE = 112, 16, 8  # px: a chip at most, between a few chips, between many
-FEW = 4  # chips that have all the room they want
+PAD = 32  # px, inner padding of a row
+CHIP, APART, CLOSE = 112, 16, 8  # px: maximum chip width, gap for few chips, gap for many
+FEW = 4  # chips that fit at full width
 
 
 @cached
-def row(name: str, value: str, aside: str = "", line: str = "") -> LitImage:
-    """What is chosen, a fact beside it, the value between arrows, and a sentence about it; upper left at (0, 0)."""
-    high = 236 if line else 140
-    layer = _named(name, high)
-    layer.canvas.body(aside, W - PAD, 38, MIST, "r")
+def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
+    """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
+    height = 236 if line else 140
+    layer = _layer(name, height)
+    layer.canvas.body(note, W - PAD, 38, MIST, "r")
     size = fit_size(value, LABEL, W - 2 * PAD - 100)
     layer.canvas.text(value, size, W / 2, 94, ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
@@ -45,34 +45,34 @@ def row(name: str, value: str, aside: str = "", line: str = "") -> LitImage:
 
 @cached
 def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
-    """All values side by side, the chosen one lit; upper left at (0, 0)."""
-    layer = _named(name, 140)
-    wide, pitch = chip_size(len(values))
-    for i, said in enumerate(values):
-        x, on = PAD + i * pitch, said == value
-        layer.glow.line(cut_box(x, 66, wide, 60, 12 if wide == CHIP else 10), ICE if on else STEEL, THIN, True)
-        layer.canvas.crisp.text(said, BODY, x + wide / 2, 96, ICE if on else MIST, "head", "c")
+    """All values side by side, the selected one lit; top left at (0, 0)."""
+    layer = _layer(name, 140)
+    width, pitch = chip_size(len(values))
+    for i, label in enumerate(values):
+        x, on = PAD + i * pitch, label == value
+        layer.glow.line(cut_box(x, 66, width, 60, 12 if width == CHIP else 10), ICE if on else STEEL, THIN, True)
+        layer.canvas.crisp.text(label, BODY, x + width / 2, 96, ICE if on else MIST, "head", "c")
     return layer.done()
 
 
 def chip_size(count: int) -> tuple[int, int]:
-    """How wide each of so many chips is, and how far it is from one to the next, px."""
+    """Width of each of `count` chips and the gap between them, px."""
     apart = APART if count <= FEW else CLOSE
-    wide = min(CHIP, (W - 2 * PAD + apart) // count - apart)
-    return wide, wide + apart
+    width = min(CHIP, (W - 2 * PAD + apart) // count - apart)
+    return width, width + apart
 
 
 def chip_at(count: int, x: float) -> int | None:
-    """Which of so many chips lies x px from the left edge of its row."""
-    wide, pitch = chip_size(count)
+    """Index of the chip at `x` px from the left edge of the row, if any."""
+    width, pitch = chip_size(count)
     i, rest = divmod(x - PAD, pitch)
-    return int(i) if 0 <= i < count and rest < wide else None
+    return int(i) if 0 <= i < count and rest < width else None
 
 
 @cached
 def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
-    """The best so far: what, how much and whose, a line for each; upper left at (0, 0)."""
-    layer = Layer(0, 0, W, records_high(len(lines)))
+    """Best scores, one line each: feat, value, initials; top left at (0, 0)."""
+    layer = Layer(0, 0, W, records_height(len(lines)))
     for i, (name, value, initials) in enumerate(lines):
         y = 38 + 56 * i
         icon(layer.glow, "crown", PAD + 18, y - 2, 16, FOCUS, 3)
@@ -82,26 +82,26 @@ def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
     return layer.done()
 
 
-def records_high(lines: int) -> int:
-    """How much room they take, px."""
+def records_height(lines: int) -> int:
+    """Height of the best scores, px."""
     return 20 + 56 * lines
 
 
 @cached
-def begin(said: str) -> LitImage:
-    """The button that begins; upper left at (0, 0)."""
+def start_button(label: str) -> LitImage:
+    """The start button; top left at (0, 0)."""
     layer = Layer(0, 0, W, 96)
     layer.glow.line(cut_box(0, 0, W, 96, 18), dim(FOCUS, 0.55), THIN, True)
-    size = fit_size(said, SUB, W - 200)
-    x = W / 2 - text_width(said, size) / 2
+    size = fit_size(label, SUB, W - 200)
+    x = W / 2 - text_width(label, size) / 2
     icon(layer.glow, "right", x - 30, 48, 24, FOCUS, LINE)
-    layer.canvas.text(said, size, W / 2 + 16, 48, FOCUS, "head", "c")
+    layer.canvas.text(label, size, W / 2 + 16, 48, FOCUS, "head", "c")
     return layer.done()
 
 
 @cached
 def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
-    """Who plays: badges and the icons of what drives them, ending at x = 0."""
+    """Badges and driver icons of the players, right-aligned at x = 0."""
     pitch = 168
     layer = Layer(-pitch * len(seats), -40, pitch * len(seats), 80)
     for k, (seat, sign) in enumerate(seats):
@@ -113,22 +113,22 @@ def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
 
 @cached
 def mark(seat: int) -> LitImage:
-    """Who begins here; round (0, 0)."""
+    """Start position marker of a seat, centred on (0, 0)."""
     layer = Layer(-24, -24, 48, 48)
     badge(layer.glow, seat, 0, 0, 17)
     return layer.done()
 
 
 @cached
-def focus_outline(high: int) -> LitImage:
-    """What a row in focus gets on top of its outline; upper left at (0, 0)."""
-    layer = Layer(0, 0, W, high)
-    layer.glow.line(cut_box(0, 0, W, high, 16), dim(FOCUS, 0.55), THIN, True)
+def focus_outline(height: int) -> LitImage:
+    """Additional highlight of the focused row, drawn over its outline; top left at (0, 0)."""
+    layer = Layer(0, 0, W, height)
+    layer.glow.line(cut_box(0, 0, W, height, 16), dim(FOCUS, 0.55), THIN, True)
     return layer.done()
 
 
-def _named(name: str, high: int) -> Layer:
-    layer = Layer(0, 0, W, high)
-    layer.glow.line(cut_box(0, 0, W, high, 16), STEEL, THIN, True)
+def _layer(name: str, height: int) -> Layer:
+    layer = Layer(0, 0, W, height)
+    layer.glow.line(cut_box(0, 0, W, height, 16), STEEL, THIN, True)
     layer.canvas.body(name, PAD, 38, MIST)
     return layer

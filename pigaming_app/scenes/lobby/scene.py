@@ -1,8 +1,8 @@
-"""The lobby: press fire to join, again to be ready. AIs fill the seats that are wished for, teams are one press away.
+"""The lobby: FIRE joins, FIRE again means ready. AIs fill empty seats on request; teams are one press away.
 
-When all people are ready and at least two robots are there, the choice of the arena follows after a moment in which
-anybody may still join. Every seated device acts for its own seat, a free one can only join (see `access`); the mouse
-acts on what it points at.
+When all people are ready and at least two robots take part, match setup opens after a short countdown, during which
+others can still join. A seated device controls its own seat, a free one can only join (see `access`); the mouse acts on
+the element under the pointer.
 """
 
 from collections.abc import Sequence
@@ -28,15 +28,15 @@ from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 
-IDLE = 60.0  # seconds without a press until the title
-ALL, ALONE = 1.2, 2.4  # seconds between "all are ready" and what follows; longer for one person with an AI
-SAID = 4.0  # seconds for which a message stays
-AHEAD = 3.0  # ms of a frame for pieces that will be needed
-POINTED = 4.0  # seconds after the mouse moved in which its focus shows
+IDLE = 60.0  # s without input before the return to the title
+COUNTDOWN, COUNTDOWN_ALONE = 1.2, 2.4  # s, countdown once all are ready; longer for one person with an AI
+MESSAGE_SECONDS = 4.0  # s, display time of a message
+PREWARM_MS = 3.0  # ms per frame for prewarming
+POINTER_SECONDS = 4.0  # s for which the mouse focus stays visible after a movement
 
 
 class Lobby:
-    """Who plays a game. `drivers`: who sits there already, for each seat a device, the strength of an AI, or None."""
+    """The lobby of a game. `drivers`: initial driver of each seat, a device, an AI strength or None."""
 
     def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.context, self.game = context, game
@@ -52,25 +52,25 @@ class Lobby:
         self.page = LobbyPage(context, self.seats, self.now, lambda: choice_summary(context, game), self.access)
         self.focus = Focus(spots(self.seats))
         self.ahead = PrewarmQueue(card.ahead())
-        self.rehearsal: MatchRunner | None = None
+        self.warmup: MatchRunner | None = None
 
     def entered(self) -> None:
-        """Shown, or come back to from the choice of the arena: everyone says again that they are ready."""
+        """Reset on first display and on return from match setup: everyone has to confirm again."""
         self.context.sounds.music(True)
         self.now.starting = None
-        self.seats.unready()
-        for seat in self.seats.like(HUMAN):
+        self.seats.reset_ready()
+        for seat in self.seats.of_kind(HUMAN):
             device = self.seats.places[seat].device
             if device and not self.context.controls.connected(device):
                 self._unplugged(device)
 
     def on(self, event: InputEvent) -> Turn:
-        """Join, be ready, leave, call AIs, choose teams, begin."""
-        meant = self.page.prompts.as_button(event)
-        admitted = self.access.admit(meant)
+        """Handle joining, readiness, leaving, AIs, teams and start."""
+        mapped = self.page.prompts.as_button(event)
+        admitted = self.access.admit(mapped)
         if admitted is None:
-            self._knock(meant)
-            self._watch()
+            self._try_join(mapped)
+            self._update_countdown()
             return None
         event, device = admitted, admitted.device
         match event.button:
@@ -83,23 +83,23 @@ class Lobby:
             case Button.LEAVE_SEAT:
                 self._leave(device)
             case Button.Y:
-                self._ais()
+                self._add_ai()
             case Button.X if self.seats.team_mode == FREE:
                 self.seats.teams = not self.seats.teams
                 self.context.sounds.play("move")
             case Button.LEFT | Button.RIGHT | Button.UP | Button.DOWN:
-                self._steer(device, event.button)
+                self._direct(device, event.button)
             case Button.LOST:
                 self._unplugged(device)
             case Button.POINT | Button.CLICK:
                 self._mouse(event)
             case _:
                 pass
-        self._watch()
+        self._update_countdown()
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the robots turn; go on when everybody is ready; leave when nobody is there."""
+        """Animate; go on when everyone is ready, leave when abandoned."""
         self.now.pass_by(seconds)
         self.focus.update(seconds)
         if self.access.update(seconds):
@@ -109,42 +109,41 @@ class Lobby:
             self.now.starting -= seconds
             if self.now.starting <= 0.0:
                 return self._go()
-        self._make_ahead()
+        self._prewarm()
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         self.page.draw(screen)
-        if self.now.pointed > 0.0:
+        if self.now.pointer_left > 0.0:
             self.focus.draw(screen)
 
-    def _make_ahead(self) -> None:
-        """While people think: first what this page will need, then the sprites of the match."""
-        if not self.ahead.work(AHEAD):
+    def _prewarm(self) -> None:
+        """Prewarm while people choose: first this page, then the sprites of the match."""
+        if not self.ahead.work(PREWARM_MS):
             return
         now = last_choice(self.context, self.game)
-        if self.rehearsal is None and self.context.preloader.ready(self.game, now.arena):
+        if self.warmup is None and self.context.preloader.ready(self.game, now.arena):
             one, two, three, four = (Seat("idle", team) for team in games()[self.game].teams)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
-            self.rehearsal = MatchRunner(self.context, Match(setup), loud=False)
-        elif self.rehearsal:
-            self.rehearsal.warm(AHEAD)
+            self.warmup = MatchRunner(self.context, Match(setup), loud=False)
+        elif self.warmup:
+            self.warmup.warm(PREWARM_MS)
 
-    # ---- what presses do
+    # ---- input
 
-    def _knock(self, event: InputEvent) -> None:
-        """A free device while others are seated: it joins, or hears which of its buttons does that."""
+    def _try_join(self, event: InputEvent) -> None:
+        """Handle a free device while others are seated: join, or show which of its buttons joins."""
         if event.button in (Button.FIRE, Button.START):
             self._fire(event.device)
         elif event.button in (Button.BACK, Button.X, Button.Y):
             words = self.context.words
-            full = len(self.seats.like(HUMAN)) == PLACES
+            full = len(self.seats.of_kind(HUMAN)) == PLACES
             self.now.message = words("lobby.full") if full else words("lobby.join_first", button="{button}")
             self.now.label = words.printed(self.context.controls.label(event.device, Button.FIRE))
-            self.now.said = SAID
+            self.now.message_left = MESSAGE_SECONDS
 
     def _fire(self, device: Device) -> None:
-        if device.kind == "mouse":  # somebody clicked on the hint
+        if device.kind == "mouse":  # click on the hint
             for waiting in self.seats.waiting:
                 self.seats.places[waiting].ready = True
             return
@@ -157,17 +156,17 @@ class Lobby:
         if seat is None:
             self._say(self.context.words("lobby.full"), "error")
         else:
-            self.now.since[seat] = 0.0
+            self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
 
     def _begin(self, device: Device) -> Turn:
-        """START: everybody counts as ready. In an empty lobby it joins."""
+        """START: everyone counts as ready. In an empty lobby the device joins instead."""
         if not self.seats.robots and device.kind != "mouse":
             self._fire(device)
             return None
-        self._fill()
-        if trouble := problem(self.seats, self.context.words):
-            self._say(trouble, "error")
+        self._add_opponents()
+        if message := problem(self.seats, self.context.words):
+            self._say(message, "error")
             return None
         return self._go()
 
@@ -177,7 +176,7 @@ class Lobby:
         return Push(MatchSetupPage(self.context, self.game, self.seats, game_choice))
 
     def _back(self, device: Device) -> Turn:
-        """Not ready after all; then out of the seat; then back to the title."""
+        """BACK: revoke readiness, then leave the seat, then return to the title."""
         self.context.sounds.play("back")
         seat = self.seats.of(device)
         if seat is None:
@@ -186,7 +185,7 @@ class Lobby:
             self.seats.places[seat].ready = False
         else:
             self.seats.leave(seat)
-        self._watch()
+        self._update_countdown()
         return None
 
     def _leave(self, device: Device) -> None:
@@ -195,36 +194,37 @@ class Lobby:
             self.seats.leave(seat)
             self.context.sounds.play("back")
 
-    def _ais(self) -> None:
-        """One more AI; when all seats are taken, none."""
+    def _add_ai(self) -> None:
+        """Add one AI; remove all if every seat is taken."""
         seat = self.seats.add()
         if seat is None:
             self.seats.clear()
             self.context.sounds.play("back")
         else:
-            self.now.since[seat] = 0.0
+            self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
 
-    def _steer(self, device: Device, act: Button) -> None:
-        """Left and right choose one's own team where there are teams, up and down one's own robot where there is a mat;
-        every other direction the strength of the AIs."""
+    def _direct(self, device: Device, act: Button) -> None:
+        """Left and right select the device's own team if teams are on, up and down its robot if a mat is present; the
+        remaining directions set the strength of the AIs.
+        """
         seat = self.seats.of(device)
         if self.seats.mat and seat is not None and act in (Button.UP, Button.DOWN):
             self._swap(seat)
             return
         if self.seats.teams and seat is not None and act in (Button.LEFT, Button.RIGHT):
             self._change_team(seat)
-        elif self.seats.strengthen(1 if act in (Button.RIGHT, Button.UP) else -1):
-            self._remember()
+        elif self.seats.change_strength(1 if act in (Button.RIGHT, Button.UP) else -1):
+            self._save_strength()
             self.context.sounds.play("move")
 
-    def _remember(self) -> None:
-        """The next lobby, of any game, begins with AIs of this strength; one that only one game has is not kept."""
+    def _save_strength(self) -> None:
+        """Save the AI strength as the default of the next lobby, unless only this game offers it."""
         if self.seats.strength in STRENGTHS:
             self.context.settings.strength = self.seats.strength
 
     def _swap(self, seat: int) -> None:
-        """A real robot for a simulated one, or the other way round; the next lobby begins like this."""
+        """Toggle between the real and the simulated robot of a seat, and save it as the default."""
         if reason := unfit(self.context.settings):
             self._say(self.context.words.sentence(reason), "error")
             return
@@ -243,7 +243,7 @@ class Lobby:
             self._say(self.context.words("lobby.unplugged", player=seat + 1), "back")
 
     def _mouse(self, event: InputEvent) -> None:
-        self.now.pointed = POINTED
+        self.now.pointer_left = POINTER_SECONDS
         self.focus.on(event)
         name = self.focus.chosen(event)
         if name is None:
@@ -255,40 +255,40 @@ class Lobby:
         elif what == "real":
             self._swap(seat)
         elif what in ("weaker", "stronger"):
-            self.seats.strengthen(1 if what == "stronger" else -1, seat)
-            self._remember()
+            self.seats.change_strength(1 if what == "stronger" else -1, seat)
+            self._save_strength()
             self.context.sounds.play("move")
         elif kind == AI:
             self.seats.leave(seat)
             self.context.sounds.play("back")
         elif kind == EMPTY:
             self.seats.add(seat)
-            self.now.since[seat] = 0.0
+            self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
         else:
             self.seats.places[seat].ready = not self.seats.places[seat].ready
             self.context.sounds.play("ready", seat)
 
-    def _watch(self) -> None:
-        """Begin the last moment when all are ready, and give it up when somebody is not."""
+    def _update_countdown(self) -> None:
+        """Start the countdown when all are ready, cancel it otherwise."""
         self.focus.place(spots(self.seats))
-        alone = len(self.seats.like(HUMAN)) == 1
-        if not self.seats.like(HUMAN) or self.seats.waiting:
+        alone = len(self.seats.of_kind(HUMAN)) == 1
+        if not self.seats.of_kind(HUMAN) or self.seats.waiting:
             self.now.starting = None
         elif self.now.starting is None:
-            self._fill()
+            self._add_opponents()
             if not problem(self.seats, self.context.words):
-                self.now.starting = self.now.whole = ALONE if alone else ALL
+                self.now.starting = self.now.countdown = COUNTDOWN_ALONE if alone else COUNTDOWN
 
-    def _fill(self) -> None:
+    def _add_opponents(self) -> None:
         for seat in self.seats.fill():
-            self.now.since[seat] = 0.0
+            self.now.seated[seat] = 0.0
 
     def _say(self, message: str, sound: str) -> None:
-        self.now.message, self.now.label, self.now.said = message, "", SAID
+        self.now.message, self.now.label, self.now.message_left = message, "", MESSAGE_SECONDS
         self.context.sounds.play(sound)
 
 
 def game_choice(context: Context, setup: Setup, devices: Sequence[Device | None]) -> GameChoice:
-    """The choice of another game after a match; it leads to a lobby."""
+    """The game selection after a match, with a lobby factory."""
     return GameChoice(context, setup, devices, Lobby)

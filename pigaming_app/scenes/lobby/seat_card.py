@@ -1,6 +1,6 @@
-"""One seat of the lobby: a card with the player's colour, shape and number, a robot on a turntable, and who drives it.
+"""Widgets of a lobby seat card: the player's colour, shape and number, a robot on a turntable, the driver.
 
-All of it is made of small pieces that are kept; a card's upper left is at (0, 0) of its own.
+Every widget is cached; the top left of a card is at (0, 0).
 """
 
 import math
@@ -42,38 +42,38 @@ from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
 from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 
-ROBOT = (268, 2.1, 130)  # middle, scale, radius of the turntable
-ROBOT_IN_TEAM = (236, 1.7, 106)  # with one row below it
-ROBOT_LOW = (204, 1.25, 78)  # with two
+ROBOT = (268, 2.1, 130)  # px, centre; scale; px, turntable radius
+ROBOT_IN_TEAM = (236, 1.7, 106)  # with one row below
+ROBOT_LOW = (204, 1.25, 78)  # with two rows below
 REAL_Y = 316
 TEAM_Y, DEVICE_Y = 378, 444
-PLUS_Y, OUTLINE = 256, 80  # middle and size of the shape on an empty seat
+PLUS_Y, OUTLINE = 256, 80  # px: centre and size of the shape on an empty seat
 ASKS_Y, BUTTONS_Y, BUTTON_PITCH, GAP = 398, 502, 66, 12
-SPOKES, TURNS = 5, 8  # arcs of a turntable, and how many positions are kept between two of them
+SPOKES, TURNS = 5, 8  # arcs of a turntable, cached positions between two of them
 UP = -math.pi / 2
-UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # the heading of a robot that waits, and how far it looks to either side
+UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # heading of a waiting robot, and how far it looks to either side
 
 
 @cached
 @resumable
-def frame(player: int, said: str, bold: bool) -> Steps[LitImage]:
-    """The card of somebody."""
+def frame(player: int, text: str, bold: bool) -> Steps[LitImage]:
+    """Card of an occupied seat."""
     layer = Layer(0, 0, W, H)
     panel(layer.glow, 0, 0, W, H, PLAYERS[player], LINE if bold else THIN)
     badge(layer.glow, player, 72, 76, 36)
-    layer.canvas.text(said, fit_size(said, LABEL, W - 160), 136, 76, ICE)
+    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, ICE)
     yield
     return (yield from layer.lighting())
 
 
 @cached
 @resumable
-def empty(player: int, said: str) -> Steps[LitImage]:
-    """The card of nobody."""
+def empty(player: int, text: str) -> Steps[LitImage]:
+    """Card of an empty seat."""
     layer, color = Layer(0, 0, W, H), PLAYERS[player]
     layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
     badge(layer.glow, player, 72, 76, 36, dim(color, 0.75))
-    layer.canvas.text(said, fit_size(said, LABEL, W - 160), 136, 76, MIST)
+    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, MIST)
     outline = [(MIDDLE + y * OUTLINE, PLUS_Y - x * OUTLINE) for x, y in shape_points(player, 1)]
     layer.glow.dashes(outline, dim(color, 0.7), LINE, 24, 18)
     yield
@@ -81,13 +81,13 @@ def empty(player: int, said: str) -> Steps[LitImage]:
 
 
 @cached
-def invitation(player: int, said: str, labels: tuple[str, ...], level: int) -> LitImage:
-    """What an empty seat asks for: one of the buttons `labels`. A `level` of 0 means: another seat comes first."""
+def invitation(player: int, text: str, labels: tuple[str, ...], level: int) -> LitImage:
+    """Prompt of an empty seat to press one of the buttons `labels`. `level` 0: another seat is filled first."""
     if 0 < level < LEVELS:
-        return dimmed(invitation(player, said, labels, LEVELS), level / LEVELS)
+        return dimmed(invitation(player, text, labels, LEVELS), level / LEVELS)
     layer = Layer(0, 230, W, 370)
     icon(layer.glow, "plus", MIDDLE, PLUS_Y, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
-    layer.canvas.body(said, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fit_size(said, BODY, W - 48, "body"))
+    layer.canvas.body(text, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fit_size(text, BODY, W - 48, "body"))
     rows = rows_of(labels)
     for i, row in enumerate(rows):
         x = MIDDLE - (sum(map(button_width, row)) + GAP * (len(row) - 1)) / 2
@@ -98,11 +98,11 @@ def invitation(player: int, said: str, labels: tuple[str, ...], level: int) -> L
 
 
 def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
-    """Buttons in rows not wider than a card, as few as possible: each goes where it still fits, the widest first."""
+    """Pack button labels into as few rows as fit on a card (first fit, widest first)."""
     rows: list[list[str]] = []
     for label in sorted(labels, key=button_width, reverse=True):
         room = W - 36 - button_width(label) - GAP
-        row = next((row for row in rows if sum(button_width(one) + GAP for one in row) <= room + GAP), None)
+        row = next((row for row in rows if sum(button_width(other) + GAP for other in row) <= room + GAP), None)
         if row is None:
             rows.append([label])
         else:
@@ -112,7 +112,7 @@ def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
 
 @cached
 def driver(sign: str, name: str) -> LitImage:
-    """An icon and who drives: the name of a pad, the keys that steer, or an AI."""
+    """Icon and name of the driver: a pad, the steering keys or an AI."""
     layer = Layer(24, DEVICE_Y - 44, W - 48, 88)
     icon(layer.glow, sign, 78, DEVICE_Y, 36, MIST, THIN)
     marks = name.split()
@@ -125,63 +125,63 @@ def driver(sign: str, name: str) -> LitImage:
 
 
 @cached
-def strength(said: str, upright: bool) -> LitImage:
-    """The bar of an AI: how strong it is, between the arrows that change that."""
+def strength(text: str, upright: bool) -> LitImage:
+    """Strength of an AI, between the arrows that change it."""
     layer = Layer(*BAR)
     layer.glow.line(cut_box(*BAR, 14), STEEL, THIN, True)
-    layer.canvas.text(said, fit_size(said, LABEL, W - 190), MIDDLE, BAR_Y, ICE, "head", "c")
+    layer.canvas.text(text, fit_size(text, LABEL, W - 190), MIDDLE, BAR_Y, ICE, "head", "c")
     for name, x in zip(("down", "up") if upright else ("left", "right"), (60, W - 60), strict=True):
         icon(layer.glow, name, x, BAR_Y, 20, MIST, LINE)
     return layer.done()
 
 
 @cached
-def team(said: str, number: int) -> LitImage:
-    """Which team, with the bars that its robots wear, between the arrows that change it."""
-    layer, x, size = _team(said)
+def team(text: str, number: int) -> LitImage:
+    """Team number and team bars, between the arrows that change it."""
+    layer, x, size = _team(text)
     for i in range(number + 1):
         layer.glow.line([(x + 14 * i, TEAM_Y - 17), (x + 14 * i, TEAM_Y + 17)], ICE, LINE)
-    layer.canvas.crisp.text(said, size, x + 44, TEAM_Y, ICE, "head")
+    layer.canvas.crisp.text(text, size, x + 44, TEAM_Y, ICE, "head")
     return layer.done()
 
 
 @cached
-def side(said: str, number: int) -> LitImage:
-    """Which of the two sides of the factory, with its emblem and in its colour, between the arrows that change it."""
-    layer, x, size = _team(said)
+def side(text: str, number: int) -> LitImage:
+    """Side of the factory with its emblem and colour, between the arrows that change it."""
+    layer, x, size = _team(text)
     emblem(layer.glow, number, x + 10, TEAM_Y, 24)
-    layer.canvas.crisp.text(said, size, x + 48, TEAM_Y, TEAMS[number], "head")
+    layer.canvas.crisp.text(text, size, x + 48, TEAM_Y, TEAMS[number], "head")
     return layer.done()
 
 
 @cached
-def real(said: str, on: bool, middle: int) -> LitImage:
-    """Whether a seat's robot is real, as it is lit on the mat, or a drawn one; between the arrows that change it."""
+def real(text: str, on: bool, middle: int) -> LitImage:
+    """Real or simulated robot, between the arrows that change it. `middle`: y of its centre, px."""
     layer = Layer(24, middle - 30, W - 48, 60)
-    size = fit_size(said, BODY - 4, W - 250, "body")
-    x = MIDDLE - (text_width(said, size, "body") + 54) / 2
+    size = fit_size(text, BODY - 4, W - 250, "body")
+    x = MIDDLE - (text_width(text, size, "body") + 54) / 2
     color = GREEN if on else MIST
     layer.glow.ring(x + 18, middle, 18, color, THIN)
     if on:
         layer.canvas.crisp.disc(x + 18, middle, 12, GREY)
-    layer.canvas.body(said, x + 54, middle, ICE if on else MIST, "l", size)
+    layer.canvas.body(text, x + 54, middle, ICE if on else MIST, "l", size)
     for name, cx in (("up", 60), ("down", W - 60)):
         icon(layer.glow, name, cx, middle, 16, MIST, LINE)
     return layer.done()
 
 
-def _team(said: str) -> tuple[Layer, float, int]:
-    """A pane with the arrows that change a team; where its sign begins, px, and the size of its name."""
+def _team(text: str) -> tuple[Layer, float, int]:
+    """Panel with the arrows that change a team. Returns the layer, x of the sign (px) and the font size."""
     layer = Layer(24, TEAM_Y - 34, W - 48, 68)
-    size = fit_size(said, BODY, W - 240)
+    size = fit_size(text, BODY, W - 240)
     for name, cx in (("left", 60), ("right", W - 60)):
         icon(layer.glow, name, cx, TEAM_Y, 18, MIST, LINE)
-    return layer, MIDDLE - (text_width(said, size) + 44) / 2, size
+    return layer, MIDDLE - (text_width(text, size) + 44) / 2, size
 
 
 @cached
 def turntable(player: int, turn: int, lit: bool, r: int) -> LitImage:
-    """Arcs round a robot at (0, 0), `turn` of TURNS on their way to the next, on a circle of `r` px."""
+    """Arcs around (0, 0) on a circle of `r` px, rotated by `turn` of TURNS steps towards the next arc."""
     half = r + 30
     ink = GlowCanvas(2 * half, 2 * half)
     color: Color = dim(PLAYERS[player], 0.8 if lit else 0.35)
@@ -193,12 +193,12 @@ def turntable(player: int, turn: int, lit: bool, r: int) -> LitImage:
 
 @cached
 def robot(player: int, turn: int, scale: float) -> Sprite:
-    """A seat's robot at heading `turn` of HEADINGS."""
+    """Robot of a seat at heading `turn` of HEADINGS."""
     return seat_robot(player, turn * math.tau / HEADINGS, scale)
 
 
 def ahead() -> Iterator[Callable[[], object]]:
-    """The larger pieces that joining and waiting will need, in the order in which they are likely to be wanted."""
+    """Prewarm jobs for the larger widgets, in the order of likely use."""
     for player in range(4):
         yield partial(robot, player, UPRIGHT, ROBOT[1])
         for turn in range(TURNS):

@@ -1,6 +1,6 @@
-"""Who sits where before a match: people by their devices, AIs, and teams. No drawing, no sounds: only what is so.
+"""Seat assignment before a match: people with their devices, AIs, teams. Model only: no drawing, no sound.
 
-Whoever presses fire gets the next empty seat, and so becomes player 1, 2, 3 or 4. The last AI makes room for a person.
+FIRE takes the next empty seat, which determines the player number. The last AI makes room for a person.
 """
 
 from dataclasses import dataclass, field, replace
@@ -15,7 +15,7 @@ PLACES = 4
 
 @dataclass
 class SeatState:
-    """One seat. `team` is 0 or 1 and counts only while there are teams; `real`: its robot stands on the mat."""
+    """One seat. `team`: 0 or 1, used only with teams; `real`: its robot stands on the mat."""
 
     kind: str = EMPTY
     device: Device | None = None
@@ -27,9 +27,9 @@ class SeatState:
 
 @dataclass
 class Seats:
-    """The four seats. `strength` is that of the next AI, one of `rivals`; `sides`: what teams the game knows.
+    """The four seats. `strength`: of the next AI, one of `rivals`; `sides`: team mode of the game.
 
-    `mat`: there is a mat on which the robots of seats can stand.
+    `mat`: a mat for real robots is available.
     """
 
     strength: str = "normal"
@@ -42,130 +42,133 @@ class Seats:
     def __post_init__(self) -> None:
         self.teams = self.team_mode == PAIRS or (self.teams and self.team_mode == FREE)
 
-    # ---- what is so
+    # ---- queries
 
     def of(self, device: Device) -> int | None:
-        """The seat of a device."""
+        """The seat of a device, if any."""
         return next((i for i, place in enumerate(self.places) if place.device == device), None)
 
-    def like(self, kind: str) -> list[int]:
-        """The seats of a kind: EMPTY, HUMAN or AI."""
+    def of_kind(self, kind: str) -> list[int]:
+        """Seats of a kind: EMPTY, HUMAN or AI."""
         return [i for i, place in enumerate(self.places) if place.kind == kind]
 
     @property
     def robots(self) -> int:
-        """How many will play."""
-        return PLACES - len(self.like(EMPTY))
+        """Number of occupied seats."""
+        return PLACES - len(self.of_kind(EMPTY))
 
     @property
     def waiting(self) -> list[int]:
-        """People who are not ready yet."""
-        return [i for i in self.like(HUMAN) if not self.places[i].ready]
+        """Seats of people who are not ready."""
+        return [i for i in self.of_kind(HUMAN) if not self.places[i].ready]
 
     @property
     def one_team(self) -> bool:
-        """There are teams, and all who play are in one of them."""
+        """True if teams are on and all occupied seats are in the same team."""
         return self.teams and len({place.team for place in self.places if place.kind != EMPTY}) < 2
 
     def seats(self) -> tuple[Seat, Seat, Seat, Seat]:
-        """The seats as a setup wants them."""
+        """The seats in the form a `Setup` needs."""
         one, two, three, four = (
             Seat(self._brain(place), place.team if self.teams else i) for i, place in enumerate(self.places)
         )
         return one, two, three, four
 
     def devices(self) -> list[Device | None]:
-        """Who drives each seat."""
+        """Device of each seat."""
         return [place.device for place in self.places]
 
     def real(self) -> list[int]:
-        """The seats in the match whose robots are real."""
+        """Occupied seats with real robots."""
         return [i for i, place in enumerate(self.places) if self.mat and place.real and place.kind != EMPTY]
 
-    # ---- what people do
+    # ---- changes
 
     def swap(self, seat: int) -> None:
-        """A real robot for a simulated one, or the other way round."""
+        """Toggle between the real and the simulated robot of a seat."""
         self.places[seat].real = not self.places[seat].real
 
     def join(self, device: Device) -> int | None:
-        """Give a device the next empty seat, or the last AI's; None: four people sit there already."""
-        seat = next(iter(self.like(EMPTY)), None)
+        """Seat a device on the next empty seat, else on the last AI's. Returns the seat, None if four people are
+        seated.
+        """
+        seat = next(iter(self.of_kind(EMPTY)), None)
         if seat is None:
-            seat = next(iter(reversed(self.like(AI))), None)
+            seat = next(iter(reversed(self.of_kind(AI))), None)
         if seat is not None:
-            self.places[seat] = SeatState(HUMAN, device, team=self._wanted(seat), real=self.places[seat].real)
+            self.places[seat] = SeatState(HUMAN, device, team=self._smaller_team(seat), real=self.places[seat].real)
         return seat
 
     def seat(self, seat: int, driver: Device | str) -> None:
-        """Give an empty seat to a device, or to an AI of that strength, or of the usual one where it is no rival."""
+        """Seat a device, or an AI of that strength (the default strength if it is not in `rivals`)."""
         place = (
             SeatState(HUMAN, driver) if isinstance(driver, Device) else SeatState(AI, strength=self._strength(driver))
         )
-        self.places[seat] = replace(place, team=self._wanted(seat), real=self.places[seat].real)
+        self.places[seat] = replace(place, team=self._smaller_team(seat), real=self.places[seat].real)
 
     def leave(self, seat: int) -> None:
-        """Empty a seat."""
         self.places[seat] = SeatState(team=self.places[seat].team, real=self.places[seat].real)
 
     def add(self, seat: int | None = None) -> int | None:
-        """Put an AI on a seat, or on the next empty one; answers which, None: all are taken."""
-        seat = next(iter(self.like(EMPTY)), None) if seat is None else seat
+        """Add an AI on a seat, or on the next empty one. Returns the seat, None if all are taken."""
+        seat = next(iter(self.of_kind(EMPTY)), None) if seat is None else seat
         if seat is not None:
             real = self.places[seat].real
-            self.places[seat] = SeatState(AI, strength=self.strength, team=self._wanted(seat), real=real)
+            self.places[seat] = SeatState(AI, strength=self.strength, team=self._smaller_team(seat), real=real)
         return seat
 
     def clear(self) -> None:
-        """Send all AIs away."""
-        for seat in self.like(AI):
+        """Remove all AIs."""
+        for seat in self.of_kind(AI):
             self.leave(seat)
 
-    def strengthen(self, by: int, seat: int | None = None) -> bool:
-        """Make the AI of one seat, or all, the next or last of `rivals`; the next ones will be like it."""
-        chosen = self.like(AI) if seat is None else [seat]
+    def change_strength(self, delta: int, seat: int | None = None) -> bool:
+        """Step the strength of one seat's AI, or of all, through `rivals`; it becomes the default. True if changed."""
+        chosen = self.of_kind(AI) if seat is None else [seat]
         if not chosen:
             return False
-        now, count = self.rivals.index(self.places[chosen[0]].strength) + by, len(self.rivals)
+        now, count = self.rivals.index(self.places[chosen[0]].strength) + delta, len(self.rivals)
         self.strength = self.rivals[now % count if seat is not None else max(0, min(count - 1, now))]
-        changed = any(self.places[one].strength != self.strength for one in chosen)
-        for one in chosen:
-            self.places[one].strength = self.strength
+        changed = any(self.places[i].strength != self.strength for i in chosen)
+        for i in chosen:
+            self.places[i].strength = self.strength
         return changed
 
-    def unready(self) -> None:
-        """Nobody is ready any more."""
+    def reset_ready(self) -> None:
+        """Reset everyone's readiness."""
         for place in self.places:
             place.ready = False
 
     def fill(self) -> list[int]:
-        """Company for one person alone, or for a pair without rivals: an AI, or in games for four all seats; which."""
-        lonely = self.robots == 1 or (self.team_mode == PAIRS and self.robots > 1 and self.one_team)
-        if not lonely:
+        """Add opponents for a single person, or for a pair without rivals: one AI, or all seats in team games. Returns
+        the seats.
+        """
+        alone = self.robots == 1 or (self.team_mode == PAIRS and self.robots > 1 and self.one_team)
+        if not alone:
             return []
         first = next(place for place in self.places if place.kind != EMPTY)
-        wanted = 1 if self.team_mode == FREE else len(self.like(EMPTY))
+        wanted = 1 if self.team_mode == FREE else len(self.of_kind(EMPTY))
         added = [seat for seat in (self.add() for _ in range(wanted)) if seat is not None]
         if self.team_mode == FREE:
             self.places[added[0]].team = 1 - first.team
         return added
 
     def change_team(self, seat: int) -> None:
-        """Send a robot to the other team; if that has two already, one of them comes over, an AI if there is one."""
+        """Move a robot to the other team; if that is full, one of its robots changes sides, preferably an AI."""
         place = self.places[seat]
         place.team = 1 - place.team
-        mates = [one for one in self.places if one is not place and one.kind != EMPTY and one.team == place.team]
+        mates = [mate for mate in self.places if mate is not place and mate.kind != EMPTY and mate.team == place.team]
         if self.team_mode == PAIRS and len(mates) > 1:
-            sorted(mates, key=lambda one: one.kind == AI)[-1].team = 1 - place.team
+            sorted(mates, key=lambda mate: mate.kind == AI)[-1].team = 1 - place.team
 
-    def _wanted(self, seat: int) -> int:
-        """The team with fewer robots; the seat's own where they are equal."""
+    def _smaller_team(self, seat: int) -> int:
+        """The team with fewer robots; the seat's current one if equal."""
         others = [place.team for i, place in enumerate(self.places) if place.kind != EMPTY and i != seat]
         more = others.count(0) - others.count(1)
         return self.places[seat].team if more == 0 else int(more > 0)
 
-    def _strength(self, wished: str) -> str:
-        return wished if wished in self.rivals else self.strength
+    def _strength(self, strength: str) -> str:
+        return strength if strength in self.rivals else self.strength
 
     def _brain(self, place: SeatState) -> str:
         return {EMPTY: "off", HUMAN: "human"}.get(place.kind, place.strength)

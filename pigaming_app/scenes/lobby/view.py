@@ -1,4 +1,4 @@
-"""What the lobby shows: four cards, what is being waited for, and which button does what."""
+"""Rendering of the lobby: four cards, the current message and the button prompts."""
 
 import math
 from collections.abc import Callable
@@ -22,32 +22,31 @@ from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_actio
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, ask_bar, ready_bar
 
 TOP, MESSAGE_Y, LINE_Y = 216, 884, 932
-ROLL_IN = 0.35  # seconds in which a robot comes onto its turntable
+ROLL_IN = 0.35  # s, a robot's drive onto its turntable
 
 
 @dataclass
 class LobbyState:
-    """What moves on the page, in seconds."""
+    """Animation state of the page, in s."""
 
     clock: float = 0.0
-    since: list[float] = field(default_factory=lambda: [9.0] * PLACES)  # for each seat, since it was taken
-    starting: float | None = None  # until the choice of the arena
-    whole: float = 1.0  # how long that was in the beginning
-    message: str = ""  # what has just happened
-    label: str = ""  # of the button in it
-    said: float = 0.0  # how long that will still be shown
-    pointed: float = 0.0  # how long the focus of the mouse will still be shown
+    seated: list[float] = field(default_factory=lambda: [9.0] * PLACES)  # time since each seat was taken
+    starting: float | None = None  # remaining countdown
+    countdown: float = 1.0  # full countdown
+    message: str = ""  # last event
+    label: str = ""  # button in the message
+    message_left: float = 0.0  # remaining display time of the message
+    pointer_left: float = 0.0  # remaining display time of the mouse focus
 
     def pass_by(self, seconds: float) -> None:
-        """Let time pass."""
         self.clock += seconds
-        self.said -= seconds
-        self.pointed -= seconds
-        self.since = [since + seconds for since in self.since]
+        self.message_left -= seconds
+        self.pointer_left -= seconds
+        self.seated = [age + seconds for age in self.seated]
 
 
 class LobbyPage:
-    """The page of these seats; `now` is what moves on it."""
+    """The lobby page of `seats`. `now`: animation state; `fact`: text beside the title."""
 
     def __init__(
         self, context: Context, seats: Seats, now: LobbyState, fact: Callable[[], str], access: Access
@@ -55,7 +54,6 @@ class LobbyPage:
         self.context, self.seats, self.now, self.fact, self.access = context, seats, now, fact, access
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page; `fact` tells what stands beside its title."""
         screen.blit(backdrop(), (0, 0))
         heading(self.context.words("lobby.title"), self.fact()).draw(screen)
         black_out(screen, *map(card_rect, range(PLACES)))
@@ -66,13 +64,13 @@ class LobbyPage:
 
     @property
     def prompts(self) -> ButtonPrompts:
-        """The hints that are true for the device used last, if it may act."""
+        """Prompts for the device used last, if it may act."""
         seat = self.seats.of(self.access.voice)
-        full = not self.seats.like(EMPTY)
+        full = not self.seats.of_kind(EMPTY)
         hints = [
             (Button.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
             (Button.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
-            (Button.Y, "lobby.hint_clear" if full and self.seats.like(AI) else "lobby.hint_add"),
+            (Button.Y, "lobby.hint_clear" if full and self.seats.of_kind(AI) else "lobby.hint_add"),
         ]
         if self.seats.team_mode == FREE:
             hints.append((Button.X, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
@@ -80,20 +78,20 @@ class LobbyPage:
 
     @property
     def invited(self) -> tuple[str, ...]:
-        """The button of each device that could join, each once: of the pads, then of the keyboard's clusters."""
+        """Distinct labels of the buttons with which free devices can join: pads first, then keyboard clusters."""
         controls, words = self.context.controls, self.context.words
         free = [device for device in controls.players() if self.seats.of(device) is None]
         return tuple(dict.fromkeys(words.printed(controls.label(device, Button.FIRE)) for device in free))
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
-        said = words("lobby.seat", player=seat + 1)
+        title = words("lobby.seat", player=seat + 1)
         if place.kind == EMPTY:
-            card.empty(seat, said).draw(screen, x, y)
-            level = pulse(self.now.clock) if seat == self.seats.like(EMPTY)[0] else 0
+            card.empty(seat, title).draw(screen, x, y)
+            level = pulse(self.now.clock) if seat == self.seats.of_kind(EMPTY)[0] else 0
             card.invitation(seat, words("lobby.press_to_join"), self.invited, level).draw(screen, x, y)
             return
-        card.frame(seat, said, place.ready or place.kind == AI).draw(screen, x, y)
+        card.frame(seat, title, place.ready or place.kind == AI).draw(screen, x, y)
         self._robot(screen, seat)
         if self.seats.teams:
             if self.seats.team_mode == PAIRS:
@@ -129,7 +127,7 @@ class LobbyPage:
         speed = 14 if place.ready else 3
         turn = int(self.now.clock * speed) % card.TURNS
         card.turntable(seat, turn, place.ready, r).draw(screen, round(x + MIDDLE), y + middle_y)
-        coming = max(0.0, 1.0 - self.now.since[seat] / ROLL_IN) ** 2
+        coming = max(0.0, 1.0 - self.now.seated[seat] / ROLL_IN) ** 2
         hop = 8 * abs(math.sin(self.now.clock * 7 + seat)) if place.ready else 0.0
         look = 0.0 if place.ready else glance(self.now.clock, seat)
         sprite = card.robot(seat, step(card.UP + look, HEADINGS), scale)
@@ -139,53 +137,52 @@ class LobbyPage:
         words, waiting = self.context.words, self.seats.waiting
         if self.now.starting is not None:
             call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, MESSAGE_Y)
-            reach = round(864 * (1.0 - max(0.0, self.now.starting) / self.now.whole))
+            reach = round(864 * (1.0 - max(0.0, self.now.starting) / self.now.countdown))
             screen.fill(dim(FOCUS, 0.25), (960 - reach, LINE_Y - 5, 2 * reach, 10))
             screen.fill(FOCUS, (960 - reach, LINE_Y - 2, 2 * reach, 4))
             return
-        if self.now.said > 0.0:
+        if self.now.message_left > 0.0:
             call_to_action(self.now.message, self.now.label, LABEL).draw(screen, 960, MESSAGE_Y)
             return
         if waiting:
             place = self.seats.places[waiting[0]]
-            said = words("lobby.wait", player=waiting[0] + 1, button="{button}")
+            message = words("lobby.wait", player=waiting[0] + 1, button="{button}")
             label = words.printed(self.context.controls.label(place.device, Button.FIRE))
         else:
-            said, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
-        call_to_action(said, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
+            message, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
+        call_to_action(message, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
 
 
 def spots(seats: Seats) -> list[FocusSpot]:
-    """What the mouse can hit: arrows and teams on the cards, then the cards."""
-    found = []
+    """Mouse targets: arrows and teams on the cards, then the cards."""
+    targets = []
     for seat, place in enumerate(seats.places):
         x, y = card_rect(seat).topleft
         if place.kind == AI:
-            found.append(FocusSpot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
-            found.append(FocusSpot(f"stronger {seat}", pygame.Rect(x + W - 124, y + 500, 100, 76)))
+            targets.append(FocusSpot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
+            targets.append(FocusSpot(f"stronger {seat}", pygame.Rect(x + W - 124, y + 500, 100, 76)))
         if seats.teams and place.kind != EMPTY:
-            found.append(FocusSpot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, W - 48, 68)))
+            targets.append(FocusSpot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, W - 48, 68)))
         if seats.mat and place.kind != EMPTY:
             middle = card.REAL_Y if seats.teams else card.TEAM_Y
-            found.append(FocusSpot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, W - 48, 60)))
-    return [*found, *(FocusSpot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
+            targets.append(FocusSpot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, W - 48, 60)))
+    return [*targets, *(FocusSpot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
 
 
 def problem(seats: Seats, words: Words) -> str:
-    """Why a match cannot begin, or nothing."""
+    """The reason why a match cannot start, or ""."""
     if seats.robots < 2:
         return words("lobby.more")
     return words("lobby.teams_need") if seats.one_team else ""
 
 
 def card_rect(seat: int) -> pygame.Rect:
-    """Where a seat's card is."""
     x, w = span(3 * seat, 3)
     return pygame.Rect(x, TOP, w, H)
 
 
 def glance(seconds: float, seat: int) -> float:
-    """Where the robot of a waiting seat looks, rad off straight ahead: it turns quickly and rests."""
+    """Viewing angle of a waiting robot, rad off straight ahead: quick turns with pauses."""
     angles = (0.0, -0.42, 0.3, 0.0, 0.46, -0.2)
     at = seconds / 1.4 + 0.37 * seat
     i, into = int(at), at % 1.0

@@ -1,4 +1,4 @@
-"""A celebration on the results: the winner drives along the line under its name and turns for joy, and sparks fly."""
+"""Victory animation on the results page: the winner drives along the title line and spins, with sparks."""
 
 import math
 import random
@@ -11,16 +11,16 @@ from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.layers import LEFT, RIGHT
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 
-Y = 176  # of the line, px
-DRIVE = 2.0  # seconds along the line
-SPIN = 1.4  # seconds for a turn
-REST = 6.0  # seconds from turn to turn
-BURST = 36  # sparks at once
+Y = 176  # px, the line
+DRIVE = 2.0  # s along the line
+SPIN = 1.4  # s per spin
+REST = 6.0  # s between spins
+BURST = 36  # sparks per burst
 FALL = 260.0  # px/s²
 
 
 class Spark:
-    """One spark: it flies, falls and goes out."""
+    """A spark that flies, falls and fades."""
 
     def __init__(self, x: float, y: float, chance: random.Random) -> None:
         angle, speed = chance.uniform(0, math.tau), 60 + 300 * chance.random()
@@ -28,14 +28,14 @@ class Spark:
         self.size, self.life, self.age = chance.choice(SPARK_SIZES), chance.uniform(0.5, 1.1), 0.0
 
     def move(self, seconds: float) -> bool:
-        """Fly on; false when it has gone out."""
+        """Advance by `seconds`; False once it has faded."""
         self.age += seconds
         self.x, self.y, self.vy = self.x + self.vx * seconds, self.y + self.vy * seconds, self.vy + FALL * seconds
         return self.age < self.life
 
 
 class Celebration:
-    """The winner `player` celebrates near (x, y), where its crown is. `sparks`: bursts of light are wanted."""
+    """Victory animation of `player` at (x, y), the position of its crown. `sparks`: include bursts of light."""
 
     def __init__(self, player: int, x: float, y: float, sparks: bool) -> None:
         self.player, self.x, self.y = player, x, y
@@ -45,7 +45,6 @@ class Celebration:
         self.age = 0.0
 
     def update(self, seconds: float) -> None:
-        """Let it go on."""
         self.age += seconds
         while self.bursts and self.bursts[0] <= self.age:
             self.bursts.pop(0)
@@ -55,12 +54,12 @@ class Celebration:
 
     @property
     def reach(self) -> float:
-        """How far along the line the winner is, px from its left end."""
+        """Position of the winner along the line, px from its left end."""
         share = min(1.0, self.age / DRIVE)
         return (1.0 - (1.0 - share) ** 2) * (RIGHT - 40 - LEFT)
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Add sparks and winner to the screen."""
+        """Draw sparks and winner."""
         color = PLAYERS[self.player]
         light: Batch = []
         for spark in self.sparks:

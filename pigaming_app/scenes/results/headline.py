@@ -1,4 +1,4 @@
-"""Who won, in one line: a person, an AI by its name, a team by its own; or nobody."""
+"""One-line headline of the results: the winning person, AI or team, or a draw."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,7 @@ from pigaming_app.ui.i18n import Words
 
 
 def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int] = ()) -> str:
-    """The title of the results of a match that was played to its end; for the people `absent` an AI has driven."""
+    """Title for a completed match; an AI has driven for the people in `absent`."""
     if not outcome.winners:
         return words("results.tie")
     seat = outcome.winners[0]
@@ -25,19 +25,19 @@ def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int]
 
 
 def in_teams(outcome: Outcome, setup: Setup) -> bool:
-    """Whether teams played: always two in the factory, elsewhere where two robots share one."""
+    """True if teams played: always in the factory, elsewhere if two robots share a team."""
     return games()[setup.game].team_mode == PAIRS or len({row.team for row in outcome.rows}) < len(outcome.rows)
 
 
 def team_name(words: Words, setup: Setup, team: int) -> str:
-    """What a team is called in the lobby."""
+    """Name of a team, as in the lobby."""
     if games()[setup.game].team_mode == PAIRS:
         return words(f"lobby.side_{team + 1}")
     return words("lobby.team", team=team + 1)
 
 
 def winning_color(outcome: Outcome, setup: Setup) -> Color:
-    """The colour of the line: the team's where teams have one, else that of the best of the winners."""
+    """Colour of the title line: the team's, if it has one, else that of the best winner."""
     if not outcome.winners:
         return ICE
     seat = outcome.winners[0]

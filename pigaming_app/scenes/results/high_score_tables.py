@@ -1,7 +1,7 @@
-"""Which table of scores a feat belongs to, which matches count, and how values are written.
+"""High-score rules: the table of each feat, the matches that count, the format of values.
 
-A table compares feats of one arena under the same rules, over the same minutes, laps or pallets, and with the same
-number of people. A match counts for a seat only if every opponent is a person or an AI that is no weaker than `normal`.
+A table covers one arena, one set of rules, one duration (minutes, laps or pallets) and one number of people. A match
+counts for a seat only if every opponent is a person or an AI at least as strong as `normal`.
 """
 
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ machine), q1 180 and 8, q2 132 and 35. `classic` wins none, and 1 of 200 against
 
 @dataclass(frozen=True)
 class HighScoreTable:
-    """A table as it is shown. `heading`: key of its text; `days`: of so many last days; None: of all time."""
+    """A table on display. `heading`: its text key; `days`: restricted to the last days; None: all time."""
 
     heading: str
     table: ScoreTable
@@ -26,18 +26,18 @@ class HighScoreTable:
 
 
 def counts(setup: Setup, seat: int) -> bool:
-    """Whether what a seat does in a match can enter a table."""
+    """True if a seat's results in this match can enter a table."""
     own = setup.seats[seat]
-    opponents = [one.brain for one in setup.seats if one.brain != "off" and one.team != own.team]
+    opponents = [other.brain for other in setup.seats if other.brain != "off" and other.team != own.team]
     return bool(opponents) and all(brain == "human" or brain in STRONG for brain in opponents)
 
 
 def contest(setup: Setup, seat: int | None = None) -> ScoreTable:
     """The conditions of a match for a seat, or for the first person's: a table without a feat."""
-    people = [i for i, one in enumerate(setup.seats) if one.brain == "human"]
+    people = [i for i, other in enumerate(setup.seats) if other.brain == "human"]
     own = setup.seats[seat if seat is not None else people[0] if people else 0]
-    mates = [one for one in setup.seats if one.brain != "off" and one.team == own.team]
-    side = sum(one.brain == "human" for one in mates) if len(mates) > 1 else 0
+    mates = [other for other in setup.seats if other.brain != "off" and other.team == own.team]
+    side = sum(other.brain == "human" for other in mates) if len(mates) > 1 else 0
     length = setup.goal if games()[setup.game].goals else setup.minutes
     return ScoreTable(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
 
@@ -48,7 +48,7 @@ def table_of(contest: ScoreTable, feat: RecordKind) -> ScoreTable:
 
 
 def high_score_tables(contest: ScoreTable) -> list[HighScoreTable]:
-    """The two tables shown side by side: of each feat, or of the only one today's and that of all time."""
+    """The two tables shown side by side: one per feat, or today and all time if there is only one feat."""
     feats = games()[contest.game].record_kinds
     tables = [table_of(contest, feat) for feat in feats]
     if len(feats) > 1:
@@ -57,16 +57,16 @@ def high_score_tables(contest: ScoreTable) -> list[HighScoreTable]:
 
 
 def older_tables(contest: ScoreTable, scores: Scores) -> list[HighScoreTable]:
-    """The tables of all time that have rows, of a contest of version 1.3.0."""
+    """The non-empty all-time tables of a contest from version 1.3.0."""
     tables = [table_of(contest, feat) for feat in games()[contest.game].record_kinds]
     return [HighScoreTable(f"results.best_{table.feat}", table) for table in tables if scores.best(table)]
 
 
 def contests(scores: Scores) -> list[ScoreTable]:
-    """The contests of which something can be shown, by game and arena, older ones last in each arena."""
-    found = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
+    """The contests with displayable rows, by game and arena, older ones last in each arena."""
+    known = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
     names = list(games())
-    return sorted(found, key=lambda one: (names.index(one.game), one.arena != "classic", one.arena, one.older, one))
+    return sorted(known, key=lambda c: (names.index(c.game), c.arena != "classic", c.arena, c.older, c))
 
 
 def format_score(value: int, feat: RecordKind | ScoreTable) -> str:
@@ -75,7 +75,7 @@ def format_score(value: int, feat: RecordKind | ScoreTable) -> str:
 
 
 def clock(seconds: float) -> str:
-    """A time to the hundredth; 0 is none."""
+    """Seconds as minutes and seconds to the hundredth; 0 means no time."""
     if seconds <= 0.0:
         return NONE
     hundredths = round(100 * seconds)
@@ -84,7 +84,7 @@ def clock(seconds: float) -> str:
 
 
 def _is_known(table: ScoreTable) -> bool:
-    """Whether there is such a game, with such a feat and such rules; a file may hold anything."""
+    """True if game, feat and rules exist; the file may contain anything."""
     game = games().get(table.game)
     if not game or not any((feat.name, feat.timed) == (table.feat, table.timed) for feat in game.record_kinds):
         return False

@@ -1,6 +1,6 @@
-"""The page of the best scores: two tables, today's beside that of all time, or of two feats such as lap and race.
+"""High-score page: two tables, either today and all time, or two feats such as lap and race.
 
-Left and right show other rules, lengths and numbers of people in the same arena, up and down another arena or game.
+Left and right change rules, durations and numbers of people in the same arena, up and down the arena or game.
 """
 
 from collections.abc import Sequence
@@ -30,35 +30,35 @@ from pigaming_app.ui.widgets.labels import heading, sign
 
 ROWS = 8
 WHERE_Y, LINE_Y, HEAD_Y, TOP, PITCH = 112, 234, 314, 352, 66  # px
-HIGH = 24 + PITCH * ROWS  # px of a table
-STAY = 12.0  # seconds without a press
-DEAF = 0.4  # seconds in which presses are ignored
-APART, WIPE = 0.05, 0.25  # seconds from row to row, for one row
-ARROW = 20  # px from the middle of an arrow to its tip
-ROOM, WHERE_ROOM = 1360, 800  # px for the conditions, and for game and arena
+HEIGHT = 24 + PITCH * ROWS  # px, height of a table
+STAY = 12.0  # s without input
+DEAF = 0.4  # s during which input is ignored
+APART, WIPE = 0.05, 0.25  # s: delay from row to row, wipe of one row
+ARROW = 20  # px from the centre of an arrow to its tip
+ROOM, WHERE_ROOM = 1360, 800  # px: maximum width of the conditions, and of game and arena
 STEPS = {Button.LEFT: -1, Button.RIGHT: 1, Button.UP: -1, Button.DOWN: 1}
 
 
 class HighScores:
-    """The tables of a contest; if they are empty, of the first one that has rows. `fresh`: rows shown in yellow."""
+    """The tables of a contest, or of the first one with rows if they are empty. `fresh`: new rows, highlighted."""
 
     def __init__(self, context: Context, contest: ScoreTable, fresh: Sequence[Score] = ()) -> None:
         self.context, self.fresh = context, list(fresh)
-        self.shelf = [one for one in contests(context.scores) if one.arena in playable_arenas(one.game)]
+        self.shelf = [table for table in contests(context.scores) if table.arena in playable_arenas(table.game)]
         self._show(nearest(contest, self.shelf))
         self.age = self.idle = 0.0
         self.prompts = context.prompts([(Button.FIRE, "results.on")])
 
     @property
     def game(self) -> str:
-        """The game whose tables are shown."""
+        """The game on display."""
         return self.contest.game
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """Directions and arrows show other tables; any button leads on."""
+        """Directions and arrows select other tables; any button continues."""
         event = self.prompts.as_button(event)
         self.idle = 0.0
         if event.button is Button.CLICK and event.at:
@@ -72,78 +72,78 @@ class HighScores:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Stay a while."""
+        """Continue after a while without input."""
         self.age += seconds
         self.turned += seconds
         self.idle += seconds
         return Pop() if self.idle > STAY else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the tables and what leads on."""
+        """Draw the tables and the prompt."""
         self.paint(screen)
         for button, (x, y) in self.arrows.items():
             sign(button.name.lower(), ARROW, FOCUS, LINE).draw(screen, x, y)
         self.prompts.draw(screen)
 
     def paint(self, screen: pygame.Surface) -> None:
-        """Paint the tables alone; their rows come in one after the other."""
+        """Draw the tables only; their rows are revealed one after the other."""
         words, contest = self.context.words, self.contest
         screen.blit(backdrop(), (0, 0))
         heading(words("results.scores")).draw(screen)
         text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
         text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
-        shown = older_tables(contest, self.context.scores) if contest.older else high_score_tables(contest)
-        for column, board in zip((0, 6) if len(shown) > 1 else (3,), shown, strict=False):
+        tables = older_tables(contest, self.context.scores) if contest.older else high_score_tables(contest)
+        for column, board in zip((0, 6) if len(tables) > 1 else (3,), tables, strict=False):
             self._board(screen, board, *span(column, 6))
 
     # ---- inside
 
     def _step(self, button: Button) -> None:
-        """Show the next table that way, round and round."""
+        """Show the next table in a direction, wrapping around."""
         ring = self._ring(button)
         if len(ring) > 1:
             self._show(ring[(ring.index(self.contest) + STEPS[button]) % len(ring)])
             self.context.sounds.play("move")
 
     def _show(self, contest: ScoreTable) -> None:
-        """Show the tables of a contest, and arrows wherever there are others."""
+        """Show the tables of a contest, with arrows where others exist."""
         self.contest, self.turned = contest, 0.0
-        where = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
+        width = min(WHERE_ROOM, text_width(self._where(), BODY, "body"))
         line = min(ROOM, text_width(conditions(self.context.words, contest), LABEL, "head")) / 2
         self.arrows: dict[Button, tuple[float, float]] = {}
         if len(self._ring(Button.UP)) > 1:
-            self.arrows[Button.UP] = RIGHT - where - 52, WHERE_Y - 24
-            self.arrows[Button.DOWN] = RIGHT - where - 52, WHERE_Y + 24
+            self.arrows[Button.UP] = RIGHT - width - 52, WHERE_Y - 24
+            self.arrows[Button.DOWN] = RIGHT - width - 52, WHERE_Y + 24
         if len(self._ring(Button.LEFT)) > 1:
             self.arrows[Button.LEFT] = 960 - line - 60, LINE_Y
             self.arrows[Button.RIGHT] = 960 + line + 60, LINE_Y
 
     def _ring(self, button: Button) -> list[ScoreTable]:
-        """The contests left and right of the one shown, or above and below: one in each arena."""
+        """Contests reachable by a direction: in the same arena for left and right, one per arena for up and down."""
         here = place_of(self.contest)
         if button in (Button.LEFT, Button.RIGHT):
-            return [one for one in self.shelf if place_of(one) == here]
+            return [table for table in self.shelf if place_of(table) == here]
         firsts: dict[tuple[str, str], ScoreTable] = {}
-        for one in self.shelf:
-            firsts.setdefault(place_of(one), self.contest if place_of(one) == here else one)
+        for table in self.shelf:
+            firsts.setdefault(place_of(table), self.contest if place_of(table) == here else table)
         return list(firsts.values())
 
     def _where(self) -> str:
-        """Game and arena."""
+        """Game and arena titles."""
         words, contest = self.context.words, self.contest
         there = contest.arena in playable_arenas(contest.game)
         arena = arena_title(load_cached(contest.game, contest.arena), words.language) if there else contest.arena
         return f"{words('games.' + contest.game)}  ·  {arena}"
 
     def _board(self, screen: pygame.Surface, board: HighScoreTable, x: int, w: int) -> None:
-        """A table under its heading."""
-        said = self.context.words(board.heading, goal=f"{board.table.length:g}")
-        text(said, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
+        """Draw a table below its heading."""
+        title = self.context.words(board.heading, goal=f"{board.table.length:g}")
+        text(title, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
         frame(w).draw(screen, x, TOP)
         rows = self.context.scores.best(board.table, board.days)[:ROWS]
         if not rows:
             text(self.context.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
-                screen, x + w / 2, TOP + HIGH / 2
+                screen, x + w / 2, TOP + HEIGHT / 2
             )
         for i, row in enumerate(rows):
             share = (self.turned - APART * i) / WIPE
@@ -153,11 +153,11 @@ class HighScores:
     def _row(
         self, screen: pygame.Surface, row: Score, board: HighScoreTable, i: int, x: int, w: int, share: float
     ) -> None:
-        """Place, initials and value, of whose width only `share` is shown."""
+        """Draw place, initials and value, clipped to `share` of the width."""
         y = TOP + 12 + PITCH * i + PITCH / 2
         color = FOCUS if row in self.fresh else ICE if i == 0 else MIST
         before = screen.get_clip()
-        screen.set_clip(pygame.Rect(x, TOP, round(w * share), HIGH))
+        screen.set_clip(pygame.Rect(x, TOP, round(w * share), HEIGHT))
         text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
         text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
         value = self.context.words.decimal(format_score(row.score, board.table))
@@ -168,15 +168,15 @@ class HighScores:
 
 
 def nearest(contest: ScoreTable, shelf: Sequence[ScoreTable]) -> ScoreTable:
-    """The contest itself if it has rows or nothing has; else one of its arena, of its game, or any other."""
-    near = [one for one in shelf if place_of(one) == place_of(contest)] or [
-        one for one in shelf if one.game == contest.game
+    """The contest itself if it has rows or none has, else one of its arena, of its game, or any other."""
+    near = [table for table in shelf if place_of(table) == place_of(contest)] or [
+        table for table in shelf if table.game == contest.game
     ]
     return contest if contest in shelf or not shelf else next(iter(near or shelf))
 
 
 def hit(arrow: tuple[float, float], at: tuple[float, float]) -> bool:
-    """Whether a click at a point means an arrow."""
+    """True if a click at `at` hits an arrow."""
     return abs(at[0] - arrow[0]) <= 48 and abs(at[1] - arrow[1]) <= ARROW + 4
 
 
@@ -186,7 +186,7 @@ def place_of(contest: ScoreTable) -> tuple[str, str]:
 
 
 def conditions(words: Words, contest: ScoreTable) -> str:
-    """The rules, the length and the people of a contest in one line."""
+    """Rules, duration and number of people of a contest in one line."""
     game = games()[contest.game]
     parts = [words("best.older")] if contest.older else []
     if len(game.variants) > 1 and contest.rules:
@@ -204,7 +204,7 @@ def conditions(words: Words, contest: ScoreTable) -> str:
 
 @cached
 def frame(w: int) -> LitImage:
-    """The outline of a table, its upper left at (0, 0)."""
+    """Outline of a table; top left at (0, 0)."""
     return LitImage(
-        GlowCanvas(w + 8, HIGH + 8).to(4, 4).line(cut_box(0, 0, w, HIGH, 20), STEEL, THIN, True).plain(), (-4, -4)
+        GlowCanvas(w + 8, HEIGHT + 8).to(4, 4).line(cut_box(0, 0, w, HEIGHT, 20), STEEL, THIN, True).plain(), (-4, -4)
     )

@@ -1,6 +1,6 @@
-"""Three letters for the tables of the best: everybody who is in the top eight chooses at once, each on the own device.
+"""Initials entry: everyone in the top eight enters three letters at once, each on their own device.
 
-After ten seconds the letters are taken as they are; of somebody who has not chosen any, none.
+After ten seconds the letters are accepted as they are; untouched letters count as none.
 """
 
 import logging
@@ -28,10 +28,10 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, call_to_action, heading, pulse
 from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar
 
-TOP = 8  # places of today's best, and of the best ever, for which letters are asked
-SECONDS = 10.0  # for all players together
-DEAF = 0.5  # seconds in which presses are ignored
-SPANS = {"results.today": 1, "results.ever": None}  # headings, and of how many days
+TOP = 8  # places, today and of all time, that qualify
+SECONDS = 10.0  # time limit for all players together
+DEAF = 0.5  # s during which input is ignored
+SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans in days
 
 _log = logging.getLogger(__name__)
 
@@ -41,9 +41,9 @@ Feats = tuple[tuple[ScoreTable, int], ...]
 
 @dataclass(frozen=True)
 class Claim:
-    """What somebody did that belongs into tables: each table with the value.
+    """Qualifying results of one person: each table with its value.
 
-    `places`: for each of them the places that the value has, with the headings of the spans.
+    `places`: for each table, the places of the value with the headings of the spans.
     """
 
     seat: int
@@ -53,21 +53,21 @@ class Claim:
 
 
 def claims(context: Context, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
-    """What people did that is among the best, those of this very match included. `devices`: who played each seat."""
+    """Qualifying results, ranked together with the other people's of this match. `devices`: driver of each seat."""
     done = achieved(outcome, setup, [seat for seat, device in enumerate(devices) if device])
     out = []
     for seat, feats in done.items():
-        rivals = [feat for other, theirs in done.items() if other != seat for feat in theirs]
-        found = [(feat, places(context, *feat, rivals)) for feat in feats]
-        kept = [(feat, here) for feat, here in found if here]
+        rivals = [feat for rival, feats_of_rival in done.items() if rival != seat for feat in feats_of_rival]
+        ranked = [(feat, places(context, *feat, rivals)) for feat in feats]
+        qualified = [(feat, here) for feat, here in ranked if here]
         device = devices[seat]
-        if kept and device:
-            out.append(Claim(seat, device, tuple(feat for feat, _ in kept), tuple(here for _, here in kept)))
+        if qualified and device:
+            out.append(Claim(seat, device, tuple(feat for feat, _ in qualified), tuple(here for _, here in qualified)))
     return out
 
 
 def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, Feats]:
-    """By seat, what people did above zero in a match that counts for them."""
+    """Results above zero of people for whom the match counts, by seat."""
     feats = games()[setup.game].record_kinds
     done = {}
     for row in outcome.rows:
@@ -81,39 +81,39 @@ def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, 
 def places(
     context: Context, table: ScoreTable, value: int, rivals: Sequence[tuple[ScoreTable, int]]
 ) -> tuple[tuple[str, int], ...]:
-    """The places of a value among today's best and the best ever, by heading, as far as they are in the top eight.
+    """Places of a value in the top eight of today and of all time, with their headings.
 
-    `rivals`: what the other people of the match did; those who did better stand ahead.
+    `rivals`: results of the other people in this match; better ones rank ahead.
     """
     others = [other for there, other in rivals if there == table]
     ahead = sum(other < value if table.timed else other > value for other in others)
-    found = []
+    ranks = []
     for title, days in SPANS.items():
         place = context.scores.place(table, value, days)
         if place and place + ahead <= TOP:
-            found.append((title, place + ahead))
-    return tuple(found)
+            ranks.append((title, place + ahead))
+    return tuple(ranks)
 
 
 class Initials:
-    """Asks everyone in `claims` at once, and shows the tables."""
+    """Entry page for all `claims` at once; then shows the tables."""
 
     def __init__(self, context: Context, setup: Setup, claims: Sequence[Claim]) -> None:
         self.context, self.setup, self.claims = context, setup, sorted(claims, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
-        self.ahead = PrewarmQueue(self._ahead())
+        self.ahead = PrewarmQueue(self._prewarm_jobs())
 
     def warm(self) -> None:
-        """Make one piece of the page, so that it does not come in one long frame."""
+        """Prewarm one widget of the page, to avoid one long frame."""
         self.ahead.work(0.0)
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """Each player's presses change the own letters alone."""
-        device = self._meant(event)
+        """Each player's input changes only their own letters."""
+        device = self._device_of(event)
         if self.age < DEAF or device is None:
             return None
         if sound := self.spellings[device].on(event.button):
@@ -121,14 +121,13 @@ class Initials:
         return self._end() if all(spelling.done for spelling in self.spellings.values()) else None
 
     def update(self, seconds: float) -> Turn:
-        """Let time run out."""
         self.age += seconds
         for spelling in self.spellings.values():
             spelling.update(seconds)
         return self._end() if self.age >= SECONDS else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint a panel for every player, and the time that is left."""
+        """Draw one panel per player and the remaining time."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("results.high_score"), color=FOCUS).draw(screen)
@@ -141,8 +140,8 @@ class Initials:
 
     # ---- inside
 
-    def _meant(self, event: InputEvent) -> Device | None:
-        """Whose letters a press is about; nobody's, if it is of a key that two players on one keyboard share."""
+    def _device_of(self, event: InputEvent) -> Device | None:
+        """The device whose letters an event controls; None for a key shared by two players on one keyboard."""
         if not event.among:
             return event.device if event.device in self.spellings else None
         clusters = [device for device in event.among if device in self.spellings]
@@ -165,7 +164,7 @@ class Initials:
     def _frame(self, claim: Claim, done: bool) -> LitImage:
         return page.frame(claim.seat, self.context.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
 
-    def _ahead(self) -> Iterator[Callable[[], object]]:
+    def _prewarm_jobs(self) -> Iterator[Callable[[], object]]:
         words = self.context.words
         yield partial(heading, words("results.high_score"), color=FOCUS)
         for done in (False, True):
@@ -175,17 +174,17 @@ class Initials:
             yield partial(ready_bar, claim.seat, words("results.done"))
 
     def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
-        """What the panel says about a claim: each feat with its value, and the places that it has."""
+        """Lines of a panel: each feat with its value, and the places it takes."""
         words = self.context.words
         lines = []
-        for (table, value), found in zip(claim.feats, claim.places, strict=True):
-            shown = found if len(claim.feats) == 1 else found[-1:]
+        for (table, value), ranks in zip(claim.feats, claim.places, strict=True):
+            listed = ranks if len(claim.feats) == 1 else ranks[-1:]
             lines.append((words(f"setup.best_{table.feat}"), words.decimal(format_score(value, table))))
-            lines += [(words("results.place", board=words(title), place=place), "") for title, place in shown]
+            lines += [(words("results.place", board=words(title), place=place), "") for title, place in listed]
         return tuple(lines)
 
     def _end(self) -> Turn:
-        """Enter what was chosen, and show the tables; nothing new in them, nothing to show."""
+        """Save the entries and show the tables, if anything is new in them."""
         fresh = list(self._entered())
         if not fresh:
             return Pop()

@@ -1,4 +1,4 @@
-"""The panels on which players choose their letters; a panel is W x H px, its upper left at (0, 0)."""
+"""Panels for entering initials; a panel is W x H px, its top left at (0, 0)."""
 
 import math
 
@@ -33,7 +33,7 @@ from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 
 TOP_Y, FOOT_Y = 226, 916
 PITCH = W + 24
-LETTERS_Y = 416  # the middle of the letters
+LETTERS_Y = 416  # px, centre of the letters
 SLOT_W, SLOT_H, SLOT_GAP = 104, 112, 16
 ARROW_Y = 78  # px from there to the arrows
 LINES_Y, LINE_PITCH = 148, 50
@@ -41,24 +41,24 @@ RING = RIGHT - 56, 110
 
 
 def corners(count: int) -> list[int]:
-    """The left edges of so many panels, side by side in the middle of the page."""
+    """Left edges of `count` panels, centred on the page."""
     left = 960 - (PITCH * count - 24) // 2
     return [left + PITCH * i for i in range(count)]
 
 
 def panel_at(x: int) -> pygame.Rect:
-    """Where a panel is."""
+    """Rectangle of a panel."""
     return pygame.Rect(x, TOP_Y, W, H)
 
 
 @cached
 @resumable
-def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[LitImage]:
-    """A panel without its letters: who is asked, for what; and the boxes in which the letters stand."""
+def frame(seat: int, label: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[LitImage]:
+    """Panel without its letters: player, qualifying results and the letter boxes."""
     layer = Layer(0, 0, W, H)
     panel(layer.glow, 0, 0, W, H, PLAYERS[seat], LINE if done else THIN)
     badge(layer.glow, seat, 72, 76, 36)
-    layer.canvas.text(said, fit_size(said, LABEL, W - 160), 136, 76, ICE)
+    layer.canvas.text(label, fit_size(label, LABEL, W - 160), 136, 76, ICE)
     for i, (name, value) in enumerate(lines):
         y = LINES_Y + LINE_PITCH * i
         room = W - 48
@@ -74,7 +74,7 @@ def frame(seat: int, said: str, lines: tuple[tuple[str, str], ...], done: bool) 
 
 
 def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> None:
-    """The three letters of a player, whose panel begins at x, and the corners round the one that is chosen."""
+    """Draw a player's three letters in the panel at `x`, with corners around the selected one."""
     shake = 10 * math.sin(spelling.shaking * 50) if spelling.refused else 0.0
     xs = [x + slot_x(i) + shake for i in range(3)]
     draw_letters(screen, spelling.picker, xs, TOP_Y + LETTERS_Y, TITLE, 40, PLAYERS[seat], not spelling.done)
@@ -85,20 +85,20 @@ def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> No
 
 
 @cached
-def refused(said: str) -> LitImage:
-    """What stands in the place of the button while refused letters shake."""
+def refused(label: str) -> LitImage:
+    """Text that replaces the button while rejected letters shake."""
     layer = Layer(*BAR)
-    layer.canvas.body(said, MIDDLE, BAR_Y, ALARM, "c", fit_size(said, BODY, W - 48, "body"))
+    layer.canvas.body(label, MIDDLE, BAR_Y, ALARM, "c", fit_size(label, BODY, W - 48, "body"))
     return layer.done()
 
 
 def slot_x(slot: int) -> float:
-    """The middle of a letter, px from the left edge of its panel."""
+    """Centre of a letter, px from the left edge of its panel."""
     return MIDDLE + (slot - 1) * (SLOT_W + SLOT_GAP)
 
 
 def clock(screen: pygame.Surface, left: float, whole: float) -> None:
-    """The seconds that are left, in a ring."""
+    """Draw the remaining seconds in a ring."""
     image, dx, dy = timer_ring(FOCUS, 4 * math.ceil(12 * left / whole), 46, LINE)
     screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=ADD)
     word(str(math.ceil(left)), LABEL, FOCUS, "head").draw(screen, *RING)

@@ -1,4 +1,4 @@
-"""Score over time, as a picture that draws itself from left to right: a line for every robot, or for every team."""
+"""Score over time as a plot revealed from left to right: one line per robot or per team."""
 
 import math
 from collections.abc import Sequence
@@ -11,14 +11,14 @@ from pigaming_app.ui.draw.layers import Layer, LitImage
 
 Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)
 Point = tuple[float, float]
-APART = 4  # px between lines that lie on each other
+APART = 4  # px between coinciding lines
 ROOM = 54  # px between the badges at the ends
-STEPS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)  # between the lines of an axis
+STEPS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)  # candidate tick spacings of an axis
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A line of the plot: whose it is (the first gives the colour) and how the score went."""
+    """One line of the plot: its players (the first sets the colour) and its series."""
 
     players: tuple[int, ...]
     series: tuple[tuple[float, float], ...]
@@ -29,12 +29,12 @@ class Curve:
 
 
 class Plot:
-    """The plot in the area x, y, w, h (px, canvas) of a match that took `seconds`."""
+    """Plot of a match of `seconds` in the area x, y, w, h (canvas px)."""
 
     def __init__(self, x: int, y: int, w: int, h: int, curves: Sequence[Curve], seconds: float) -> None:
         badges = max((len(curve.players) for curve in curves), default=1)
         self.low, self.high, self.step = self.scale([value for curve in curves for _, value in curve.series])
-        left = 20 + max(64.0, *(text_width(said, BODY) for _, said in self.numbers()))
+        left = 20 + max(64.0, *(text_width(label, BODY) for _, label in self.numbers()))
         self.x, self.y, self.w, self.h = round(x + left), y + 8, round(w - left) - 30 - 50 * badges, h - 76
         self.foot = y + h - 20
         self.seconds = max(1.0, seconds)
@@ -42,38 +42,38 @@ class Plot:
         self.box = x, y, w, h
 
     def scale(self, values: Sequence[float]) -> tuple[int, int, int]:
-        """The lowest and the highest number of the axis, and the step between its lines."""
+        """Lower end, upper end and tick spacing of the y axis."""
         return scale(math.floor(min(0, *values, 0)), math.ceil(max(0, *values, 0)))
 
     def to(self, seconds: float, score: float) -> Point:
-        """Where a moment's score lies on the canvas."""
+        """Canvas position of a score at a time."""
         share = (score - self.low) / (self.high - self.low)
         return self.x + self.w * min(1.0, seconds / self.seconds), self.y + self.h * (1.0 - share)
 
     def grid(self) -> LitImage:
-        """Lines and numbers below the curves."""
+        """Grid lines and tick labels, below the curves."""
         layer = Layer(*self.box)
         ink = layer.canvas.crisp
         faint = dim(STEEL, 0.55)
-        for value, said in self.numbers():
+        for value, label in self.numbers():
             a, b = self.to(0, value), self.to(self.seconds, value)
             ink.line([a, b], STEEL if value == 0 else faint, THIN if value == 0 else HAIR)
-            ink.text(said, BODY, self.x - 20, a[1], MIST, "head", "r")
-        for at, said in self.marks():
+            ink.text(label, BODY, self.x - 20, a[1], MIST, "head", "r")
+        for at, label in self.marks():
             ink.line([self.to(at, self.low), self.to(at, self.high)], faint, HAIR)
-            ink.text(said, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
+            ink.text(label, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
         return layer.done()
 
     def numbers(self) -> list[tuple[int, str]]:
-        """What stands beside the axis, and at which height."""
+        """y axis: value and label of each tick."""
         return [(value, str(value).replace("-", "−")) for value in range(self.low, self.high + 1, self.step)]
 
     def marks(self) -> list[tuple[float, str]]:
-        """What stands under the axis, and where."""
+        """x axis: value and label of each tick."""
         return [(second, f"{second // 60}:{second % 60:02}") for second in moments(self.seconds)]
 
     def lines(self) -> LitImage:
-        """The curves alone."""
+        """The curves."""
         layer = Layer(self.x, self.y, self.w, self.h)
         middle = (len(self.curves) - 1) / 2
         for i, curve in reversed(list(enumerate(self.curves))):
@@ -85,11 +85,11 @@ class Plot:
         return layer.done()
 
     def marked(self) -> list[Point]:
-        """What stands out."""
+        """Positions of highlighted points."""
         return []
 
     def ends(self) -> LitImage:
-        """The badges where the curves end, none over another."""
+        """Badges at the ends of the curves, without overlap."""
         x = self.x + self.w
         layer = Layer(x, self.y, 1840 - x, self.h)
         drawn = [curve for curve in self.curves if curve.series]
@@ -100,7 +100,7 @@ class Plot:
         return layer.done()
 
     def heads(self, share: float) -> list[tuple[Point, tuple[int, int, int]]]:
-        """Where each curve has come to when `share` of the time is drawn, with its colour."""
+        """Position and colour of each curve's end when `share` of the time is revealed."""
         now, middle, out = share * self.seconds, (len(self.curves) - 1) / 2, []
         for i, curve in enumerate(self.curves):
             score = next((s for t, s in reversed(curve.series) if t <= now), 0)
@@ -109,7 +109,7 @@ class Plot:
         return out
 
     def corners(self, series: Series) -> list[Point]:
-        """The steps of a curve on the canvas."""
+        """Polyline of a step curve on the canvas."""
         points, score = [self.to(0, 0)], 0.0
         for seconds, after in series:
             points += [self.to(seconds, score), self.to(seconds, after)]
@@ -118,20 +118,20 @@ class Plot:
 
 
 class LapPlot(Plot):
-    """The times of laps: s over the number of the lap, for so many laps."""
+    """Plot of lap times in s over lap numbers."""
 
     def __init__(self, x: int, y: int, w: int, h: int, curves: Sequence[Curve], laps: int) -> None:
         super().__init__(x, y, w, h, curves, laps)
 
     def scale(self, values: Sequence[float]) -> tuple[int, int, int]:
-        """From just below the best lap on: nobody drives one in no time."""
+        """y axis from just below the best lap, instead of from 0."""
         low, high = math.floor(min(values, default=0)), math.ceil(max(values, default=2))
         step = next(step for step in STEPS if math.ceil((high - low) / step) <= 4)
         bottom = low // step * step
         return bottom, max(-(-high // step) * step, bottom + 2 * step), step
 
     def to(self, seconds: float, score: float) -> Point:
-        """Where a lap and its time lie on the canvas: laps stand in the middle of their share of the axis."""
+        """Canvas position of a lap time, centred in the lap's share of the axis."""
         share = (score - self.low) / (self.high - self.low)
         return self.x + self.w * min(1.0, max(0.0, (seconds - 0.5) / self.seconds)), self.y + self.h * (1.0 - share)
 
@@ -145,16 +145,16 @@ class LapPlot(Plot):
         return [(x, y + APART * (i - (len(self.curves) - 1) / 2))]
 
     def marks(self) -> list[tuple[float, str]]:
-        """The numbers of the laps."""
+        """The lap numbers."""
         return [(lap, str(lap)) for lap in range(1, round(self.seconds) + 1)]
 
     def corners(self, series: Series) -> list[Point]:
-        """From lap to lap; a driver's only lap is a short stroke."""
+        """Line from lap to lap; a single lap becomes a short stroke."""
         points = [self.to(lap, time) for lap, time in series]
         return [(points[0][0] - 20, points[0][1]), (points[0][0] + 20, points[0][1])] if len(points) == 1 else points
 
     def heads(self, share: float) -> list[tuple[Point, tuple[int, int, int]]]:
-        """The last lap of each driver that is drawn already."""
+        """The last revealed lap of each driver."""
         now, out = 0.5 + share * self.seconds, []
         for curve in self.curves:
             seen = [(lap, time) for lap, time in curve.series if lap <= now]
@@ -164,20 +164,20 @@ class LapPlot(Plot):
 
 
 def scale(low: int, high: int) -> tuple[int, int, int]:
-    """The lowest and the highest number of an axis that holds both and 0, and the step between its lines."""
+    """Lower end, upper end and tick spacing of an axis that contains `low`, `high` and 0."""
     step = next(step for step in STEPS if math.ceil(high / step) - low // step <= 5)
     bottom, top = low // step * step, -(-high // step) * step
     return bottom, max(top, bottom + 2 * step), step
 
 
 def moments(seconds: float) -> list[int]:
-    """The times under an axis that is `seconds` long: five at most, the last not past the end."""
+    """Tick times of an axis of `seconds`: at most five, none beyond its end."""
     step = next(step for step in (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 36000) if seconds / step <= 5)
     return list(range(0, int(seconds) + 1, step))
 
 
 def spread(wanted: Sequence[float], room: float, bottom: float) -> list[float]:
-    """The positions nearest to the wanted ones that are `room` apart and end at `bottom`; in the same order."""
+    """Positions nearest to the wanted ones, at least `room` apart, not beyond `bottom`, in the same order."""
     order = sorted(range(len(wanted)), key=lambda i: wanted[i])
     places: list[float] = []
     for i in order:
@@ -194,7 +194,7 @@ def spread(wanted: Sequence[float], room: float, bottom: float) -> list[float]:
 
 def team_curve(players: Sequence[int], series: Sequence[Series]) -> Curve:
     """One curve for several robots: the sum of their scores."""
-    changes = sorted((seconds, k, score) for k, one in enumerate(series) for seconds, score in one)
+    changes = sorted((seconds, k, score) for k, steps in enumerate(series) for seconds, score in steps)
     now, out = [0.0] * len(series), []
     for seconds, k, score in changes:
         now[k] = score
@@ -203,5 +203,5 @@ def team_curve(players: Sequence[int], series: Sequence[Series]) -> Curve:
 
 
 def dot(screen: pygame.Surface, at: Point, color: tuple[int, int, int]) -> None:
-    """The bright head of a curve that is still being drawn."""
+    """Draw the bright end of a curve during the reveal."""
     pygame.draw.circle(screen, color, at, 7)

@@ -1,8 +1,8 @@
-"""The results: rows and plot, and one button for a rematch.
+"""Results scene: rows and plot, and one button for a rematch.
 
-The rows come in from the last to the first, then the winner's name. Nothing is heard until that is over, so that nobody
-who is still firing leaves it unseen; B, the turbo, counts even later and has to be held. Everyone who played votes with
-FIRE; START begins at once; a free device holds FIRE to play instead of an AI.
+The rows are revealed from last to first, then the winner's name. Input is ignored until then, so that players who are
+still firing do not skip it; B, the turbo button, is accepted even later and has to be held. Every player votes with
+FIRE; START begins at once; a free device holds FIRE to replace an AI.
 """
 
 from collections.abc import Callable, Collection, Sequence
@@ -23,20 +23,20 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.caption import caption
 
-DEAF = 2.5  # seconds in which presses are ignored
-LATE, LEAVE = 5.0, 0.5  # seconds in which BACK is ignored, and for which it then has to be held
-SAID = 3.0  # seconds for which a sentence stays
-CLAIMS = 2.6  # seconds before initials are asked for
-IDLE = 60.0  # seconds without a press until the title
+DEAF = 2.5  # s during which input is ignored
+LATE, LEAVE = 5.0, 0.5  # s during which BACK is ignored; s it must be held afterwards
+MESSAGE_SECONDS = 3.0  # s, display time of a message
+CLAIMS = 2.6  # s before the initials entry
+IDLE = 60.0  # s without input before the return to the title
 
-After = Callable[[Context, Setup, Sequence[Device | None]], Scene]  # what follows a match, driven with these devices
+After = Callable[[Context, Setup, Sequence[Device | None]], Scene]  # scene that follows a match, for these devices
 
 
 class Results:
-    """How a match ended. `devices`: who drove each seat; `finished`: it was played to its end.
+    """Results of a match. `devices`: driver of each seat; `finished`: played to its end.
 
-    `again`: makes the rematch; `game_choice`: makes the page that offers another game, if any.
-    `helped`: the seats that were not driven by the same person all the time; what they scored is no record.
+    `again`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `helped`: seats that
+    changed drivers during the match; their scores do not count as records.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class Results:
         self.claims = claims(context, outcome, setup, own) if finished else []
         self.initials = Initials(context, setup, self.claims)
         self.sounds = self.page.sounds(humans)
-        self.age = self.idle = self.told = 0.0
+        self.age = self.idle = self.message_left = 0.0
         self.access = Access(context, lambda: self.ballot.devices)
         self.leaving, self.joining = HoldTimers(context.controls, LEAVE), HoldTimers(context.controls, TAKE)
         hints = [
@@ -72,15 +72,15 @@ class Results:
         self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
 
     def warm(self, milliseconds: float) -> bool:
-        """Make the page for so long; true when all of it is there."""
+        """Prewarm the page for at most this many milliseconds; True when complete."""
         return self.page.warm(milliseconds)
 
     def entered(self) -> None:
-        """Shown, or shown again after initials or tables."""
+        """First display, or return from initials or tables."""
         self.idle = 0.0
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE votes, START begins, X leads to another game, BACK, held, to the title."""
+        """FIRE votes, START begins, X opens the game selection, BACK, held, returns to the title."""
         event = self.prompts.as_button(event)
         admitted = self.access.admit(event)
         if admitted is None and event.button is not Button.FIRE:
@@ -108,10 +108,10 @@ class Results:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the page come, ask for initials, count the votes, leave when nobody is there."""
+        """Reveal the page, ask for initials, count the votes, leave when idle."""
         self.age += seconds
         self.idle += seconds
-        self.told -= seconds
+        self.message_left -= seconds
         self.page.update(seconds, self.age)
         while self.sounds and self.sounds[0][0] <= self.age:
             _, name, player = self.sounds.pop(0)
@@ -131,24 +131,23 @@ class Results:
         return Home() if self.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page, the votes and what the buttons do."""
         self.page.draw(screen, self.age)
         if self.age >= self.page.ready_at:
             self.ballot.draw(screen, self.joining.shares.values())
-            if self.told > 0.0:
+            if self.message_left > 0.0:
                 caption(self.context.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
             else:
                 self.prompts.draw(screen)
             if self.leaving.share:
-                filled(screen, self.leaving.share)
+                hold_bar(screen, self.leaving.share)
 
     def _fire(self, event: InputEvent) -> None:
-        """A vote; of a free device a seat, for which FIRE is held where it is an AI's."""
+        """Count a vote; a free device takes a seat, after holding FIRE if it is an AI's."""
         if self.ballot.vote(event.device):
             self.context.sounds.play("ready", None)
         elif event.device not in self.ballot.devices and self.ballot.takeable:
             self.joining.begin(event)
-            self.told = SAID
+            self.message_left = MESSAGE_SECONDS
 
     def _leave(self) -> Turn:
         self.context.sounds.play("back")
@@ -159,6 +158,6 @@ class Results:
         return Swap(self.again(self.context, self.setup, self.ballot.drivers(everyone)))
 
 
-def filled(screen: pygame.Surface, share: float) -> None:
-    """A line at the foot of a page that fills while BACK is held, `share` 0..1."""
+def hold_bar(screen: pygame.Surface, share: float) -> None:
+    """Draw the hold progress of BACK, `share` 0..1, as a line at the bottom of the page."""
     pygame.draw.line(screen, FOCUS, (960 - 400 * share, 1034), (960 + 400 * share, 1034), 6)

@@ -1,17 +1,18 @@
-"""The initials that one player spells: the model, without drawing or sounds."""
+"""Initials of one player. Model only: no drawing, no sound."""
 
 from pigaming_app.storage.scores import LETTERS
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.letter_picker import LetterPicker
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
-SHAKE = 0.5  # seconds for which refused letters shake
+SHAKE = 0.5  # s, shaking of rejected letters
 
 
 class Spelling:
-    """Up and down turn a letter, FIRE goes on and accepts the last one, START accepts all, BACK goes back.
+    """Letter entry: up and down change a letter, FIRE goes on and accepts the last one, START accepts all, BACK goes
+    back.
 
-    FIRE accepts only letters of which one was turned, so that hammering on it does not fill the tables with AAA.
+    FIRE accepts only if at least one letter was changed, so that hammering does not fill the tables with AAA.
     """
 
     def __init__(self) -> None:
@@ -21,28 +22,28 @@ class Spelling:
 
     @property
     def spelled(self) -> str:
-        """The letters as they are now."""
+        """The current letters."""
         return self.picker.spelled
 
     @property
     def taken(self) -> str | None:
-        """The letters that enter the tables when time is up; None: nobody has chosen any."""
+        """The initials to enter at the timeout; None if no letter was chosen."""
         if not (self.done or self.turned):
             return None
         return HARMLESS if is_rude(self.spelled) else self.spelled
 
     @property
     def refused(self) -> bool:
-        """The letters have just been refused."""
+        """True shortly after a rejection."""
         return self.shaking < SHAKE
 
     @property
     def last(self) -> bool:
-        """The last letter is being chosen."""
+        """True if the last letter is selected."""
         return self.picker.slot == len(self.picker.letters) - 1
 
     def on(self, button: Button) -> str | None:
-        """Answer a press of the player; the name of the sound that follows."""
+        """Handle a button; returns the name of the sound to play."""
         match button:
             case Button.BACK | Button.LEAVE_SEAT if self.done:
                 self.done = False
@@ -65,7 +66,6 @@ class Spelling:
         return None
 
     def update(self, seconds: float) -> None:
-        """Let letters roll and shake."""
         self.picker.update(seconds)
         self.shaking += seconds
 

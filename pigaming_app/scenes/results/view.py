@@ -1,4 +1,4 @@
-"""The page of results as pieces of light: title, rows, plot. Each is made once; they come in one after the other."""
+"""Rendering of the results page as cached widgets: title, rows, plot, revealed one after the other."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -42,18 +42,18 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, 
 from pigaming_app.ui.draw.text import fit_size
 
 TOP, ROW, PITCH = 280, 120, 136
-SCORED = ("pitanks",)  # games in which the score itself is a column
-TIMES = ("best", "total")  # columns that are s
-PLACE_X, BADGE_X, AI_X = 68, 172, 236  # px from a row's left edge: the middle of place, badge and sign of an AI
-FIGURES = (226, 828)  # px from a row's left edge: where columns may begin, and where the last one ends
-APART_X = 22  # px between two columns, at least
-SHORT = 218  # px of the line under a title without a winner
-FIRST, APART, WIPE = 0.25, 0.22, 0.3  # seconds: the first row, from row to row, for one row
+SCORED = ("pitanks",)  # games with a score column
+TIMES = ("best", "total")  # columns in s
+PLACE_X, BADGE_X, AI_X = 68, 172, 236  # px from a row's left edge: centres of place, badge and AI icon
+FIGURES = (226, 828)  # px from a row's left edge: left and right limit of the columns
+APART_X = 22  # px, minimum gap between columns
+SHORT = 218  # px, line below a title without a winner
+FIRST, APART, WIPE = 0.25, 0.22, 0.3  # s: delay of the first row, delay from row to row, wipe of one row
 
 
 @dataclass(frozen=True)
 class Part:
-    """A piece of the page and when it comes: it is wiped in from the left within `takes` seconds."""
+    """A widget with its reveal: wiped in from the left over `takes` seconds."""
 
     lit: LitImage
     begins: float
@@ -61,13 +61,13 @@ class Part:
 
 
 class ResultsPage:
-    """Everything of the results but the votes."""
+    """The results page without the votes."""
 
     def __init__(
         self, context: Context, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int] = ()
     ) -> None:
         self.context, self.outcome, self.setup, self.finished = context, outcome, setup, finished
-        self.absent = absent  # seats of people for whom an AI has driven
+        self.absent = absent  # seats of people replaced by an AI
         self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
         game = games()[setup.game]
@@ -78,10 +78,10 @@ class ResultsPage:
         self.parts: list[Part] = []
         self.plot: Plot
         self.finale: Celebration | None = None
-        self._making = self._make()
+        self._rendering = self._render_parts()
 
     def warm(self, milliseconds: float) -> bool:
-        """Make pieces for so long; true when all are there."""
+        """Render widgets for at most this many milliseconds; True when all are ready."""
         if budget.behind:
             return False
         with budget.until(frame_clock() + milliseconds / 1000):
@@ -92,7 +92,7 @@ class ResultsPage:
         return True
 
     def sounds(self, humans: Sequence[int]) -> list[tuple[float, str, int | None]]:
-        """What is heard while the page comes: (seconds, name, player)."""
+        """Sounds of the reveal: (seconds, name, player)."""
         rows = [(FIRST + APART * i, "move", team[0].seat) for i, team in enumerate(reversed(self.teams))]
         if not self.finished:
             return [*rows]
@@ -100,12 +100,12 @@ class ResultsPage:
         return [*rows, (self.title_at, cheer, self.winners[0] if self.winners else None)]
 
     def update(self, seconds: float, age: float) -> None:
-        """Let the celebration go on."""
+        """Advance the celebration."""
         if self.finale and age >= self.title_at:
             self.finale.update(seconds)
 
     def draw(self, screen: pygame.Surface, age: float) -> None:
-        """Paint the page `age` seconds after it was opened."""
+        """Draw the page `age` seconds after it was opened."""
         self._finish()
         screen.blit(backdrop(), (0, 0))
         for part in self.parts:
@@ -132,15 +132,15 @@ class ResultsPage:
                 self.crown.draw(screen, dy=-70 * max(0.0, 1 - (age - self.title_at) / 0.3) ** 2)
                 self.finale.draw(screen)
 
-    # ---- the pieces
+    # ---- widgets
 
     def _finish(self) -> None:
-        """Make what is missing. Raises Unfinished where the budget of the frame is spent."""
-        for _ in self._making:
+        """Render the remaining widgets. Raises Unfinished if the frame budget is exhausted."""
+        for _ in self._rendering:
             budget.pause()
 
-    def _make(self) -> Iterator[bool]:
-        """Make one piece at a time."""
+    def _render_parts(self) -> Iterator[bool]:
+        """Render one widget per step."""
         self.colored = line(self._color(), RIGHT - LEFT if self.winners else SHORT)
         self.steel = line(STEEL, RIGHT - LEFT, THIN)
         yield True
@@ -172,7 +172,7 @@ class ResultsPage:
         return winning_color(self.outcome, self.setup) if self.winners else ICE
 
     def _title(self) -> LitImage:
-        """Who won, in the winner's colour, and its crown."""
+        """Headline in the winner's colour, with a crown."""
         words = self.context.words
         layer = Layer(LEFT, 54, RIGHT - LEFT, 116)
         x = LEFT
@@ -193,19 +193,19 @@ class ResultsPage:
         return layer.done()
 
     def _where(self) -> LitImage:
-        """Game, time, arena."""
+        """Game, duration, arena."""
         words, setup = self.context.words, self.setup
         minutes = match_length(words, games()[setup.game], setup.minutes, setup.goal)
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
-        where = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
-        size = fit_size(where, BODY, 720, "body")
-        self.room = RIGHT - text_width(where, size, "body") - 40  # px, where the title must end
+        line = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
+        size = fit_size(line, BODY, 720, "body")
+        self.room = RIGHT - text_width(line, size, "body") - 40  # px, right limit of the title
         layer = Layer(self.room, 60, RIGHT - self.room, 100)
-        layer.canvas.body(where, RIGHT, 112, MIST, "r", size)
+        layer.canvas.body(line, RIGHT, 112, MIST, "r", size)
         return layer.done()
 
     def _columns(self) -> LitImage:
-        """What the numbers are."""
+        """Column headings."""
         words = self.context.words
         x, w = span(0, 6)
         plot_x, _ = span(6, 6)
@@ -223,7 +223,7 @@ class ResultsPage:
         return layer.done()
 
     def _team(self, rows: Sequence[Row], y: int) -> LitImage:
-        """A panel with the rows of one robot, or of all robots of a team."""
+        """Panel with the row of one robot, or of all robots of a team."""
         x, w = span(0, 6)
         h = PITCH * len(rows) - (PITCH - ROW)
         wins = rows[0].seat in self.winners
@@ -237,7 +237,7 @@ class ResultsPage:
         return layer.done()
 
     def _row(self, layer: Layer, row: Row, x: int, y: float, color: Color) -> None:
-        """One robot: badge, score, what the game counts."""
+        """One robot: badge, score and the statistics of the game."""
         badge(layer.glow, row.seat, x + BADGE_X, y, 38)
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
@@ -252,7 +252,7 @@ class ResultsPage:
                 layer.canvas.crisp.text(text, fit_size(text, LABEL, room), x + right, y, color, "head", "r")
 
     def _ends(self) -> list[float]:
-        """Where each column ends, px from a row's left edge: as wide as what stands in it."""
+        """Right edge of each column, px from a row's left edge, according to its content."""
         words, wanted = self.context.words, []
         for name in self.columns:
             size, face = (SUB, "hero") if name == self.columns[0] else (LABEL, "head")
@@ -261,7 +261,7 @@ class ResultsPage:
         return ends(wanted, *FIGURES, APART_X)
 
     def _records(self) -> LitImage | None:
-        """The best of both tables, in the place of a row that nobody needs; nothing before somebody was."""
+        """Best scores of both tables in the space of a missing row; None if both are empty."""
         scores, setup, words = self.context.scores, self.setup, self.context.words
         tables = [(board, scores.best(board.table, board.days)) for board in high_score_tables(contest(setup))]
         if not any(rows for _, rows in tables):
@@ -280,7 +280,7 @@ class ResultsPage:
         return layer.done()
 
     def _plot(self, x: int, w: int) -> Plot:
-        """How the score went, or the laps."""
+        """Plot of scores or laps."""
         if self.setup.game == "race":
             rows = sorted(self.outcome.rows, key=lambda row: row.seat)
             laps = [Curve((row.seat,), tuple((i + 1.0, lap) for i, lap in enumerate(row.times))) for row in rows]
@@ -297,12 +297,12 @@ class ResultsPage:
         return [team_curve(team, [series[seat] for seat in team]) for team in seats]
 
     def _reach(self, age: float) -> float:
-        """How far the line under the title is coloured, px."""
+        """Coloured length of the line below the title, px."""
         return self.finale.reach if self.finale else SHORT * min(1.0, (age - self.title_at) / WIPE)
 
 
 def ends(wanted: Sequence[float], left: float, right: float, apart: float) -> list[float]:
-    """Where columns end that want to be so wide; what is left over, or missing, is shared among them."""
+    """Right edges of columns with the wanted widths; surplus or missing space is shared equally."""
     room = right - left - apart * (len(wanted) - 1)
     spare = (room - sum(wanted)) / len(wanted)
     widths = [width + spare if spare >= 0.0 else width * room / sum(wanted) for width in wanted]
@@ -310,12 +310,12 @@ def ends(wanted: Sequence[float], left: float, right: float, apart: float) -> li
 
 
 def share_of(lit: LitImage, x: float) -> float:
-    """Which share of a piece of light lies left of x on the canvas."""
+    """Share of a widget that lies left of canvas x."""
     return (x - lit.at[0]) / lit.image.get_width()
 
 
 def line(color: Color, length: float, width: int = LINE) -> LitImage:
-    """The line under a title."""
+    """The line below a title."""
     layer = Layer(LEFT, 170, length, 12)
     layer.glow.line([(LEFT, 176), (LEFT + length, 176)], color, width)
     return layer.done()
@@ -327,7 +327,7 @@ def signed(number: int) -> str:
 
 
 def cell(name: str, row: Row) -> str:
-    """What a row says in a column."""
+    """Text of a row in a column."""
     if name == "score":
         return signed(row.score)
     value = row.stats[name]

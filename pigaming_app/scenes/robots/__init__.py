@@ -1,1 +1,1 @@
-"""Real robots on the screen: their matches, their places, what lights their markers, and what is wrong with them."""
+"""Real robots on the screen: matches, start positions, marker lighting and faults."""

@@ -1,6 +1,6 @@
-"""A page on a mat with robots makes way for them: its blocks move, and shrink where they must, off the lit discs.
+"""Layout that keeps page blocks off the lit discs on a mat with robots: blocks are moved and, if necessary, shrunk.
 
-Discs are light that robots need and stand wherever robots do; text below them could not be read.
+The discs light the robots' markers wherever the robots stand; text below them would be unreadable.
 """
 
 from collections.abc import Sequence
@@ -11,16 +11,16 @@ import pygame
 
 from pigaming_app.ui.draw import ADD, Point
 
-Circle = tuple[float, float, float]  # x, y, radius, px on the canvas
-ROOM = pygame.Rect(40, 190, 1840, 850)  # where blocks may stand: below the heading
+Circle = tuple[float, float, float]  # x, y, radius, canvas px
+ROOM = pygame.Rect(40, 190, 1840, 850)  # area for blocks, below the heading
 SCALES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
-GRID = 20  # px between the places that are tried
-EVERY = 0.5  # s between two looks at where the discs are
+GRID = 20  # px, spacing of candidate positions
+EVERY = 0.5  # s between two layout checks
 
 
 @dataclass(frozen=True)
 class PlacedBlock:
-    """A block of the page: where it is drawn (`home`) and where it is shown."""
+    """A block of the page: its source area on the sheet (`home`) and its placement on the canvas."""
 
     home: pygame.Rect
     at: tuple[int, int]
@@ -28,50 +28,52 @@ class PlacedBlock:
 
     @property
     def box(self) -> pygame.Rect:
-        """The area it takes on the canvas."""
+        """The occupied area on the canvas."""
         return pygame.Rect(*self.at, round(self.home.w * self.scale), round(self.home.h * self.scale))
 
 
 class BlockLayout:
-    """Keeps the blocks of a page off the discs. A block stays where it is until a disc reaches it."""
+    """Keeps the blocks of a page off the discs. A block stays put until a disc reaches it."""
 
     def __init__(self) -> None:
         self.placed: list[PlacedBlock] = []
         self.age = 0.0
 
     def update(self, seconds: float, homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> None:
-        """Let time pass; `homes` are the blocks as the page draws them."""
+        """Re-arrange if necessary. `homes`: the blocks in page coordinates."""
         self.age += seconds
-        if [one.home for one in self.placed] == list(homes) and self.age < EVERY:
+        if [block.home for block in self.placed] == list(homes) and self.age < EVERY:
             return
         self.age = 0.0
         better = arrange(homes, discs)
-        same = [one.home for one in self.placed] == list(homes)
+        same = [block.home for block in self.placed] == list(homes)
         if not same or hit(self.placed, discs) or better[0].scale > self.placed[0].scale or not discs:
             self.placed = better
 
     def draw(self, screen: pygame.Surface, sheet: pygame.Surface) -> None:
-        """Add the blocks, drawn on `sheet` where they are at home, to the screen."""
-        for one in self.placed:
-            block = sheet.subsurface(one.home.clip(sheet.get_rect()))
-            if one.scale < 1.0:
-                block = pygame.transform.smoothscale(block, one.box.size)
-            screen.blit(block, one.at, special_flags=ADD)
+        """Blit the blocks from their home positions on `sheet` to the screen, additively."""
+        for block in self.placed:
+            image = sheet.subsurface(block.home.clip(sheet.get_rect()))
+            if block.scale < 1.0:
+                image = pygame.transform.smoothscale(image, block.box.size)
+            screen.blit(image, block.at, special_flags=ADD)
 
     def back(self, at: Point) -> Point:
-        """What a place on the canvas is on the sheet; a place beside all blocks is nowhere."""
-        for one in self.placed:
-            if one.box.collidepoint(at):
-                return tuple(one.home.topleft[i] + (at[i] - one.at[i]) / one.scale for i in (0, 1))  # type: ignore[return-value]
+        """Canvas to sheet coordinates; a point outside all blocks maps to (-1, -1)."""
+        for block in self.placed:
+            if block.box.collidepoint(at):
+                return tuple(block.home.topleft[i] + (at[i] - block.at[i]) / block.scale for i in (0, 1))  # type: ignore[return-value]
         return -1.0, -1.0
 
 
 def arrange(homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> list[PlacedBlock]:
-    """The blocks off the discs and off each other, as large as possible, near their homes; if nothing fits, there."""
+    """Place the blocks without overlap with discs and each other, as large as possible and near their homes; at home if
+    nothing fits.
+    """
     for scale in SCALES:
         placed: list[PlacedBlock] = []
         for home in homes:
-            at = nearest(home, scale, discs, [one.box for one in placed])
+            at = nearest(home, scale, discs, [block.box for block in placed])
             if at is None:
                 break
             placed.append(PlacedBlock(home, at, scale))
@@ -83,7 +85,7 @@ def arrange(homes: Sequence[pygame.Rect], discs: Sequence[Circle]) -> list[Place
 def nearest(
     home: pygame.Rect, scale: float, discs: Sequence[Circle], taken: Sequence[pygame.Rect]
 ) -> tuple[int, int] | None:
-    """The free place for a block that is nearest to its home; None: there is none."""
+    """Top left of the free position for a block nearest to its home; None if there is none."""
     w, h = round(home.w * scale), round(home.h * scale)
     if w > ROOM.w or h > ROOM.h:
         return None
@@ -106,12 +108,12 @@ def nearest(
 
 
 def hit(placed: Sequence[PlacedBlock], discs: Sequence[Circle]) -> bool:
-    """Whether a disc reaches a block."""
-    return any(near(one.box, disc) for one in placed for disc in discs)
+    """True if a disc reaches a block."""
+    return any(near(block.box, disc) for block in placed for disc in discs)
 
 
 def near(box: pygame.Rect, disc: Circle) -> bool:
-    """Whether a disc reaches a box."""
+    """True if a disc reaches a box."""
     x, y, r = disc
     across, down = max(0.0, box.left - x, x - box.right), max(0.0, box.top - y, y - box.bottom)
     return bool(across * across + down * down <= r * r)

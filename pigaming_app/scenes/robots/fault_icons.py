@@ -1,4 +1,4 @@
-"""Pictures for what can be wrong with real robots: camera, radio, battery, the all-stop, and a robot itself."""
+"""Icons for faults of real robots: camera, radio, battery, stop button, robot."""
 
 import math
 from collections.abc import Callable
@@ -9,7 +9,7 @@ Draw = Callable[[GlowCanvas, float, float, float, Color], None]
 
 
 def sign(ink: GlowCanvas, name: str, x: float, y: float, r: float, color: Color) -> None:
-    """The picture of what a fault is about, `r` px to each side of (x, y)."""
+    """Icon of a fault category, `r` px to each side of (x, y)."""
     SIGNS.get(name, _robot)(ink, x, y, r, color)
 
 
@@ -50,7 +50,7 @@ def _robot(ink: GlowCanvas, x: float, y: float, r: float, color: Color) -> None:
     ink.line([(x - 0.3 * r, y - 0.05 * r), (x, y - 0.4 * r), (x + 0.3 * r, y - 0.05 * r)], color, LINE)
 
 
-def _eye(ink: GlowCanvas, x: float, y: float, r: float, color: Color) -> None:
+def _crossed_eye(ink: GlowCanvas, x: float, y: float, r: float, color: Color) -> None:
     ink.arc(x, y + 0.75 * r, 1.25 * r, -2.5, -0.64, color, LINE).arc(x, y - 0.75 * r, 1.25 * r, 0.64, 2.5, color, LINE)
     ink.ring(x, y, 0.3 * r, color, LINE).line([(x - 0.8 * r, y + 0.8 * r), (x + 0.8 * r, y - 0.8 * r)], color, LINE)
 
@@ -59,9 +59,9 @@ SIGNS: dict[str, Draw] = {
     "camera": _camera,
     "drift": _camera,
     "drifts": _camera,
-    "lost": _eye,
-    "held": _eye,
-    "twice": _eye,
+    "lost": _crossed_eye,
+    "held": _crossed_eye,
+    "twice": _crossed_eye,
     "radio": _radio,
     "silent": _radio,
     "deadman": _radio,

@@ -1,6 +1,7 @@
-"""Something is wrong with a real robot, and the match waits: what it is, in one plain sentence, and what can be done.
+"""Fault page: the match waits while a real robot has a fault; shows the fault in one sentence and the available
+actions.
 
-The page goes by itself as soon as all is well again. Whoever has pressed the all-stop holds FIRE to let go of it.
+The page closes as soon as the fault is gone. The person who pressed the stop button holds FIRE to release it.
 """
 
 import pygame
@@ -21,15 +22,15 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import Caption, caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, overlay
 
-IDLE = 600.0  # seconds without a press until the title
-HOLD = 1.0  # s for which FIRE is held to let go of the all-stop
+IDLE = 600.0  # s without input before the return to the title
+HOLD = 1.0  # s, hold time of FIRE to release the stop
 ICON = X + 150, HEAD + 112
 TEXT_X, ROOM = X + 280, W - 280 - 64
 RING = X + 150, FOOT - 96
 
 
 class FaultPage:
-    """The page over a match that waits for its robots. `stopper`: the device that asked for the all-stop, if any."""
+    """Page over a match that waits for its robots. `stopper`: the device that pressed stop, if any."""
 
     def __init__(self, match: InterruptedMatch, stopper: Device | None = None) -> None:
         self.match, self.context, self.stopper = match, match.context, stopper
@@ -38,25 +39,25 @@ class FaultPage:
         self.held = 0.0
         hints = [(Button.X, "mat.hint_simulate"), (Button.START, "pause.hint_menu")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
-        mending = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]
-        self.mending = self.context.prompts(mending, FOOT - 44, W - 80, voice=lambda: match.access.voice)
+        repair_prompts = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]
+        self.repair_prompts = self.context.prompts(repair_prompts, FOOT - 44, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
-        """Say that something is wrong."""
+        """Play the alert."""
         self.context.sounds.music(False)
         self.context.sounds.play("error")
         self.held, self.picture = 0.0, None
 
     def on(self, event: InputEvent) -> Turn:
-        """X goes on with simulated robots in the place of those concerned; START and BACK open the menu. After a
-        robot did not do as it was told, FIRE pairs robots and radios again, and Y lets it try again.
+        """X replaces the robots concerned with simulated ones; START and BACK open the menu. After disobedience, FIRE
+        starts a new pairing and Y retries.
         """
         admitted = self.match.access.admit(event)
         if admitted is None:
             return None
         event = admitted
         lasting = self.match.plant.safety.lasting
-        event = self.prompts.as_button(self.mending.as_button(event) if lasting else event)
+        event = self.prompts.as_button(self.repair_prompts.as_button(event) if lasting else event)
         if event.button is Button.X:
             self._simulate()
         elif lasting and event.button is Button.FIRE and not self.match.plant.safety.stopped:
@@ -73,29 +74,29 @@ class FaultPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Go on once all is well."""
+        """Close once the fault is gone."""
         self.match.hold(seconds)
         safety = self.match.plant.safety
         if held := self.match.access.update(seconds):
             return Swap(Pause(self.match, held.device))
         controls = self.context.controls
-        firing = safety.stopped and any(controls.drive(device).fire for device in self._releasing())
+        firing = safety.stopped and any(controls.drive(device).fire for device in self._stoppers())
         self.held = self.held + seconds if firing else 0.0
         if self.held >= HOLD:
             safety.release()
         now = [fault for fault in self.match.plant.faults if fault.pauses]
-        if [(one.name, one.robot) for one in now] != [(one.name, one.robot) for one in self.faults]:
+        if [(fault.name, fault.robot) for fault in now] != [(fault.name, fault.robot) for fault in self.faults]:
             self.faults, self.picture = now, None
         if self.context.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page; the discs on top of it, so that the markers stay in sight."""
+        """Draw the page, then the discs on top, so that the markers stay visible."""
         if self.picture is None:
             robot = self.faults[0].robot if self.faults else None
             color = ALARM if robot is None else PLAYERS[robot]
-            fault_caption = tuple((one.name, one.robot) for one in self.faults)
+            fault_caption = tuple((fault.name, fault.robot) for fault in self.faults)
             self.picture = overlay(self.match.picture(), color, self._paint, fault_caption)
         screen.blit(self.picture, (0, 0))
         if self.match.plant.safety.stopped:
@@ -103,19 +104,20 @@ class FaultPage:
             screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
         self.prompts.draw(screen)
         if self.match.plant.safety.lasting:
-            self.mending.draw(screen)
+            self.repair_prompts.draw(screen)
         self.match.shine(screen)
 
     # ---- inside
 
-    def _releasing(self) -> list[Device]:
-        """The devices whose FIRE lets go of the all-stop: those that are seated, and the one that asked for it."""
+    def _stoppers(self) -> list[Device]:
+        """Devices whose FIRE releases the stop: the seated ones and the one that pressed it."""
         players, stopper = self.context.controls.players(), self.stopper
-        asked = [one for one in players if one == stopper or (stopper and one.kind == stopper.kind == "keys")]
-        return [*self.match.access.seated, *asked] or players
+        by_keys = stopper is not None and stopper.kind == "keys"
+        stoppers = [device for device in players if device == stopper or (by_keys and device.kind == "keys")]
+        return [*self.match.access.seated, *stoppers] or players
 
     def _simulate(self) -> None:
-        """Simulated robots in the place of those that something is wrong with."""
+        """Replace the robots with faults by simulated ones."""
         self.match.plant.safety.release()
         for fault in self.faults:
             for seat in [*self.match.real] if fault.robot is None else [fault.robot]:
@@ -123,14 +125,14 @@ class FaultPage:
         self.context.sounds.play("accept")
 
     def _paint(self, layer: Layer) -> None:
-        """The first fault, what camera or radio say themselves, and how many others there are."""
+        """Draw the first fault, the camera's or radio's own message, and the number of other faults."""
         words = self.context.words
         if not self.faults:
             sheet_title(layer, None, words("mat.stand"), ICE)
             return
         first = self.faults[0]
-        about = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
-        sheet_title(layer, first.robot, about, ICE)
+        title = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
+        sheet_title(layer, first.robot, title, ICE)
         sign(layer.glow, first.name, *ICON, 76, ALARM)
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
@@ -140,16 +142,16 @@ class FaultPage:
         cause = cause_of(self.match.plant.rig, first.name)
         if cause:
             y = write_lines(layer, words.sentence(cause), TEXT_X, y + 8, ROOM, MIST)
-        others = [one for one in self.faults[1:] if one.name != first.name or one.robot != first.robot]
+        others = [fault for fault in self.faults[1:] if fault.name != first.name or fault.robot != first.robot]
         if others and y < FOOT - 130:
             write_lines(layer, words("mat.also", other=fault_sentence(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
 
 
 def fault_sentence(fault: Fault, words: Words, button: str) -> str:
-    """A fault in one plain sentence."""
+    """Description of a fault in one sentence."""
     return words(f"faults.{fault.name}", robot=1 if fault.robot is None else fault.robot + 1, button=button)
 
 
 def fault_caption(sentence: str, color: Color) -> Caption:
-    """A sentence on a plate, not wider than the arena."""
+    """A sentence on a plate, at most as wide as the arena."""
     return caption(sentence, color, ICE, fit_size(sentence, BODY, 1480, "body"))

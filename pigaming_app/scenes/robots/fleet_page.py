@@ -1,4 +1,4 @@
-"""The page of the robots: which camera and radio, who is there and how well, who is who, and how late it all is."""
+"""Fleet page: camera and radio selection, robot status, pairing and latency."""
 
 import logging
 from dataclasses import replace
@@ -12,7 +12,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Turn
 from pigaming_app.scenes.robots.avoid_discs import BlockLayout
-from pigaming_app.scenes.robots.fleet_state import FleetState, worst
+from pigaming_app.scenes.robots.fleet_state import FleetState, worst_finding
 from pigaming_app.scenes.robots.flood_light import FloodLight
 from pigaming_app.scenes.robots.marker_discs import MarkerDiscs, tag
 from pigaming_app.sim.world import ROBOTS
@@ -32,20 +32,20 @@ BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "stock")
 EMULATED = ("pair", "latency")
 ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
-WEAK, LOW = 0.7, 4.4  # share of reports, V
-IDLE = 600.0  # seconds without a press until the title
-SAID = 8.0  # seconds for which a sentence stays
-ANEW = 0.8  # seconds after a change until everything is opened anew
-EVERY = 0.4  # seconds between two readings
+WEAK, LOW = 0.7, 4.4  # share of reports, V: below these a robot is marked
+IDLE = 600.0  # s without input before the return to the title
+MESSAGE_SECONDS = 8.0  # s, display time of a message
+REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
+EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
-ROBOTS_H = 486  # px of the frame round the robots
-LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: the sentence about a row
+ROBOTS_H = 486  # px, height of the robots' frame
+LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: description of the focused row
 
 log = logging.getLogger("pigaming")
 
 
 class FleetPage:
-    """The page, where robots may be used."""
+    """Fleet page, shown where robots are available."""
 
     def __init__(self, context: Context) -> None:
         assert context.session is not None
@@ -57,27 +57,27 @@ class FleetPage:
             ROWS if not context.session.emulated else ("radio", *EMULATED) if unfit(context.settings) else EMULATED
         )
         self.focus = Focus(dials.spots(self.names), "pair")
-        self.anew, self.age = 0.0, EVERY
+        self.reopen_in, self.age = 0.0, EVERY
         self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
-        self.lines: list[tuple[str, Color, str, Color]] = []  # of every robot: what is heard, and what is seen
+        self.lines: list[tuple[str, Color, str, Color]] = []  # per robot: radio and vision status
         hints = [
             (Button.RIGHT, "calibrate.hint_change"),
             (Button.FIRE, "robots.hint_ok"),
             (Button.BACK, "robots.hint_back"),
         ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 
     def entered(self) -> None:
-        """Look and listen."""
+        """Open camera and radio."""
         self.check.begin()
 
     def left(self) -> None:
-        """Stop the robots; let go of camera and radio."""
+        """Stop the robots; release camera and radio."""
         self.check.end()
 
     def on(self, event: InputEvent) -> Turn:
-        """Up and down choose, left and right change, FIRE does; while robots move, any press stops them."""
-        event = self.navigation.prompts.as_button(self._on_sheet(event))
+        """Up and down select, left and right change, FIRE runs; while robots move, any input stops them."""
+        event = self.navigation.prompts.as_button(self._to_sheet(event))
         if self.check.busy and event.button not in (Button.POINT, Button.LOST, Button.FOUND):
             self.check.stop()
             self.navigation.say(self.context.words("fleet.stopped"))
@@ -88,26 +88,26 @@ class FleetPage:
         if by := dials.step_of(event, self.focus, self._value(name)):
             self._change(name, by, False)
         elif self.focus.chosen(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
-            self._do(name)
+            self._run(name)
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Read what there is to read."""
+        """Refresh the readings."""
         words = self.context.words
         turn = self.navigation.update(seconds)
         self.age += seconds
-        if self.anew > 0.0:
-            self.anew -= seconds
-            if self.anew <= 0.0:
+        if self.reopen_in > 0.0:
+            self.reopen_in -= seconds
+            if self.reopen_in <= 0.0:
                 self.check.end()
                 self.entered()
         pairing = self.check.pairing is not None
         self.flood.update(seconds, self.check.looking)
         if self.check.update(seconds):
             if pairing:
-                self._found()
+                self._report_pairing()
             else:
-                self.navigation.say(words("fleet.measured" if self.check.late else "fleet.nobody"))
+                self.navigation.say(words("fleet.measured" if self.check.latencies else "fleet.nobody"))
             self.context.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
@@ -116,9 +116,9 @@ class FleetPage:
         return turn
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page in blocks that keep off the discs, and these."""
+        """Draw the page in blocks that avoid the discs, then the discs."""
         words = self.context.words
-        if self.flood.whole:
+        if self.flood.full:
             self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
             return
         screen.blit(backdrop(), (0, 0))
@@ -129,36 +129,36 @@ class FleetPage:
         if self.discs:
             self.discs.draw(screen, EVERYBODY)
 
-    # ---- what is painted
+    # ---- drawing
 
     @property
     def discs(self) -> MarkerDiscs | None:
-        """The light that robots need, once there is a rig."""
+        """Discs for the robots' markers, once a rig is open."""
         return MarkerDiscs(self.check.rig) if self.check.rig is not None else None
 
     def _blocks(self) -> list[pygame.Rect]:
-        """What moves as a whole: rows, robots, the sentence about a row, hints, and what is wrong."""
+        """Blocks of the page: rows, robots, description, prompts and faults."""
         low = self.focus.spots[-1].rect.bottom
         ends = places(self.navigation.prompts.said, self.navigation.prompts.room)
         left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
-        found = [
+        boxes = [
             pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
             pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
             pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
             pygame.Rect(left, self.navigation.prompts.y - 40, right - left, 80),
         ]
-        return [*found, pygame.Rect(150, 866, 1620, 84)] if self._sentence() else found
+        return [*boxes, pygame.Rect(150, 866, 1620, 84)] if self._message() else boxes
 
-    def _sentence(self) -> str:
-        """What is wrong, or was just found."""
-        return self._trouble() or self.navigation.sentence
+    def _message(self) -> str:
+        """Fault, or result of the last action."""
+        return self._fault() or self.navigation.sentence
 
-    def _on_sheet(self, event: InputEvent) -> InputEvent:
-        """A press of the mouse where the block is drawn that it hits."""
+    def _to_sheet(self, event: InputEvent) -> InputEvent:
+        """Map a mouse event from the canvas to the sheet."""
         return replace(event, at=self.aside.back(event.at)) if event.at else event
 
     def _draw_blocks(self, screen: pygame.Surface) -> None:
-        """Everything below the heading."""
+        """Draw everything below the heading on the sheet."""
         words = self.context.words
         screen.fill("black")
         dials.draw(screen, self.context.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
@@ -172,29 +172,29 @@ class FleetPage:
         told = words("fleet.moving", robot=moving + 1) if moving is not None else self._line()
         for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
             line.draw(screen, dials.PANEL.x + 30, LINE_Y + LINE_PITCH * i)
-        sentence = self._sentence()
+        sentence = self._message()
         for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
             line.draw(screen, 960, 896 + 44 * i)
         self.navigation.prompts.draw(screen)
 
-    # ---- what is read
+    # ---- readings
 
     def _line(self) -> str:
-        """A sentence about the row in focus, or why its value is refused for matches."""
+        """Description of the focused row, or the reason why matches reject its value."""
         reason = unfit(self.context.settings) if self.focus.name == "radio" else None
         return self.context.words.sentence(reason) if reason else self.context.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
-        """What the camera does."""
+        """Camera status."""
         words, check = self.context.words, self.check
         if check.rig is None:
             return words.sentence(check.refusal) if check.refusal else words("fleet.no_camera")
         return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
 
-    def _trouble(self) -> str | None:
-        """What camera or radio say is wrong."""
-        told = self.check.session.trouble
-        return self.context.words.sentence(told) if told else None
+    def _fault(self) -> str | None:
+        """Fault message of camera or radio."""
+        message = self.check.session.trouble
+        return self.context.words.sentence(message) if message else None
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.context.words, self.check.health(robot)
@@ -206,7 +206,7 @@ class FleetPage:
         weak = health.battery < LOW or health.share < WEAK
         return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST
 
-    # ---- what the rows are
+    # ---- rows
 
     def _value(self, name: str) -> SettingValue:
         words, settings = self.context.words, self.context.settings
@@ -219,21 +219,21 @@ class FleetPage:
         return SettingValue("arrows", tuple(values.values()), list(values).index(now))
 
     def _choices(self, name: str) -> tuple[dict[object, str], object]:
-        """What can be chosen, by what is kept, and what is now."""
+        """Options of a row, by stored value, and the current value."""
         words, settings = self.context.words, self.context.settings
         if name == "camera":
-            known: dict[object, str] = {one.number: f"{one.number}: {one.name}" for one in cameras()}
+            known: dict[object, str] = {camera.number: f"{camera.number}: {camera.name}" for camera in cameras()}
             return {settings.camera: str(settings.camera), **known}, settings.camera
         if name == "port":
-            there: dict[object, str] = {one.device: one.device for one in ports()}
+            there: dict[object, str] = {port.device: port.device for port in ports()}
             first = words("fleet.first", port=next(iter(there), "-"))
             return {"": first, settings.port or "": settings.port or first, **there}, settings.port
         if name == "baud":
-            return {one: str(one) for one in sorted({*BAUDS, settings.baud})}, settings.baud
-        return {one: words(f"fleet.{one}") for one in RADIOS}, settings.radio
+            return {baud: str(baud) for baud in sorted({*BAUDS, settings.baud})}, settings.baud
+        return {radio: words(f"fleet.{radio}") for radio in RADIOS}, settings.radio
 
-    def _change(self, name: str, by: int, around: bool) -> None:
-        """The next value of a row, or the one before it."""
+    def _change(self, name: str, delta: int, around: bool) -> None:
+        """Step a row's value by `delta`."""
         settings = self.context.settings
         if name in EMULATED:
             return
@@ -242,18 +242,18 @@ class FleetPage:
         else:
             values, now = self._choices(name)
             keys = list(values)
-            at = keys.index(now) + by
+            at = keys.index(now) + delta
             settings.choose(name, keys[at % len(keys) if around else max(0, min(len(keys) - 1, at))])
-            self.anew = ANEW
+            self.reopen_in = REOPEN_DELAY
         self.context.sounds.play("move")
         try:
             settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)
             self.navigation.say(self.context.words("app.unsaved"))
 
-    def _do(self, name: str) -> None:
-        """Begin what the row is for, or take its next value."""
+    def _run(self, name: str) -> None:
+        """Run a row's action, or step its value."""
         if name not in EMULATED:
             self._change(name, 1, True)
             return
@@ -262,15 +262,15 @@ class FleetPage:
         if not begun:
             self.navigation.say(self.context.words("fleet.nobody"))
 
-    def _found(self) -> None:
-        """Say what came of the pairing."""
-        words, told = self.context.words, worst(self.check.findings)
-        if told is None:
+    def _report_pairing(self) -> None:
+        """Report the result of the pairing."""
+        words, finding = self.context.words, worst_finding(self.check.findings)
+        if finding is None:
             self.navigation.say(words("fleet.paired"))
         else:
-            marker = 0 if told.marker is None else told.marker + 1
-            self.navigation.say(words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker))
+            marker = 0 if finding.marker is None else finding.marker + 1
+            self.navigation.say(words(f"fleet.case_{finding.case}", radio=finding.channel + 1, marker=marker))
         try:
             self.context.settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)

@@ -1,4 +1,4 @@
-"""What can be known about the robots of a mat: who is heard and seen, who is who, how late it is. No drawing."""
+"""Fleet state of a mat: radio and vision status, pairing, latency. Model only: no drawing."""
 
 import logging
 from collections.abc import Callable
@@ -15,16 +15,16 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import english
 
-SEEN = 0.5  # s within which a robot has been seen if it is seen
-LOOKS = 3.0  # s for which robots that are heard are looked for before they move, at most
-RATE = 1.0  # s over which pictures are counted
+SEEN = 0.5  # s since the last sighting for which a robot counts as seen
+LOOKS = 3.0  # s, timeout of the search before robots move
+RATE = 1.0  # s, averaging window of the frame rate
 
 log = logging.getLogger("pigaming")
 
 
 @dataclass(frozen=True)
 class RobotStatus:
-    """One robot: V, share of its reports that arrive (0..1), whether it is seen, s of latency if measured."""
+    """Status of one robot: battery in V, share of reports received (0..1), visible, latency in s if measured."""
 
     battery: float | None
     share: float
@@ -34,88 +34,88 @@ class RobotStatus:
 
 @dataclass
 class FleetState:
-    """A look at the robots. `sentence`: why they cannot be used, or what has come of something."""
+    """Live state of the fleet. `sentence`: why robots are unavailable, or the result of an action."""
 
     session: RobotSession
     settings: Settings
     rig: Rig | None = None
     link: Any = None
     refusal: OperatorMessage | None = None
-    rate: float = 0.0  # pictures a second
+    rate: float = 0.0  # frames/s
     findings: list[PairingFinding] = field(default_factory=list)
-    late: dict[int, float | None] = field(default_factory=dict)  # s, by robot; None: it could not be measured
+    latencies: dict[int, float | None] = field(default_factory=dict)  # latency in s, by robot; None: not measurable
     pairing: Pairing | None = None
     shake: LatencyTest | None = None
 
     def __post_init__(self) -> None:
-        self._pace = FixedTimestep()
-        self._todo: list[int] = []  # robots to be shaken
-        self._next_job: Callable[[], bool] | None = None  # what begins once all robots are seen
-        self._looked = 0.0  # s for which they have been looked for
+        self._timestep = FixedTimestep()
+        self._todo: list[int] = []  # robots still to be measured
+        self._next_job: Callable[[], bool] | None = None  # job that starts once all robots are seen
+        self._searched = 0.0  # s spent searching
         self._counted, self._pictures, self._newest = 0.0, 0, 0.0
 
     def begin(self) -> None:
-        """Open everything, or as much as there is."""
+        """Open camera and radio, as far as available."""
         self.refusal = None
         try:
             self.rig = self.session.open()
             self.link = self.rig.link
-        except RobotsUnavailable as trouble:
-            log.warning("%s", english().explained(trouble.message))
-            self.refusal = trouble.message
+        except RobotsUnavailable as error:
+            log.warning("%s", english().explained(error.message))
+            self.refusal = error.message
             self.rig, self.link = None, self.session.listen()
 
     def end(self) -> None:
-        """Stop the robots and let go."""
+        """Stop the robots and release camera and radio."""
         self.stop()
         self.session.close()
         self.rig = self.link = None
 
     @property
     def busy(self) -> bool:
-        """Whether robots are being moved."""
+        """True while robots are being moved."""
         return self.pairing is not None or self.shake is not None or self._next_job is not None
 
     @property
     def looking(self) -> bool:
-        """Whether robots are about to move, or do, and fewer are seen than are heard."""
+        """True while busy with fewer robots visible than reporting."""
         robots = range(ROBOTS)
-        return self.busy and sum(self._seen(one) for one in robots) < sum(self.heard(one) for one in robots)
+        return self.busy and sum(self._seen(robot) for robot in robots) < sum(self.heard(robot) for robot in robots)
 
     @property
     def moving(self) -> int | None:
-        """Which radio's robot is being moved, from 0."""
+        """Index of the radio whose robot is being moved."""
         if self.pairing is not None:
             return self.pairing.spinning
         return self.shake.robot if self.shake else None
 
     def stop(self) -> None:
-        """Stop what moves."""
+        """Stop all motion."""
         self.pairing, self.shake, self._todo, self._next_job = None, None, [], None
         if self.rig is not None:
             self.rig.recorder = None
             self.rig.tell([None] * ROBOTS)
 
     def pair(self) -> bool:
-        """Look for all robots, then spin one after the other; false: none is heard."""
+        """Search for all robots, then spin one after the other; False if none reports."""
         return self._search(self._pair)
 
     def measure(self) -> bool:
-        """Look for all robots, then shake those that are seen, one after the other; false: none is heard."""
+        """Search for all robots, then measure the latency of each one seen; False if none reports."""
         return self._search(self._measure)
 
     def update(self, seconds: float) -> bool:
-        """Let time pass; true at the moment in which something is done."""
+        """Advance; True at the moment a job finishes."""
         seconds = self.session.advance(seconds)
         if self.rig is None:
             return False
         self._count(self.rig, seconds)
-        self._looked += seconds
+        self._searched += seconds
         done = False
-        if self._next_job is not None and (self._looked > LOOKS or not self.looking):
+        if self._next_job is not None and (self._searched > LOOKS or not self.looking):
             begin, self._next_job = self._next_job, None
             done = not begin()
-        for _ in range(self._pace.due(seconds)):
+        for _ in range(self._timestep.due(seconds)):
             if self.pairing is not None:
                 done = self._pair_on(self.rig, self.pairing) or done
             elif self.shake is not None:
@@ -125,14 +125,14 @@ class FleetState:
         return done
 
     def heard(self, robot: int) -> bool:
-        """Whether a robot has said something lately."""
+        """True if a robot has reported recently."""
         return self.link is not None and robot in self.link.telemetry and self.link.quality(robot).share > 0.0
 
     def health(self, robot: int) -> RobotStatus:
-        """How a robot is."""
+        """Status of a robot."""
         report = self.link.telemetry.get(robot) if self.heard(robot) else None
         share = self.link.quality(robot).share if report else 0.0
-        return RobotStatus(report.battery if report else None, share, self._seen(robot), self.late.get(robot))
+        return RobotStatus(report.battery if report else None, share, self._seen(robot), self.latencies.get(robot))
 
     # ---- inside
 
@@ -142,7 +142,7 @@ class FleetState:
     def _search(self, job: Callable[[], bool]) -> bool:
         if self.rig is None or not any(self.heard(robot) for robot in range(ROBOTS)):
             return False
-        self._next_job, self._looked = job, 0.0
+        self._next_job, self._searched = job, 0.0
         return True
 
     def _pair(self) -> bool:
@@ -152,7 +152,7 @@ class FleetState:
 
     def _measure(self) -> bool:
         self._todo = [robot for robot in range(ROBOTS) if self.heard(robot) and self._seen(robot)]
-        self.late = {}
+        self.latencies = {}
         return self._next()
 
     def _count(self, rig: Rig, seconds: float) -> None:
@@ -176,18 +176,18 @@ class FleetState:
     def _shake_on(self, shake: LatencyTest) -> bool:
         if not shake.tick():
             return False
-        found = shake.result()
-        self.late[shake.robot] = found.total if found else None
+        result = shake.result()
+        self.latencies[shake.robot] = result.total if result else None
         return not self._next()
 
     def _next(self) -> bool:
-        """Shake the next robot; false: there is none left."""
+        """Measure the next robot; False if none is left."""
         self.shake = LatencyTest(self.rig, self._todo.pop(0)) if self._todo and self.rig is not None else None
         return self.shake is not None
 
 
-def worst(findings: list[PairingFinding]) -> PairingFinding | None:
-    """What most needs to be said of a pairing: a robot that was not found, then one that was swapped."""
+def worst_finding(findings: list[PairingFinding]) -> PairingFinding | None:
+    """The most important finding of a pairing: a robot not found, then a swapped one."""
     order = (PairingCase.TWICE, PairingCase.SEVERAL, PairingCase.WIRED, PairingCase.NONE, PairingCase.SWAPPED)
-    told = [finding for case in order for finding in findings if finding.case is case]
-    return told[0] if told else None
+    faults = [finding for case in order for finding in findings if finding.case is case]
+    return faults[0] if faults else None

@@ -1,4 +1,4 @@
-"""A match with real robots as the pages above it see it."""
+"""Interface of a match with real robots for the pages above it."""
 
 from collections.abc import Callable, Collection, Sequence
 from typing import Protocol
@@ -11,11 +11,11 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.pause import PausedMatch
 from pigaming_app.ui.input.events import Device
 
-MatchOf = Callable[[Setup, Sequence[Device | None], Collection[int]], Scene]  # with which devices, which seats real
+MatchOf = Callable[[Setup, Sequence[Device | None], Collection[int]], Scene]  # setup, devices, seats with real robots
 
 
 class InterruptedMatch(PausedMatch, Protocol):
-    """A match with real robots that waits."""
+    """A paused match with real robots."""
 
     match: Match
     plant: MixedPlant
@@ -23,10 +23,10 @@ class InterruptedMatch(PausedMatch, Protocol):
 
     @property
     def real(self) -> set[int]:
-        """The seats whose robots are real, or will be once they have taken their places."""
+        """Seats with real robots, including those still driving to their start positions."""
 
     def swap(self, seat: int, real: bool) -> None:
-        """Hand a seat to its simulated or its real robot."""
+        """Hand a seat over to its simulated or its real robot."""
 
-    def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
-        """Which radio drives which robot has been found anew; the robots `well` turned as they should."""
+    def paired(self, channels: Sequence[int], turned: Collection[int]) -> None:
+        """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""

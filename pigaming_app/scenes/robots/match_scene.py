@@ -1,5 +1,5 @@
-"""A match with real robots: they take their places, the match waits for whatever goes wrong with them, and any of them
-can be handed to a simulated one and back.
+"""Match with real robots: they drive to their start positions, the match waits while one has a fault, and each can be
+handed over to a simulated robot and back.
 """
 
 import logging
@@ -30,16 +30,16 @@ from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 
-IDLE = 180.0  # seconds without a press while robots take their places, until the title
-TOLD = ("low", "drifts", "deadman")  # what is only said
+IDLE = 180.0  # s without input while robots take their places, before the return to the title
+REPORTED_ONLY = ("low", "drifts", "deadman")  # faults that are only reported
 
 log = logging.getLogger("pigaming")
 
 
 class RealMatch(MatchScene):
-    """A match in which the robots of the seats `real` are real ones. Raises RobotsUnavailable.
+    """A match with real robots on the seats `real`. Raises RobotsUnavailable.
 
-    `match_of`: makes the rematch.
+    `match_of`: factory of the rematch.
     """
 
     def __init__(
@@ -65,18 +65,17 @@ class RealMatch(MatchScene):
         self.plant = plant
         self.discs = MarkerDiscs(rig)
         self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.voice)
-        self.gone = False  # it has let go of the mat
-        self.waiting = FixedTimestep()  # ticks in which all wait
+        self.released = False  # rig released
+        self.waiting = FixedTimestep()  # clock while the match waits
         self.logged: set[tuple[str, int | None]] = set()
-        self._dressed()
+        self._mark_real()
 
     @property
     def real(self) -> set[int]:
-        """The seats whose robots are real, or will be once they have taken their places."""
+        """Seats with real robots, including those still driving to their start positions."""
         return self.plant.real | self.plant.arriving
 
     def entered(self) -> None:
-        """Begin, or go on after an interruption."""
         if self.gathering is None:
             super().entered()
         else:
@@ -84,14 +83,14 @@ class RealMatch(MatchScene):
             self.begun = True
 
     def left(self) -> None:
-        """Stop the robots; let go of camera and radio, unless the next match has them already."""
-        if not self.gone:
-            self.gone = True
+        """Stop the robots; release camera and radio, unless the next match already uses them."""
+        if not self.released:
+            self.released = True
             self.session.close()
 
     def on(self, event: InputEvent) -> Turn:
-        """As in every match. STOP stops all robots. While places are taken, START begins as they stand, X
-        lets simulated robots begin where real ones are missing, and BACK leaves.
+        """As in every match; STOP stops all robots. While robots take their places, START begins from the current
+        positions, X replaces missing robots with simulated ones, BACK leaves.
         """
         if event.button is Button.STOP and not self.match.over:
             self.plant.safety.all_stop()
@@ -116,78 +115,78 @@ class RealMatch(MatchScene):
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the match run on, unless something is wrong with a robot in it."""
+        """Advance the match, unless a robot in it has a fault."""
         if self.repeated or self.stopped:
             return super().update(seconds)
         seconds = self.session.advance(seconds)
         if self.gathering is not None:
-            return self._gather(self.gathering, seconds)
+            return self._take_places(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
             return Push(FaultPage(self))
         if self.count.locked or self.match.over:
-            self._rest(seconds)
+            self._stand_still(seconds)
         turn = super().update(seconds)
-        self._tell()
+        self._report_faults()
         return turn
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The match or the places; the discs last of all."""
+        """Draw the match or the start positions; the discs last."""
         if self.gathering is None:
             super().draw(screen)
         else:
             self.gathering.draw(screen)
-            if self.gathering.flood.whole:
+            if self.gathering.flood.full:
                 draw_corners(screen)
                 return
         self.shine(screen)
 
-    # ---- what the pages above it may do
+    # ---- interface for the pages above
 
     @property
     def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
-        """Which robots are real can be changed in a pause."""
+        """Adds the robot swap page to the pause menu."""
         return {"robots": lambda access: SwapPage(self, access)}
 
     @property
     def stuck(self) -> bool:
-        """Whether something is wrong with a robot."""
+        """True if a robot has a fault."""
         return self.plant.safety.pauses
 
     def hold(self, seconds: float) -> None:
-        """Let time pass under a page: all robots stand, and faults come and go."""
-        self._rest(self.session.advance(seconds))
+        """Advance below a page: all robots stand still, faults are updated."""
+        self._stand_still(self.session.advance(seconds))
 
     def shine(self, screen: pygame.Surface) -> None:
-        """The corner markers and the discs, over everything."""
+        """Draw the corner markers and the discs on top of everything."""
         if self.real:
             draw_corners(screen)
         self.discs.draw(screen, self.real)
 
-    def paired(self, channels: Sequence[int], well: Collection[int]) -> None:
-        """Which radio drives which robot has been found anew; the robots `well` turned as they should."""
+    def paired(self, channels: Sequence[int], turned: Collection[int]) -> None:
+        """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""
         self.plant.rig.channels = channels
         self.context.settings.radios = [channel + 1 for channel in channels]
-        for robot in well:
+        for robot in turned:
             self.plant.forgive(robot)
 
     def swap(self, seat: int, real: bool) -> None:
-        """Hand a seat to its simulated or its real robot; that one takes its place first."""
+        """Hand a seat over to its simulated or its real robot, which first drives to its position."""
         if real == (seat in self.real):
             return
         self.plant.swap(seat, real)
         if self.plant.arriving:
             self.gathering = TakePlaces(self.context, self.plant, lambda: self.access.voice)
-        self._dressed()
+        self._mark_real()
 
     def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
-        """The same match with other luck and the same robots."""
+        """A rematch with a new seed and the same robots."""
         self.left()
         return self.match_of(rematch_setup(setup, devices), devices, self.real)
 
     # ---- inside
 
-    def _gather(self, gathering: TakePlaces, seconds: float) -> Turn:
-        """Drive the robots to their places."""
+    def _take_places(self, gathering: TakePlaces, seconds: float) -> Turn:
+        """Drive the robots to their start positions."""
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
         if self.access.update(seconds):
@@ -200,48 +199,48 @@ class RealMatch(MatchScene):
             if self.plant.take_places():
                 self._begin()
                 break
-        self._tell()
+        self._report_faults()
         if self.plant.safety.stopped or self.plant.safety.lasting:
             return Push(FaultPage(self))
         return Home() if self.context.idle > IDLE else None
 
     def _missing(self) -> list[int]:
-        """The robots that will not get to their places by themselves."""
+        """Robots that cannot reach their start positions on their own."""
         troubled = {fault.robot for fault in self.plant.faults if fault.pauses}
         late = [place for place in self.plant.places if not place.there]
         return [place.robot for place in late if not place.moving or {None, place.robot} & troubled]
 
     def _begin(self) -> None:
-        """All are where they begin, or may begin where they are."""
+        """Start the match from the robots' current positions."""
         self.gathering = None
         self.count = Countdown(lead=LEAD)
         self.idle = 0.0
         self.context.sounds.play("ready", 0)
-        self._dressed()
+        self._mark_real()
 
-    def _rest(self, seconds: float) -> None:
-        """All robots stand."""
+    def _stand_still(self, seconds: float) -> None:
+        """Keep all robots still."""
         for _ in range(self.waiting.due(seconds)):
             self.plant.watch()
-        self._tell()
+        self._report_faults()
 
-    def _dressed(self) -> None:
-        """The view and the tracker know which robots are real."""
+    def _mark_real(self) -> None:
+        """Update view and tracker with the set of real robots."""
         self.runner.view.real = frozenset(self.real)
         self.plant.rig.tracker.expected = self.real
 
-    def _tell(self) -> None:
-        """Write what is newly wrong into the log; what is only said, over the match."""
-        now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._worth(fault)}
+    def _report_faults(self) -> None:
+        """Log new faults; show the minor ones over the match."""
+        now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._reportable(fault)}
         for key in now.keys() - self.logged:
             cause = cause_of(self.plant.rig, now[key].name)
-            told = [fault_sentence(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
-            log.warning("%s", " ".join(told))
-            if now[key].name in TOLD:
-                said = fault_sentence(now[key], self.context.words, "")
-                self.notice, self.noticed = caption(said, ALARM, player=now[key].robot), 2 * NOTICE
+            sentences = [fault_sentence(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
+            log.warning("%s", " ".join(sentences))
+            if now[key].name in REPORTED_ONLY:
+                sentence = fault_sentence(now[key], self.context.words, "")
+                self.notice, self.noticed = caption(sentence, ALARM, player=now[key].robot), 2 * NOTICE
         self.logged = set(now)
 
-    def _worth(self, fault: Fault) -> bool:
-        """A robot that is hard to see for a moment is not worth a line."""
-        return fault.does is not Response.HALF and (fault.pauses or fault.name in TOLD)
+    def _reportable(self, fault: Fault) -> bool:
+        """False for a robot that is only briefly hard to see."""
+        return fault.does is not Response.HALF and (fault.pauses or fault.name in REPORTED_ONLY)

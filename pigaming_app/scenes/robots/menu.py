@@ -1,4 +1,4 @@
-"""Everything that robots on a mat need, for the operator: camera, corners, markers."""
+"""Operator menu for robots on a mat: camera, corners, markers."""
 
 import logging
 
@@ -23,8 +23,8 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("robots", "calibrate", "check", "pin", "sheet")
 SHEET = "markers.pdf"
-SAID = 8.0  # seconds for which a sentence stays
-IDLE = 300.0  # seconds without a press until the title
+MESSAGE_SECONDS = 8.0  # s, display time of a message
+IDLE = 300.0  # s without input before the return to the title
 
 log = logging.getLogger("pigaming")
 
@@ -36,31 +36,29 @@ class RobotsMenu:
         self.context = context
         self.focus = Focus(dials.spots(ROWS))
         hints = [(Button.FIRE, "robots.hint_ok"), (Button.BACK, "robots.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 
     def entered(self) -> None:
-        """Shown, or come back to."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """Up and down choose, FIRE opens."""
+        """Up and down select, FIRE opens."""
         event = self.navigation.prompts.as_button(event)
         if turn := self.navigation.on(event):
             return turn
         chosen = self.focus.chosen(event)
-        return self._do(chosen) if chosen else None
+        return self._run(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
-        """Let a sentence fade; leave when nobody is there."""
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words, name = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("robots.title")).draw(screen)
         black_out(screen, dials.PANEL)
         values = {
-            one: SettingValue("deed", (words("robots.write" if one == "sheet" else "robots.open"),)) for one in ROWS
+            row: SettingValue("deed", (words("robots.write" if row == "sheet" else "robots.open"),)) for row in ROWS
         }
         dials.draw(screen, self.context.words, self.focus, "robots", values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
@@ -71,7 +69,7 @@ class RobotsMenu:
                 line.draw(screen, 960, 900 + 44 * i)
         self.navigation.prompts.draw(screen)
 
-    def _do(self, name: str) -> Turn:
+    def _run(self, name: str) -> Turn:
         from pigaming_app.scenes.calibration.corner_pin_page import CornerPinPage
         from pigaming_app.scenes.calibration.drift_page import DriftPage
         from pigaming_app.scenes.calibration.setup_page import CalibrationPage
@@ -92,7 +90,7 @@ class RobotsMenu:
         return None
 
     def _write(self) -> None:
-        """Write the page with the markers where the user's files are, and say where."""
+        """Save the marker sheet to the user's folder, and show its path."""
         from pigaming_app.hardware.calibration.marker_sheet import sheet
 
         path, words = folders().data / SHEET, self.context.words
@@ -102,14 +100,14 @@ class RobotsMenu:
         except OpenCVMissing as missing:
             log.warning("%s", english().explained(missing.message))
             self.navigation.say(words.sentence(missing.message))
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)
             self.navigation.say(words("app.unsaved"))
 
 
 @cached
 def sketch(name: str) -> LitImage:
-    """The picture of a row, round (0, 0)."""
+    """Icon of a row, centred on (0, 0)."""
     ink = GlowCanvas(480, 340).to(240, 170)
     if name == "robots":
         for x, y, player in ((-120, -70, 0), (120, -70, 1), (-120, 80, 2), (120, 80, 3)):

@@ -1,7 +1,7 @@
-"""Pairing in the middle of a match: every robot spins in turn, so that it is known which radio drives which marker.
+"""Pairing during a match: every robot spins in turn, to identify which radio drives which marker.
 
-What was found is applied at once. If a robot did not spin as it should, the page says so and waits; else it closes, and
-the match goes on.
+The result is applied at once. If a robot did not spin as commanded, the page reports it and waits; otherwise it closes
+and the match resumes.
 """
 
 import pygame
@@ -10,7 +10,7 @@ from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.stack import Pop, Turn
 from pigaming_app.scenes.flow.timestep import FixedTimestep
-from pigaming_app.scenes.robots.fleet_state import worst
+from pigaming_app.scenes.robots.fleet_state import worst_finding
 from pigaming_app.scenes.robots.flood_light import UNSEEN, FloodLight, looking
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.sim.world import ROBOTS
@@ -18,19 +18,19 @@ from pigaming_app.ui.draw import ALARM, BODY, ICE
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 
-LOOKS = 3.0  # s for which all robots are looked for before the first spins, at most
+LOOKS = 3.0  # s, timeout of the search before the first spin
 GOOD = (PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT)
 TITLE_Y, PROMPTS_Y, SAID_Y = 42, 102, 480  # px
 
 
 class PairAgain:
-    """The page, over a match whose robots stand."""
+    """Pairing page over a match whose robots stand still."""
 
     def __init__(self, match: InterruptedMatch) -> None:
         self.match, self.context = match, match.context
         self.flood, self.timestep = FloodLight(), FixedTimestep()
         self.pairing: Pairing | None = None
-        self.sentence = ""  # what is wrong, once all have spun
+        self.sentence = ""  # fault, once all have spun
         self.clock = 0.0
         self.stop = self.context.prompts([(Button.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
         self.after = self.context.prompts(
@@ -38,10 +38,10 @@ class PairAgain:
         )
 
     def entered(self) -> None:
-        """Nothing moves yet."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE begins anew once all have spun; before, as BACK, START and STOP at any time, it stops the robots."""
+        """FIRE repeats a finished pairing and aborts a running one; BACK, START and STOP abort at any time."""
         event = (self.after if self.sentence else self.stop).as_button(event)
         if event.button is Button.FIRE and self.sentence:
             self.pairing, self.sentence, self.clock = None, "", 0.0
@@ -54,7 +54,7 @@ class PairAgain:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Look for all robots, then let one after the other spin."""
+        """Search for all robots, then spin one after the other."""
         seconds = self.match.session.advance(seconds)
         self.clock += seconds
         self.flood.update(seconds, bool(self.missing) and not self.sentence)
@@ -62,15 +62,15 @@ class PairAgain:
             if self.pairing is None:
                 self.match.plant.watch()
             elif not self.sentence and self.pairing.tick():
-                return self._found(self.pairing)
+                return self._apply(self.pairing)
         if self.pairing is None and (self.clock > LOOKS or not self.missing):
             self.pairing = Pairing(self.match.plant.rig)
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """A dark page with the discs, or grey light while a robot is not seen."""
+        """Draw the discs on a dark page, or the floodlight while a robot is missing."""
         words = self.context.words
-        if self.flood.whole:
+        if self.flood.full:
             self.flood.draw(screen, looking(words, self.missing), words("mat.pairing"))
             draw_corners(screen)
             return
@@ -84,19 +84,19 @@ class PairAgain:
 
     @property
     def missing(self) -> list[int]:
-        """The robots of the match that are not seen."""
+        """Robots of the match that are not visible."""
         seen = self.match.plant.rig.sense()
         return [robot for robot in sorted(self.match.real) if seen[robot].age > UNSEEN]
 
-    def _found(self, pairing: Pairing) -> Turn:
-        """Use what was found; close if all is well."""
-        well = [one.marker for one in pairing.findings if one.case in GOOD and one.marker is not None]
-        self.match.paired(pairing.channels, well)
-        told = worst([one for one in pairing.findings if one.case not in GOOD])
-        if told is None:
+    def _apply(self, pairing: Pairing) -> Turn:
+        """Apply the result; close if there is no fault."""
+        turned = [finding.marker for finding in pairing.findings if finding.case in GOOD and finding.marker is not None]
+        self.match.paired(pairing.channels, turned)
+        fault = worst_finding([finding for finding in pairing.findings if finding.case not in GOOD])
+        if fault is None:
             self.context.sounds.play("accept")
             return Pop()
-        marker = 0 if told.marker is None else told.marker + 1
-        self.sentence = self.context.words(f"fleet.case_{told.case}", radio=told.channel + 1, marker=marker)
+        marker = 0 if fault.marker is None else fault.marker + 1
+        self.sentence = self.context.words(f"fleet.case_{fault.case}", radio=fault.channel + 1, marker=marker)
         self.context.sounds.play("error")
         return None

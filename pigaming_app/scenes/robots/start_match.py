@@ -1,4 +1,4 @@
-"""How a match begins: with simulated robots, with real ones, or with a page that tells why there are no real ones."""
+"""Match factory: simulated robots, real robots, or a page with the reason why real ones are unavailable."""
 
 import logging
 from collections.abc import Collection, Sequence
@@ -24,7 +24,7 @@ def match_of(
     speed: float = 1.0,
     game_choice: After | None = None,
 ) -> Scene:
-    """The match, or the page that says why the robots of the seats `real` cannot be real.
+    """The match, or the page with the reason why the robots of the seats `real` are unavailable.
 
     `speed`: times real time, for a match without real robots. `game_choice`: see `Results`.
     """
@@ -37,6 +37,6 @@ def match_of(
     again = partial(match_of, context, game_choice=game_choice)
     try:
         return RealMatch(context, setup, devices, real, context.session, again, game_choice)
-    except RobotsUnavailable as trouble:
-        log.warning("%s", english().explained(trouble.message))
-        return UnavailablePage(context, setup, devices, real, trouble.message, again)
+    except RobotsUnavailable as error:
+        log.warning("%s", english().explained(error.message))
+        return UnavailablePage(context, setup, devices, real, error.message, again)

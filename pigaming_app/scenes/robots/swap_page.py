@@ -1,4 +1,4 @@
-"""Which robots of a running match are real: each can be handed to a simulated one, and back."""
+"""Swap page: hand each robot of a running match over to a simulated one, and back."""
 
 import pygame
 
@@ -15,7 +15,7 @@ from pigaming_app.ui.widgets.focus import Focus
 
 
 class SwapPage:
-    """The page; what is chosen is done when it is left. `access`: whose presses count."""
+    """The page; the selection takes effect on leaving. `access`: devices that may operate it."""
 
     def __init__(self, match: InterruptedMatch, access: Access) -> None:
         self.match, self.context, self.access = match, match.context, access
@@ -27,10 +27,10 @@ class SwapPage:
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
 
     def entered(self) -> None:
-        """Nothing has been chosen yet."""
+        """Nothing to do."""
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE, LEFT and RIGHT change the robot in focus; BACK and START do what was chosen."""
+        """FIRE, LEFT and RIGHT toggle the focused robot; BACK and START apply."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
             return None
@@ -49,23 +49,22 @@ class SwapPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """All robots stand meanwhile."""
+        """Keep all robots still."""
         self.match.hold(seconds)
         self.access.update(seconds)
         self.focus.update(seconds)
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page, painted once, and what is chosen."""
         if self.picture is None:
             self.picture = overlay(self.match.picture(), ICE, self._paint)
         screen.blit(self.picture, (0, 0))
         self.focus.draw(screen)
         for spot in self.focus.spots:
-            said = self.context.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
+            label = self.context.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
             color = FOCUS if spot.name == self.focus.name else MIST
-            size = fit_size(said, LABEL, spot.rect.w - 150)
-            word(said, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
+            size = fit_size(label, LABEL, spot.rect.w - 150)
+            word(label, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
         self.prompts.draw(screen)
         self.match.shine(screen)
 

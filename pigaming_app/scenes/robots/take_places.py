@@ -1,6 +1,6 @@
-"""Take your places: where real robots shall stand, how they get there, and what has to be done by hand.
+"""Start positions of real robots: targets, driving progress and instructions for manual help.
 
-Until every robot has been seen the mat is lit evenly; then it is dark but for outlines, arrows and discs.
+The mat is lit evenly until every robot has been seen; then it is dark except for outlines, arrows and discs.
 """
 
 import math
@@ -42,18 +42,18 @@ from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.labels import blit_sprite
 
-UNSEEN = 1e6  # px: so far away is a robot that nobody sees
-DASH, MARCH = 40.0, 60.0  # px from one dash of an arrow to the next, px/s
+UNSEEN = 1e6  # px, distance of an unseen robot
+DASH, MARCH = 40.0, 60.0  # px between dashes, px/s
 TITLE_Y, HINTS_Y = 42, 102  # px
-BESIDE = 150  # px from an outline to what is said about it
-CARRIED = ("lost", "held", "outside")  # what happens to robots that are carried to their places
-MISSING = 1.5  # s until it is said that a robot is not seen
+BESIDE = 150  # px from an outline to its caption
+CARRIED = ("lost", "held", "outside")  # faults that are normal while robots are carried to their places
+MISSING = 1.5  # s before a missing robot is reported
 
 
 class TakePlaces:
-    """What is shown while the robots of a plant take their places."""
+    """Display while the robots of a plant drive to their start positions."""
 
-    DEAF = 0.6  # s in which nobody can begin: the press that led here may be hammered
+    DEAF = 0.6  # s during which a start is ignored, because the previous press may be hammered
 
     def __init__(self, context: Context, plant: MixedPlant, voice: Callable[[], Device]) -> None:
         self.context, self.plant = context, plant
@@ -65,21 +65,20 @@ class TakePlaces:
         )  # fmt: skip
 
     def update(self, seconds: float) -> None:
-        """Let the arrows march, or look for robots."""
         self.clock += seconds
         self.flood.update(seconds, bool(self.missing))
 
     @property
     def missing(self) -> list[int]:
-        """The robots that must take part and are not seen."""
+        """Participating robots that are not visible."""
         seen = self.plant.rig.sense()
         return [robot for robot in sorted(self.plant.real | self.plant.arriving) if seen[robot].age > UNSEEN_AFTER]
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint outlines, ways and what has to be done; the discs come on top of it."""
+        """Draw outlines, paths and captions; the discs are drawn on top by the caller."""
         words, places = self.context.words, self.plant.places
-        if self.flood.whole:
-            hints = "   ·   ".join(f"{label}: {said}" for label, said in self.prompts.said)
+        if self.flood.full:
+            hints = "   ·   ".join(f"{label}: {action}" for label, action in self.prompts.said)
             faults = [fault_sentence(fault, words, "") for fault in self._faults()]
             self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
             return
@@ -89,14 +88,14 @@ class TakePlaces:
         for place in places:
             self._outline(screen, place)
             if not place.there and place.distance < UNSEEN:
-                self._way(screen, place, (LEFT + seen[place.robot].x, TOP + seen[place.robot].y))
+                self._draw_path(screen, place, (LEFT + seen[place.robot].x, TOP + seen[place.robot].y))
         for place in places:
-            self._said(screen, place)
+            self._caption(screen, place)
         there = sum(place.there for place in places)
         text(words("mat.places"), LABEL, ICE, "head", "l", 900).draw(screen, 176, TITLE_Y)
         if places:
-            told = words("mat.there", there=there, all=len(places))
-            text(told, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
+            progress = words("mat.there", there=there, all=len(places))
+            text(progress, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
         self.prompts.draw(screen)
         text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         for i, fault in enumerate(self._faults()[:2]):
@@ -106,7 +105,7 @@ class TakePlaces:
         self.flood.draw(screen, "")
 
     def _faults(self) -> list[Fault]:
-        """What is wrong, but for what happens to robots that are carried to their places."""
+        """Current faults, except those that are normal while robots are carried."""
         return [fault for fault in self.plant.faults if fault.pauses and fault.name not in CARRIED]
 
     def _outline(self, screen: pygame.Surface, place: HomingProgress) -> None:
@@ -118,8 +117,8 @@ class TakePlaces:
         if place.distance > 2 * MOAT:
             blit_sprite(screen, tag(color), LEFT + x, TOP + y)
 
-    def _way(self, screen: pygame.Surface, place: HomingProgress, at: tuple[float, float]) -> None:
-        """Dashes that march from a robot to its place."""
+    def _draw_path(self, screen: pygame.Surface, place: HomingProgress, at: tuple[float, float]) -> None:
+        """Draw moving dashes from a robot to its place."""
         goal = LEFT + place.pose[0], TOP + place.pose[1]
         turn = math.atan2(goal[1] - at[1], goal[0] - at[0])
         along, end = RING + 20.0 + self.clock * MARCH % DASH, math.dist(at, goal) - RING - 16.0
@@ -132,8 +131,8 @@ class TakePlaces:
             )
             along += DASH
 
-    def _said(self, screen: pygame.Surface, place: HomingProgress) -> None:
-        """What has to be done with a robot that does not get there by itself."""
+    def _caption(self, screen: pygame.Surface, place: HomingProgress) -> None:
+        """Caption with the manual action for a robot that cannot drive there itself."""
         words, robot = self.context.words, place.robot
         if place.there or place.moving or self.clock < MISSING:
             return
@@ -147,7 +146,7 @@ class TakePlaces:
 
 @cached
 def frame() -> LitImage:
-    """The rim of the arena, dim."""
+    """Outline of the arena, dim."""
     layer = Layer(LEFT, TOP, WIDTH, HEIGHT)
     layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
     return layer.done()
@@ -155,7 +154,7 @@ def frame() -> LitImage:
 
 @cached
 def outline(player: int, there: bool) -> LitImage:
-    """Where a robot shall stand, round (0, 0): dashed, and whole once it is there."""
+    """Target outline, centred on (0, 0): dashed, solid once the robot is there."""
     half = RING + 24
     ink = GlowCanvas(2 * half, 2 * half).to(half, half)
     if there:
@@ -168,7 +167,7 @@ def outline(player: int, there: bool) -> LitImage:
 
 @cached
 def dash(player: int, turn: int, moving: bool) -> Sprite:
-    """A tip of an arrow at heading `turn` of HEADINGS."""
+    """Arrowhead at heading `turn` of HEADINGS."""
     return turned(painted(_dash, (player, moving)), turn, HEADINGS)
 
 

@@ -1,4 +1,4 @@
-"""Why a match cannot have real robots, in one sentence; try again, or play with simulated ones."""
+"""Reason page when a match cannot have real robots: retry, or play with simulated ones."""
 
 from collections.abc import Collection, Sequence
 
@@ -19,12 +19,12 @@ from pigaming_app.ui.draw.text import write_lines
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
 
-UNCALIBRATED = ("none", "damaged", "changed", "version", "other_display")  # messages after which one must calibrate
-IDLE = 90.0  # seconds without a press until the title
+UNCALIBRATED = ("none", "damaged", "changed", "version", "other_display")  # messages that require calibration
+IDLE = 90.0  # s without input before the return to the title
 
 
 class UnavailablePage:
-    """The page. `message`: the reason; `match_of`: makes a match with these real seats."""
+    """The page. `message`: the reason; `match_of`: match factory for a set of real seats."""
 
     def __init__(
         self,
@@ -43,11 +43,10 @@ class UnavailablePage:
         self.prompts = context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
-        """Let it be heard."""
         self.context.sounds.play("error")
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE plays with simulated robots, X tries again, BACK leaves."""
+        """FIRE plays with simulated robots, X retries, BACK leaves."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
             return None
@@ -63,14 +62,12 @@ class UnavailablePage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Leave when nobody is there."""
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page."""
         if self.picture is None:
             self.picture = overlay(backdrop(), ALARM, self._paint)
         screen.blit(self.picture, (0, 0))

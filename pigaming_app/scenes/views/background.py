@@ -1,6 +1,6 @@
-"""The opaque ground of a match: what never changes, and over it what the HUD says, baked into one surface.
+"""Opaque background of a match: the static picture and the HUD, baked into one surface.
 
-Panels are drawn again only where and when they change; a steady frame is one blit.
+HUD panels are redrawn only where and when they change; an unchanged frame is one blit.
 """
 
 from collections.abc import Callable, Sequence
@@ -10,29 +10,29 @@ import pygame
 
 from pigaming_app.ui.draw import ADD
 
-LEFT, TOP = 160, 140  # where the arena lies on the canvas
+LEFT, TOP = 160, 140  # px, top left of the arena on the canvas
 HUD_HEIGHT = 136
 Bit = tuple[pygame.Surface, tuple[int, int], tuple[int, int, int, int] | None]
 
 
 class Background:
-    """The ground of one match. `paint` makes the whole canvas without what changes, as soon as it is needed."""
+    """Background of one match. `paint` renders the static canvas on first use."""
 
     def __init__(self, paint: Callable[[], pygame.Surface]) -> None:
         self._paint = paint
 
     @cached_property
     def bare(self) -> pygame.Surface:
-        """The canvas without what changes."""
+        """The static canvas."""
         return self._paint()
 
     @cached_property
     def surface(self) -> pygame.Surface:
-        """The canvas with all that was baked into it."""
+        """The canvas with everything baked in."""
         return self.bare.copy()
 
     def bake(self, box: pygame.Rect, bits: Sequence[Bit]) -> None:
-        """Replace what a box of the HUD says by these pieces of light: image, corner, part of it or None."""
+        """Replace the contents of a HUD box by additive pieces: image, position, source rectangle or None."""
         self.surface.set_clip(box)
         self.surface.blit(self.bare, box, box)
         for image, at, area in bits:

@@ -1,4 +1,4 @@
-"""The tile of a game, as the title and the choice of the next game show it: a picture, its name, a line."""
+"""Tile of a game for the title screen and the game selection: picture, name, tagline."""
 
 import math
 
@@ -38,7 +38,7 @@ TILE_Y, TILE_H = 416, 416
 
 
 def tile_rect(i: int) -> pygame.Rect:
-    """Where the tile of a game is, the i-th from the left."""
+    """Rectangle of the i-th tile from the left."""
     x, w = span(4 * i, 4)
     return pygame.Rect(x, TILE_Y, w, TILE_H)
 
@@ -46,7 +46,7 @@ def tile_rect(i: int) -> pygame.Rect:
 @cached
 @resumable
 def tile(game: str, name: str, line: str, hot: bool) -> Steps[LitImage]:
-    """A game's picture and name, its upper left at (0, 0)."""
+    """Picture and name of a game; top left at (0, 0)."""
     w = span(0, 4)[1]
     layer = Layer(0, 0, w, TILE_H)
     panel(layer.glow, 0, 0, w, TILE_H, dim(FOCUS, 0.55) if hot else STEEL)
@@ -63,7 +63,7 @@ def tile(game: str, name: str, line: str, hot: bool) -> Steps[LitImage]:
 @cached
 @resumable
 def _picture(game: str) -> Steps[LitImage]:
-    layer = Layer(MARGIN, MARGIN, 560, 284)  # drawn without an offset: robots are placed on the sheet itself
+    layer = Layer(MARGIN, MARGIN, 560, 284)  # no offset: robots are placed directly on the sheet
     vignette(game, layer.glow, MARGIN, MARGIN)
     yield
     lit = yield from layer.lighting()
@@ -71,7 +71,9 @@ def _picture(game: str) -> Steps[LitImage]:
 
 
 def vignette(game: str, ink: GlowCanvas, x: float, y: float) -> GlowCanvas:
-    """A picture of "pitanks", "factory" or "race" in the upper 284 px of a tile of 560 x 416 px at (x, y)."""
+    """Draw the picture of a game ("pitanks", "factory" or "race") in the upper 284 px of a 560 x 416 px tile at (x,
+    y).
+    """
     {"pitanks": _tanks, "factory": _factory, "race": _race}[game](ink, x, y + 4)
     return ink
 
@@ -89,7 +91,7 @@ def _tanks(ink: GlowCanvas, x: float, y: float) -> None:
     robot(ink, 1, x + 454, y + 84, 2.75, 1.15)
     _shot(ink, 0, x + 234, y + 132, -0.42)
     _shot(ink, 1, x + 346, y + 129, 2.75)
-    for i in range(9):  # a hit, just now
+    for i in range(9):  # a recent hit
         c, s = math.cos(-2.5 + i * 0.45), math.sin(-2.5 + i * 0.45)
         ink.line([(x + 454 + 58 * c, y + 84 + 58 * s), (x + 454 + 70 * c, y + 84 + 70 * s)], ORANGE, THIN)
     ink.text("+1", LABEL, x + 118, y + 100, BLUE, "hero", "c")
@@ -136,6 +138,6 @@ def _race(ink: GlowCanvas, x: float, y: float) -> None:
 
 
 def _lane(x: float, y: float, r: float) -> list[Point]:
-    """The end of a track: out along the top, a bend, in along the bottom."""
+    """Half a track: along the top, round a bend, back along the bottom."""
     bend = [(x + 396 + r * math.sin(math.pi * i / 40), y + 136 - r * math.cos(math.pi * i / 40)) for i in range(41)]
     return [(x + 28, y + 136 - r), *bend, (x + 28, y + 136 + r)]

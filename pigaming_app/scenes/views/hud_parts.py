@@ -1,4 +1,4 @@
-"""What the HUDs of all games share: panels that are baked into the background when they change, numbers, the clock."""
+"""HUD parts common to all games: baked panels, numbers, the clock."""
 
 from collections.abc import Callable, Hashable, Iterable
 from typing import Any
@@ -10,34 +10,34 @@ from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, ICE, TITLE, Color
 from pigaming_app.ui.draw.text import glyph, number_width
 
-Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin round their sprites
-WIDE = 316  # px of a panel
-XS = {1: (492,), 2: (492, 1112), 3: (160, 492, 1112), 4: (160, 492, 1112, 1444)}  # px: left edges, by their number
+Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin around their sprites
+WIDE = 316  # px, width of a panel
+XS = {1: (492,), 2: (492, 1112), 3: (160, 492, 1112), 4: (160, 492, 1112, 1444)}  # px: left edges, by number of panels
 ALARM_SECONDS = 10
 CLOCK = pygame.Rect(820, 0, 280, HUD_HEIGHT)
 
 
 class HudParts:
-    """The parts of a HUD on a background; a part is baked when its content changes."""
+    """HUD parts on a background; a part is baked when its content changes."""
 
     def __init__(self, background: Background) -> None:
         self.background = background
         self.shown: dict[Hashable, object] = {}
 
     def changed(self, part: Hashable, content: object) -> bool:
-        """Whether a part has to be baked anew; from now on it counts as baked."""
+        """True if a part's content differs from the last call."""
         if self.shown.get(part) == content:
             return False
         self.shown[part] = content
         return True
 
     def show(self, part: Hashable, content: object, x: int, w: int, bits: Callable[[], Iterable[Bit]]) -> None:
-        """Bake the pieces of a part over the whole height of the HUD, from x on, w px wide, if its content changed."""
+        """Bake a part's pieces over the full HUD height, from `x`, `w` px wide, if its content changed."""
         if self.changed(part, content):
             self.background.bake(pygame.Rect(x, 0, w, HUD_HEIGHT), [*bits()])
 
     def countdown(self, state: Any, y: float) -> None:
-        """The time that is left of a match, its digits round y px."""
+        """Show the remaining time of a match; vertical centre of the digits at `y` px."""
         left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
         text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
         x = 960 - number_width(text, TITLE) / 2
@@ -45,7 +45,7 @@ class HudParts:
 
 
 def number_bits(text: str, size: int, x: float, y: float, color: Color) -> list[Bit]:
-    """A number, set in glyphs from x on; y is the middle of its digits."""
+    """Number rendered in glyphs from `x`; `y` is the vertical centre of the digits."""
     bits: list[Bit] = []
     for char in text:
         (image, dx, dy), advance = glyph(char, size, color)

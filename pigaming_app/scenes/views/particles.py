@@ -1,6 +1,6 @@
-"""What a match leaves in the air for a moment: sparks, shards, shocks, light, scores that rise, and the shake of a hit.
+"""Short-lived effects of a match: sparks, shards, shock waves, light, score popups and screen shake.
 
-It lives in real time, has its own random generator, and is bounded: a burst that finds no room is smaller.
+Runs in real time with its own random generator. The number of particles is limited: a burst beyond it is reduced.
 """
 
 import math
@@ -24,15 +24,15 @@ from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, step
 
-MOST = 320  # particles alive
-SHAKE = 0.28  # seconds
-RISE, RISING = 60.0, 0.8  # px, seconds
-Cone = tuple[float, float]  # middle and half width, rad
+MAX_PARTICLES = 320  # limit of live particles
+SHAKE = 0.28  # s
+RISE, RISING = 60.0, 0.8  # px, s: height and duration of a popup
+Cone = tuple[float, float]  # centre and half the opening angle, rad
 ALL: Cone = (0.0, math.pi)
 
 
 class Particle(NamedTuple):
-    """Flies (dx, dy) px in `life` seconds, ever slower and dimmer; the last of `frames` is the brightest."""
+    """Moves by (dx, dy) px within `life` seconds, decelerating and fading; the last of `frames` is the brightest."""
 
     born: float
     life: float
@@ -44,7 +44,7 @@ class Particle(NamedTuple):
 
 
 class Bloom(NamedTuple):
-    """Light at a place that runs through its frames once."""
+    """Stationary light that plays its frames once."""
 
     born: float
     life: float
@@ -54,7 +54,7 @@ class Bloom(NamedTuple):
 
 
 class ScorePopup(NamedTuple):
-    """A number that rises."""
+    """A rising number."""
 
     born: float
     x: float
@@ -64,7 +64,7 @@ class ScorePopup(NamedTuple):
 
 
 class Particles:
-    """All of them, in canvas px and seconds."""
+    """All effects of a match, in canvas px and seconds."""
 
     def __init__(self) -> None:
         self.clock = 0.0
@@ -75,8 +75,8 @@ class Particles:
         self.shaken = -1.0
 
     def burst(self, x: float, y: float, color: Color, count: int, start: float, reach: float, cone: Cone = ALL) -> None:
-        """Sparks that fly from `start` px round (x, y) up to `reach` px further, within a cone."""
-        for _ in range(min(count, MOST - len(self.particles))):
+        """Sparks from a radius of `start` px around (x, y), travelling up to `reach` px within a cone."""
+        for _ in range(min(count, MAX_PARTICLES - len(self.particles))):
             a = cone[0] + self.random.uniform(-cone[1], cone[1])
             c, s, far = math.cos(a), math.sin(a), reach * self.random.random() ** 0.6
             near = start * self.random.uniform(1.0, 1.3)
@@ -85,46 +85,45 @@ class Particles:
             self.particles.append(Particle(self.clock, life, x + near * c, y + near * s, far * c, far * s, frames))
 
     def debris(self, ax: float, ay: float, bx: float, by: float, count: int) -> None:
-        """Splinters from all along a line."""
-        for _ in range(min(count, MOST - len(self.particles))):
+        """Splinters along a line."""
+        for _ in range(min(count, MAX_PARTICLES - len(self.particles))):
             t, a, far = self.random.random(), self.random.uniform(0, math.tau), self.random.uniform(20, 90)
             frames = shards(self.random.randrange(SHARDS), self.random.randrange(SPARK_TURNS))
             x, y, life = ax + (bx - ax) * t, ay + (by - ay) * t, self.random.uniform(0.5, 1.1)
             self.particles.append(Particle(self.clock, life, x, y, far * math.cos(a), far * math.sin(a), frames))
 
     def shock(self, x: float, y: float, color: Color) -> None:
-        """A wave that runs out over the ground."""
+        """Shock wave on the ground."""
         self.bloom(x, y, 0.45, tuple(wave(color, i) for i in range(WAVE_STEPS)))
 
     def glow(self, x: float, y: float, color: Color, seconds: float = 0.35) -> None:
-        """Light on the ground that goes out."""
+        """Fading light on the ground."""
         self.bloom(x, y, seconds, tuple(light(color, i) for i in range(LIGHT_LEVELS, 0, -1)))
 
     def bloom(self, x: float, y: float, seconds: float, frames: tuple[Sprite, ...]) -> None:
-        """Any light that runs through its frames once."""
+        """Light that plays its frames once."""
         self.blooms.append(Bloom(self.clock, seconds, x, y, frames))
 
     def score(self, x: float, y: float, text: str, player: int) -> None:
-        """A number over a robot, inside the arena; it takes the place of one like it."""
+        """Score popup over a robot, kept inside the arena; replaces an overlapping one."""
         x, y = min(max(x, LEFT + 60), LEFT + WIDTH - 60), max(y, TOP + 48 + RISE)
-        self.scores = [one for one in self.scores if (one.player, one.text[0]) != (player, text[0])]
+        self.scores = [popup for popup in self.scores if (popup.player, popup.text[0]) != (player, text[0])]
         self.scores.append(ScorePopup(self.clock, x, y, text, player))
 
     def shake(self) -> None:
-        """Shake the picture a little."""
+        """Start a slight screen shake."""
         self.shaken = self.clock
 
     def advance(self, seconds: float) -> None:
-        """Let time pass."""
         self.clock += seconds
         now = self.clock
-        self.particles = [one for one in self.particles if now - one.born < one.life]
-        self.blooms = [one for one in self.blooms if now - one.born < one.life]
-        self.scores = [one for one in self.scores if now - one.born < RISING]
+        self.particles = [effect for effect in self.particles if now - effect.born < effect.life]
+        self.blooms = [effect for effect in self.blooms if now - effect.born < effect.life]
+        self.scores = [popup for popup in self.scores if now - popup.born < RISING]
 
     @property
     def offset(self) -> tuple[int, int]:
-        """How far the picture is shaken, px."""
+        """Current screen shake, px."""
         left = 1.0 - (self.clock - self.shaken) / SHAKE if self.shaken >= 0.0 else 0.0
         if left <= 0.0:
             return 0, 0
@@ -132,7 +131,7 @@ class Particles:
         return round(swing * math.sin(self.clock * 71.0)), round(swing * math.cos(self.clock * 83.0))
 
     def draw_light(self, batch: Batch) -> None:
-        """Everything that is added."""
+        """Collect the additive sprites."""
         now = self.clock
         for born, life, x, y, dx, dy, frames in self.particles:
             t = (now - born) / life
@@ -143,7 +142,7 @@ class Particles:
             put(batch, frames[int((now - born) / life * len(frames))], x, y)
 
     def draw_scores(self, batch: Batch) -> None:
-        """The numbers, which hide what is below them."""
+        """Collect the popups, which cover what is below them."""
         for born, x, y, text, player in self.scores:
             t = (self.clock - born) / RISING
             level = POPUP_LEVELS if t < 0.6 else max(1, math.ceil(POPUP_LEVELS * (1.0 - t) / 0.4))

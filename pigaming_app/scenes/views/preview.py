@@ -1,6 +1,6 @@
-"""A small picture of an arena: what it is made of, and the players where they begin.
+"""Preview of an arena with the players at their start positions.
 
-What is drawn depends on what the arena is, its `plan`: see PREVIEWS.
+The renderer depends on the type of the arena's `plan`: see PREVIEWS.
 """
 
 import math
@@ -19,16 +19,16 @@ from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 from pigaming_app.ui.draw import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, GlowCanvas, cut_box, dim, shape_points
 from pigaming_app.ui.draw.frame_budget import Steps
 
-MARGIN = 8  # px round the frame, for its glow
+MARGIN = 8  # px around the frame for its glow
 
 
 def preview(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
-    """The arena as light, as large as fits into w x h px and centred there; add it to a picture."""
+    """Preview as additive light, scaled to fit w x h px and centred."""
     return (yield from PREVIEWS.get(type(arena.plan), walls)(arena, w, h))
 
 
 def walls(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
-    """The walls of an arena, and the shapes of the players where they begin."""
+    """Preview of an arena with walls and start positions."""
     left, top, k = fitted(w, h)
     ink = GlowCanvas(w, h, 3)
     for column in range(200, int(WIDTH), 200):
@@ -50,7 +50,7 @@ def walls(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
 
 
 def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
-    """A track as it is driven on: mud, road, lines with their badges, the way round."""
+    """Preview of a track: mud, road, lines with badges, direction."""
     left, top, k = fitted(w, h)
     below = pygame.transform.smoothscale(earth(arena.plan), (round(k * WIDTH), round(k * HEIGHT)))
     yield
@@ -65,7 +65,7 @@ def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
 
 
 def floor(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
-    """A floor as it is worked on: warehouses, machines, the aisle, and where the robots of each team begin."""
+    """Preview of a factory floor: warehouses, machines, the aisle, start positions by team."""
     left, top, k = fitted(w, h)
     glow, crisp = GlowCanvas(w, h, 3).to(left, top, 0.0, k), GlowCanvas(w, h, 3).to(left, top, 0.0, k)
     yield from draw_floor((glow, crisp), arena.plan)
@@ -78,10 +78,10 @@ def floor(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
 
 
 def fitted(w: int, h: int) -> tuple[float, float, float]:
-    """Where an arena lies in the middle of w x h px, and its scale."""
+    """Position and scale of an arena centred in w x h px."""
     k = min((w - 2 * MARGIN) / WIDTH, (h - 2 * MARGIN) / HEIGHT)
     return (w - k * WIDTH) / 2, (h - k * HEIGHT) / 2, k
 
 
-# by what the plan of an arena is
+# by type of an arena's plan
 PREVIEWS: dict[type, Callable[[Arena, int, int], Steps[pygame.Surface]]] = {TrackPlan: track, Floor: floor}

@@ -1,6 +1,6 @@
-"""Sprites that every match will ask for, in the order in which it will need them: made ahead, a few in each frame.
+"""Prewarm jobs for the sprites of every match, in order of first use; a few are run per frame.
 
-Each job is one small piece of work: it makes one sprite, or finds it made.
+Each job is small: it renders one sprite, or finds it cached.
 """
 
 from collections.abc import Iterator, Sequence
@@ -13,7 +13,7 @@ from pigaming_app.ui.draw.sprites import HEADINGS
 
 
 def driving(seats: Sequence[int]) -> Iterator[Job]:
-    """The robots themselves: headings, headlights, treads, flames."""
+    """Jobs for driving robots: headings, headlights, treads, flames."""
     for turn in range(HEADINGS):
         for seat in seats:
             yield partial(tank.tank, seat, turn)

@@ -1,4 +1,4 @@
-"""How each game looks while it is played."""
+"""View class of each game."""
 
 from collections.abc import Callable
 from typing import Any

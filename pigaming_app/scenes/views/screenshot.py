@@ -1,4 +1,4 @@
-"""One picture of a match, without a window: for the command line and for tests."""
+"""Screenshot of a match without a window, for the command line and tests."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ SIZE = (1920, 1080)
 
 
 class Screenshot:
-    """A camera on a match: it watches some ticks, so that shots and treads are there, and takes one picture."""
+    """Renders a match to a file; watching some ticks first makes shots and treads visible."""
 
     def __init__(self, match: Match) -> None:
         pygame.display.init()
@@ -27,11 +27,11 @@ class Screenshot:
         self.view = VIEWS[match.setup.game](match.arena, match.state, players, Settings(), Words("en"))
 
     def watch(self) -> None:
-        """See the tick that has just been played."""
+        """Record the tick just played."""
         self.view.watch(self.match.state)
         self.view.draw(self.screen, self.match.state, 1.0, DT)
 
     def picture(self, path: Path) -> None:
-        """Save the match as it stands as a PNG file. Raises NotSaved."""
+        """Save the current state of the match as a PNG file. Raises NotSaved."""
         self.view.draw(self.screen, self.match.state, 1.0, 0.0)
         write_atomic(path, png_of(self.screen))

@@ -1,4 +1,4 @@
-"""The marks that robots leave on the floor: stamped by the way they go, ahead or back, and fading."""
+"""Fading tread marks of robots, stamped according to the direction of travel."""
 
 import math
 from collections import deque
@@ -7,21 +7,21 @@ from pigaming_app.scenes.views.sprites.effects import TREAD_LEVELS, TURNS, tread
 from pigaming_app.ui.draw.sprites import Batch, put, step
 
 APART = 13.0  # px between two marks
-OVER = 10.0  # px within which no second mark is stamped: to and fro would draw crosses
-LASTS = 3.0  # seconds
-MOST = 30  # marks of each robot
+OVER = 10.0  # px, minimum distance to any mark: moving to and fro would draw crosses
+LASTS = 3.0  # s
+MAX_MARKS = 30  # limit per robot
 
 
 class TreadMarks:
-    """The marks of one robot, in canvas px."""
+    """Tread marks of one robot, in canvas px."""
 
     def __init__(self, player: int) -> None:
         self.player = player
-        self.marks: deque[tuple[float, float, float, int]] = deque(maxlen=MOST)
+        self.marks: deque[tuple[float, float, float, int]] = deque(maxlen=MAX_MARKS)
         self.last: tuple[float, float] | None = None
 
-    def roll(self, x: float, y: float, heading: float, now: float) -> None:
-        """The robot is at (x, y) at `now` seconds."""
+    def add(self, x: float, y: float, heading: float, now: float) -> None:
+        """Record the robot's position at time `now`, s."""
         if self.last is None or math.dist(self.last, (x, y)) > 10 * APART:
             self.last = x, y
             return
@@ -33,7 +33,7 @@ class TreadMarks:
                 self.marks.append((now, x, y, step(heading if ahead else heading + math.pi, TURNS)))
 
     def draw(self, batch: Batch, now: float) -> None:
-        """Add the marks that have not faded."""
+        """Draw the live marks."""
         marks = self.marks
         while marks and now - marks[0][0] >= LASTS:
             marks.popleft()

@@ -1,6 +1,6 @@
-"""What the view of every game does: one opaque ground, then four batches of sprites, between any two ticks of a match.
+"""Base class of all match views: an opaque background and four sprite batches, interpolated between two ticks.
 
-A view looks at the match and never touches it; what happened it finds by comparing; its random generator is its own.
+A view is read-only: it detects events by comparing states, and has its own random generator.
 """
 
 import math
@@ -21,24 +21,24 @@ from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
 from pigaming_app.ui.draw.sprites import Batch, put, step
 from pigaming_app.ui.i18n import Words
 
-REAL_WIDER = 42  # px
-JUMP = 100.0  # px in a tick: a robot that was placed, not driven
-Pose = tuple[float, float, float]  # px and px on the canvas, rad
-Heard = tuple[str, int | None, float]  # name of the sound, whose pitch, x in arena px
+REAL_WIDER = 42  # px, extra radius around a real robot
+JUMP = 100.0  # px per tick: above it a robot was placed, not driven
+Pose = tuple[float, float, float]  # canvas px, canvas px, rad
+SoundCue = tuple[str, int | None, float]  # sound name, player for the pitch, x in arena px
 
 
 class ViewOptions(Protocol):
-    """What of the settings a view wants to know."""
+    """Settings used by a view."""
 
-    flashes: str  # off, soft (no shake, no light on the ground), full
+    flashes: str  # off, soft (no screen shake, no light on the ground), full
     shake: bool
 
 
 class MatchView:
-    """The view of one match. `players`: for each seat "human" or the name of the AI that drives; may be changed.
+    """View of one match. `players`: for each seat "human" or the name of the AI; may change during the match.
 
-    A game's view is made of arena, state, players, taste and words; it fills `watch` and `draw`. `clock`: the part of
-    the HUD between the panels.
+    Subclasses take arena, state, players, options and words, and override `watch` and `draw`. `clock`: the part of the
+    HUD between the panels.
     """
 
     clock = pygame.Rect(820, 0, 280, HUD_HEIGHT)
@@ -47,7 +47,7 @@ class MatchView:
         self, state: Any, players: list[str], options: ViewOptions, words: Words | None, background: Background
     ) -> None:
         self.players, self.options, self.words, self.background = players, options, words, background
-        self.real: frozenset[int] = frozenset()  # seats whose robots are real: they are lit, not drawn
+        self.real: frozenset[int] = frozenset()  # seats with real robots, which are lit instead of drawn
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.particles = Particles()
         self.treads = [TreadMarks(i) for i in range(len(state.robots))]
@@ -56,55 +56,57 @@ class MatchView:
         self.jobs.then(driving(self.seats))
 
     def for_real(self, folder: Path) -> None:
-        """People play this match: what it may leave behind, such as a best lap, is kept in this folder for data."""
+        """Called for matches with people: persistent data, such as a best lap, is saved in this data folder."""
 
-    def watch(self, state: Any) -> list[Heard]:
-        """See what the last tick did; answers what is to be heard."""
+    def watch(self, state: Any) -> list[SoundCue]:
+        """Process the last tick; returns its sounds."""
         raise NotImplementedError
 
     def draw(self, screen: pygame.Surface, state: Any, blend: float, seconds: float) -> None:
-        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
+        """Draw the canvas, interpolated by `blend` between the last two ticks, `seconds` after the last frame."""
         raise NotImplementedError
 
     def pose(self, seat: int, blend: float) -> Pose:
-        """Where a robot is on the canvas, `blend` of the way between two ticks; it turns the short way."""
+        """Canvas pose of a robot, interpolated by `blend` between two ticks, turning the short way."""
         old, new = self.before[seat], self.now[seat]
         turn = (new[2] - old[2] + math.pi) % math.tau - math.pi
         return old[0] + (new[0] - old[0]) * blend, old[1] + (new[1] - old[1]) * blend, old[2] + turn * blend
 
     def warm(self, milliseconds: float) -> bool:
-        """Make sprites ahead for so long; true when all are there."""
+        """Prewarm sprites for at most this many milliseconds; True when complete."""
         return self.jobs.work(milliseconds)
 
-    # ---- for the views of games
+    # ---- for subclasses
 
     def ahead(self, jobs: Iterator[Job]) -> None:
-        """More sprites to make ahead, after those of driving robots."""
+        """Append prewarm jobs after those of driving robots."""
         self.jobs.then(jobs)
 
     def follow(self, state: Any) -> None:
-        """Note where robots are after this tick."""
+        """Record the robot poses after this tick."""
         self.before, self.now = self.now, _poses(state)
         for i, (new, old) in enumerate(zip(self.now, self.before, strict=True)):
             if abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP:
                 self.before = [*self.before[:i], new, *self.before[i + 1 :]]
 
     def reach(self, seat: int, usual: int) -> int:
-        """Radius in px of a ring round a robot; a real one stands in a wide disc of its own."""
+        """Radius in px of a ring around a robot, enlarged for a real one, which stands in a wide disc."""
         return usual + REAL_WIDER if seat in self.real else usual
 
     def light_up(self, under: Batch, seat: int, pose: Pose, fast: bool) -> None:
-        """Treads, headlights and, if it is `fast`, the flame of a robot."""
+        """Draw treads, headlights and, if `fast`, the flame of a robot."""
         x, y, heading = pose
         now, marks = self.particles.clock, self.treads[seat]
-        marks.roll(x, y, heading, now)
+        marks.add(x, y, heading, now)
         marks.draw(under, now)
         put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
         if fast:
             put(under, effects.flame(seat, step(heading, effects.TURNS), int(now * 30) % 2), x, y)
 
     def paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
-        """The ground and the batches: light below robots (within the arena), what hides, light, what hides all."""
+        """Draw background and batches: light below robots (clipped to the arena), opaque sprites, light, topmost
+        sprites.
+        """
         shaken = self.particles.offset
         if shaken == (0, 0):
             screen.blit(self.background.surface, (0, 0))
@@ -125,5 +127,5 @@ def decimal(words: Words | None, number: str) -> str:
 
 
 def _poses(state: Any) -> Sequence[Pose]:
-    """Where robots are on the canvas."""
+    """Canvas poses of the robots."""
     return [(LEFT + robot.x, TOP + robot.y, robot.heading) for robot in state.robots]

@@ -1,4 +1,4 @@
-"""The Lab: a robot learns from nothing, knobs are turned, it is played against, and it goes on learning after that."""
+"""The Lab: training, knobs, challenge matches, and training resumed afterwards."""
 
 from itertools import combinations
 from pathlib import Path
@@ -48,13 +48,13 @@ def lab(arcade: Arcade) -> Lab:
 
 
 def learn(arcade: Arcade, matches: int) -> None:
-    """Let it play some matches, as fast as it can."""
+    """Train for some matches at full speed."""
     training = lab(arcade).trainer.training
     arcade.until(lambda: training.matches >= matches, 600.0)
 
 
 def at_full_speed(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It has half a second of every frame."""
+    """Full speed, with half a second per frame for interpreted training."""
     monkeypatch.setattr(trainer, "SLICE", 0.5)
     lab(arcade).trainer.speed = trainer.FASTEST
 
@@ -74,9 +74,9 @@ def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcad
 
 
 def lab_of(arcade: Arcade) -> Lab:
-    found = arcade.shown(Title).lab
-    assert isinstance(found, Lab)
-    return found
+    scene = arcade.shown(Title).lab
+    assert isinstance(scene, Lab)
+    return scene
 
 
 def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, home: Path) -> None:
@@ -108,11 +108,11 @@ def test_as_fast_as_it_can_it_learns_is_examined_and_has_a_plan(
     arcade.until(lambda: len(lab(arcade).trainer.progress.measures) >= 2, 600.0)
     arcade.wait(1.0)
     shown = lab(arcade).shown
-    assert all(0.0 <= one.share <= 1.0 for one in shown.measures)
-    assert [one.matches for one in shown.measures] == sorted(one.matches for one in shown.measures)
+    assert all(0.0 <= measure.share <= 1.0 for measure in shown.measures)
+    assert [measure.matches for measure in shown.measures] == sorted(measure.matches for measure in shown.measures)
     assert shown.knowing > 0.0
     assert any(shown.levels)
-    assert sum(one.seen for one in lab(arcade).trainer.progress.plan if one) > 1000
+    assert sum(direction.seen for direction in lab(arcade).trainer.progress.plan if direction) > 1000
 
 
 def test_painting_changes_nothing_of_what_is_learned(arcade: Arcade) -> None:
@@ -133,7 +133,7 @@ def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
     assert here.trainer.recipe.still == -2.0
     assert lab(arcade).held == "still"
     arcade.press(Button.BACK)
-    assert lab(arcade).held == "", "BACK lets go of the knob and does not leave"
+    assert lab(arcade).held == "", "BACK releases the knob without leaving"
     arcade.press(Button.LEFT)
     assert here.trainer.recipe.still == -2.0
     arcade.frame()
@@ -166,11 +166,11 @@ def test_what_it_has_learned_stays_when_a_knob_is_turned(arcade: Arcade) -> None
 
 def test_a_pad_reaches_everything(arcade: Arcade) -> None:
     here = lab(arcade)
-    found = {here.focus.name}
+    visited = {here.focus.name}
     for button in (Button.DOWN, *[Button.LEFT] * 3, Button.UP, Button.RIGHT):
         arcade.press(button)
-        found.add(here.focus.name)
-    assert found == {"speed", "play", *KNOB_NAMES}
+        visited.add(here.focus.name)
+    assert visited == {"speed", "play", *KNOB_NAMES}
 
 
 def test_a_mouse_chooses_a_speed_and_turns_a_knob(arcade: Arcade) -> None:
@@ -197,12 +197,12 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     arcade.until(lambda: fight.inner.match.state.tick > 200)
     robot = fight.inner.match.state.robots[ROBOT]
     start = fight.inner.match.arena.starts[ROBOT]
-    assert (robot.x, robot.y, robot.heading) != (start.x, start.y, start.heading), "it plays"
+    assert (robot.x, robot.y, robot.heading) != (start.x, start.y, start.heading), "the robot moves"
     while not fight.inner.match.over:
         fight.inner.match.tick()
     arcade.wait(3.0)
     arcade.shown(ChallengeResult)
-    assert here.trainer.training.experiences == experiences, "it rests meanwhile"
+    assert here.trainer.training.experiences == experiences, "training is paused"
     assert here.trainer.join()
     for kind, seconds in ((pygame.KEYDOWN, 0.2), (pygame.KEYUP, 5.0), (pygame.KEYDOWN, 0.8), (pygame.KEYUP, 0.1)):
         pygame.event.post(pygame.Event(kind, key=0, scancode=pygame.KSCAN_ESCAPE, mod=0))
@@ -285,9 +285,9 @@ def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monk
 
 
 def test_what_it_knew_is_kept_at_the_start(arcade: Arcade) -> None:
-    kept = lab(arcade).trainer.checkpoints()
-    assert set(kept) == {0}
-    assert (kept[0].matches, kept[0].experiences) == (0, 0)
+    checkpoints = lab(arcade).trainer.checkpoints()
+    assert set(checkpoints) == {0}
+    assert (checkpoints[0].matches, checkpoints[0].experiences) == (0, 0)
 
 
 def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade: Arcade) -> None:
@@ -322,7 +322,7 @@ def test_the_line_through_the_dots_moves_part_of_the_way_to_each() -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_words_stay_in_their_places(language: str, controls: Controls, home: Path) -> None:
+def test_labels_fit_their_boxes(language: str, controls: Controls, home: Path) -> None:
     words = Words(language)
     arcade = Arcade(controls, language)
     there = Lab(arcade.context, fast=False)
@@ -360,5 +360,5 @@ def test_the_line_about_warming_up_stays_in_its_panel_and_off_the_match(controls
     rects = box.get_bounding_rects()
     line = rects[0].unionall(rects[1:]).move(lit.at)
     assert CURVE.contains(line)
-    assert line.right < PLOT.right, "the number beside the plot keeps its place"
+    assert line.right < PLOT.right, "the notice overlaps the percentage"
     assert not line.colliderect(MATCH)

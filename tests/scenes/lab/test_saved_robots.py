@@ -1,4 +1,4 @@
-"""Robots are named with a pad, saved and opened again; what can go wrong is said in one sentence."""
+"""Naming, saving and opening robots with a pad; every error is one sentence on screen."""
 
 import errno
 from pathlib import Path
@@ -39,7 +39,7 @@ def menu(arcade: Arcade, item: str) -> None:
 
 
 def save(arcade: Arcade, name: str) -> None:
-    """Save the robot under a name, letter by letter."""
+    """Save the robot under a name, entered letter by letter."""
     menu(arcade, "save")
     page = arcade.shown(NamePage)
     spell(page, name)
@@ -73,16 +73,16 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
     assert here.name == "B9"
     assert here.sentence == arcade.context.words("lab.saved", name="B9")
     assert robots.names() == ["B9"]
-    kept, _ = robots.load_robot("B9", fast=False)
-    assert kept.experiences > 0
+    saved, _ = robots.load_robot("B9", fast=False)
+    assert saved.experiences > 0
     here.begin()
     menu(arcade, "open")
     arcade.shown(OpenPage)
     arcade.press(Button.FIRE)
     assert lab(arcade) is here
-    assert (here.name, here.trainer.training.experiences) == ("B9", kept.experiences)
-    assert digest(here.trainer.training.table) == digest(kept.table)
-    assert here.trainer.recipe == kept.recipe
+    assert (here.name, here.trainer.training.experiences) == ("B9", saved.experiences)
+    assert digest(here.trainer.training.table) == digest(saved.table)
+    assert here.trainer.recipe == saved.recipe
 
 
 def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> None:
@@ -107,7 +107,7 @@ def test_saving_again_under_the_same_name_needs_no_question(arcade: Arcade) -> N
     assert lab(arcade).name == "NEON"
 
 
-def test_no_name_is_no_name(arcade: Arcade) -> None:
+def test_an_empty_name_is_invalid(arcade: Arcade) -> None:
     save(arcade, " ")
     arcade.shown(NamePage)
     assert robots.names() == []
@@ -130,7 +130,7 @@ def test_a_mouse_spells_too(arcade: Arcade) -> None:
     [(errno.ENOSPC, "lab.disk_full"), (errno.EACCES, "lab.no_writing"), (errno.EIO, "lab.no_writing")],
 )
 @pytest.mark.parametrize("language", ["en", "pt"])
-def test_a_disk_that_takes_nothing_is_one_sentence_and_the_robot_lives_on(
+def test_a_full_disk_is_one_sentence_and_the_training_goes_on(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, key: str, language: str
 ) -> None:
     def fail(*_: object) -> None:

@@ -1,4 +1,4 @@
-"""The training beside the frames: it never waits for compiling, goes over to compiled play, and its thread ends."""
+"""Background training: it does not wait for the compiler, switches to compiled play, and its thread ends."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ import pytest
 
 from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.ai.qlearning.rewards import RECIPES
-from pigaming_app.scenes.lab import trainer as trainer
+from pigaming_app.scenes.lab import trainer as trainer_module
 from pigaming_app.scenes.lab.trainer import FASTEST, Trainer
 from pigaming_app.sim.kernel import can_compile
 
@@ -21,22 +21,22 @@ needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not install
 
 
 @pytest.fixture
-def shop(monkeypatch: pytest.MonkeyPatch) -> Iterator[Trainer]:
+def trainer(monkeypatch: pytest.MonkeyPatch) -> Iterator[Trainer]:
     monkeypatch.setattr("pigaming_app.ai.experiments.compiler.PATIENCE", 0)  # other tests keep all cores busy
     compiler = Compiler()
-    shop = Trainer(RECIPES[1], 5, compiler=compiler)
-    yield shop
-    shop.close()
-    assert shop.join(10.0)
+    trainer = Trainer(RECIPES[1], 5, compiler=compiler)
+    yield trainer
+    trainer.close()
+    assert trainer.join(10.0)
     compiler.end()
 
 
-def feed(shop: Trainer, so: Callable[[], bool], most: float = 300.0) -> None:
-    """Frame after frame until something is so."""
-    end = time.monotonic() + most
-    while not so():
-        assert time.monotonic() < end, "it never comes"
-        shop.feed(1 / 60)
+def feed(trainer: Trainer, condition: Callable[[], bool], timeout: float = 300.0) -> None:
+    """Feed the trainer frame by frame until a condition holds."""
+    end = time.monotonic() + timeout
+    while not condition():
+        assert time.monotonic() < end, "timeout"
+        trainer.feed(1 / 60)
         time.sleep(1 / 60)
 
 
@@ -45,43 +45,43 @@ def threads() -> list[str]:
 
 
 def test_without_numba_there_is_no_thread_and_it_learns_in_slices() -> None:
-    shop = Trainer(RECIPES[1], 5, fast=False)
-    feed(shop, lambda: shop.training.experiences > 0)
+    trainer = Trainer(RECIPES[1], 5, fast=False)
+    feed(trainer, lambda: trainer.training.experiences > 0)
     assert threads() == []
-    assert not shop.fast
+    assert not trainer.fast
 
 
 def test_a_slice_ends_in_time_whatever_is_going_on() -> None:
-    shop = Trainer(RECIPES[1], 5, fast=False)
-    shop.speed = FASTEST
+    trainer = Trainer(RECIPES[1], 5, fast=False)
+    trainer.speed = FASTEST
     ticks = []
     for _ in range(30):
-        before = shop.training.match.tick
-        shop.feed(1 / 60)
-        ticks.append(shop.training.match.tick - before)
+        before = trainer.training.match.tick
+        trainer.feed(1 / 60)
+        ticks.append(trainer.training.match.tick - before)
     assert max(ticks) < 6000, "no slice is a whole match"
 
 
 @pytest.mark.long
 @needs_numba
-def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(shop: Trainer) -> None:
-    shop.speed = FASTEST
-    feed(shop, lambda: shop.training.experiences > 10)
-    assert not shop.fast
-    feed(shop, lambda: shop.fast)
-    assert shop.training.experiences > 10, "what it had learned is not lost"
-    feed(shop, lambda: shop.training.matches >= 12 and len(shop.progress.measures) >= 2)
-    assert {0, 10} <= set(shop.checkpoints())
-    assert shop.checkpoints()[10].matches == 10
-    number = shop.moment.number
-    feed(shop, lambda: shop.moment.number > number + 3)
-    shop.close()
-    assert shop.join(10.0)
+def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(trainer: Trainer) -> None:
+    trainer.speed = FASTEST
+    feed(trainer, lambda: trainer.training.experiences > 10)
+    assert not trainer.fast
+    feed(trainer, lambda: trainer.fast)
+    assert trainer.training.experiences > 10, "the table was lost"
+    feed(trainer, lambda: trainer.training.matches >= 12 and len(trainer.progress.measures) >= 2)
+    assert {0, 10} <= set(trainer.checkpoints())
+    assert trainer.checkpoints()[10].matches == 10
+    number = trainer.moment.number
+    feed(trainer, lambda: trainer.moment.number > number + 3)
+    trainer.close()
+    assert trainer.join(10.0)
     assert threads() == []
-    experiences = shop.training.experiences
+    experiences = trainer.training.experiences
     time.sleep(0.1)
-    assert shop.training.experiences == experiences
-    feed(shop, lambda: shop.training.experiences > experiences)
+    assert trainer.training.experiences == experiences
+    feed(trainer, lambda: trainer.training.experiences > experiences)
 
 
 ENDLESS = (sys.executable, "-c", "import sys; sys.stdin.read()")  # ends with the process that started it
@@ -97,13 +97,13 @@ def endless() -> Iterator[Compiler]:
 @needs_numba
 @pytest.mark.parametrize("closed", [True, False], ids=["closed", "forgotten"])
 def test_the_thread_ends_when_the_page_is_left_and_also_when_nobody_says_so(endless: Compiler, closed: bool) -> None:
-    shop = Trainer(RECIPES[1], 5, fast=True, compiler=endless)
-    feed(shop, lambda: bool(threads()))
-    feed(shop, lambda: shop.compiling)
+    trainer = Trainer(RECIPES[1], 5, fast=True, compiler=endless)
+    feed(trainer, lambda: bool(threads()))
+    feed(trainer, lambda: trainer.compiling)
     if closed:
-        shop.close()
-    assert shop.join(10.0)
-    assert not shop.compiling
+        trainer.close()
+    assert trainer.join(10.0)
+    assert not trainer.compiling
 
 
 @needs_numba
@@ -112,58 +112,58 @@ def test_where_compiling_fails_plain_training_goes_on(monkeypatch: pytest.Monkey
     def broken() -> None:
         raise ImportError("no LLVM")
 
-    monkeypatch.setattr(trainer, "compile_all", broken)
+    monkeypatch.setattr(trainer_module, "compile_all", broken)
     compiler = Compiler((sys.executable, "-c", f"exit({code})"))
-    shop = Trainer(RECIPES[1], 5, fast=True, compiler=compiler)
-    feed(shop, lambda: not shop.may_compile)
-    before = shop.training.experiences
-    feed(shop, lambda: shop.training.experiences > before)
-    assert not shop.fast
-    shop.close()
-    assert shop.join(10.0)
+    trainer = Trainer(RECIPES[1], 5, fast=True, compiler=compiler)
+    feed(trainer, lambda: not trainer.may_compile)
+    before = trainer.training.experiences
+    feed(trainer, lambda: trainer.training.experiences > before)
+    assert not trainer.fast
+    trainer.close()
+    assert trainer.join(10.0)
     compiler.end()
 
 
 @needs_numba
 def test_where_compiled_training_breaks_plain_training_goes_on_with_the_same_table(
-    shop: Trainer, monkeypatch: pytest.MonkeyPatch
+    trainer: Trainer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(self: Trainer) -> None:
         raise MemoryError("no more")
 
-    shop._hand_over(fast=True)
-    table = shop.training.experiences
+    trainer._switch_to(fast=True)
+    table = trainer.training.experiences
     monkeypatch.setattr(Trainer, "_run", broken)
-    shop.may_compile = True
-    feed(shop, lambda: not shop.may_compile)
-    assert shop.join(10.0)
-    assert not shop.fast
-    feed(shop, lambda: shop.training.experiences > table)
+    trainer.may_compile = True
+    feed(trainer, lambda: not trainer.may_compile)
+    assert trainer.join(10.0)
+    assert not trainer.fast
+    feed(trainer, lambda: trainer.training.experiences > table)
 
 
 @needs_numba
 def test_leaving_and_returning_waits_for_the_same_process(endless: Compiler) -> None:
-    shop = Trainer(RECIPES[1], 5, compiler=endless)
-    feed(shop, lambda: shop.compiling)
+    trainer = Trainer(RECIPES[1], 5, compiler=endless)
+    feed(trainer, lambda: trainer.compiling)
     process = endless._process
     assert process
     for _ in range(2):
-        shop.close()
-        assert shop.join(10.0)
-        assert process.poll() is None, "it goes on compiling while the Lab is left"
-        feed(shop, lambda: shop.compiling)
+        trainer.close()
+        assert trainer.join(10.0)
+        assert process.poll() is None, "compiling continues after leaving the Lab"
+        feed(trainer, lambda: trainer.compiling)
         assert endless._process is process
-    shop.close()
-    assert shop.join(10.0)
+    trainer.close()
+    assert trainer.join(10.0)
 
 
 @needs_numba
-def test_a_second_training_in_the_same_arcade_is_compiled_at_once(shop: Trainer) -> None:
-    feed(shop, lambda: shop.fast)
-    process = shop._compiler._process
-    again = Trainer(RECIPES[1], 6, compiler=shop._compiler)
+def test_a_second_training_in_the_same_arcade_is_compiled_at_once(trainer: Trainer) -> None:
+    feed(trainer, lambda: trainer.fast)
+    process = trainer._compiler._process
+    again = Trainer(RECIPES[1], 6, compiler=trainer._compiler)
     feed(again, lambda: again.fast, 10.0)
-    assert again.training.loop is shop.training.loop
+    assert again.training.loop is trainer.training.loop
     assert again._compiler._process is process
     again.close()
     assert again.join(10.0)
@@ -212,7 +212,7 @@ def test_when_the_arcade_is_killed_the_process_ends_by_itself() -> None:
         os.kill(arcade.pid, signal.SIGKILL)
     end = time.monotonic() + 20.0
     while runs(compiling):
-        assert time.monotonic() < end, "it is left behind"
+        assert time.monotonic() < end, "the process is still running"
         time.sleep(0.05)
 
 
@@ -230,7 +230,7 @@ def test_a_process_that_has_compiled_ends_well_while_the_arcade_goes_on() -> Non
 
 
 def runs(pid: int) -> bool:
-    """Whether a process runs; one that has ended and was only not collected yet does not."""
+    """True if a process runs; zombies do not count."""
     try:
         return ") Z" not in Path(f"/proc/{pid}/stat").read_text()
     except OSError:

@@ -1,4 +1,4 @@
-"""The lobby, told with real pads, keys and a mouse."""
+"""The lobby, operated with pads, keys and a mouse."""
 
 from contextlib import ExitStack
 from pathlib import Path
@@ -72,12 +72,12 @@ def test_one_person_alone_who_is_ready_gets_an_ai_and_a_moment_in_which_others_m
     arcade.press(Button.FIRE)
     arcade.press(Button.FIRE)
     assert kinds(arcade) == "HA.."
-    arcade.wait(lobby.ALONE - 0.3, draw=True)
+    arcade.wait(lobby.COUNTDOWN_ALONE - 0.3, draw=True)
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(2.0)
     assert kinds(arcade) == "HAH."
     arcade.press(Button.FIRE, KEYS[1])
-    arcade.wait(lobby.ALL + 0.2)
+    arcade.wait(lobby.COUNTDOWN + 0.2)
     arcade.shown(MatchSetupPage)
 
 
@@ -105,7 +105,7 @@ def test_directions_make_the_ais_stronger_and_that_is_remembered(arcade: Arcade)
     assert Lobby(arcade.context, "pitanks").seats.strength == "hard"
 
 
-def test_beyond_the_strongest_ai_come_those_that_taught_themselves_and_they_play(arcade: Arcade) -> None:
+def test_self_taught_ais_follow_the_strongest_one_and_play(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     arcade.press(Button.Y)
     for wanted in ("hard", "q1", "q2", "q2"):
@@ -118,7 +118,7 @@ def test_beyond_the_strongest_ai_come_those_that_taught_themselves_and_they_play
     assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["human", "q2", "off", "off"]
 
 
-def test_with_teams_left_and_right_choose_ones_own_and_nobody_plays_against_nobody(arcade: Arcade) -> None:
+def test_left_and_right_choose_the_team_and_a_match_needs_two_teams(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     arcade.press(Button.FIRE, KEYS[1])
     arcade.press(Button.X)
@@ -175,7 +175,7 @@ def test_when_nobody_is_there_the_title_comes_back(arcade: Arcade) -> None:
     assert arcade.stack.top is arcade.title
 
 
-def test_whoever_comes_back_from_the_choice_of_the_arena_has_to_be_ready_again(arcade: Arcade) -> None:
+def test_returning_from_match_setup_resets_readiness(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     arcade.press(Button.START)
     arcade.press(Button.BACK)

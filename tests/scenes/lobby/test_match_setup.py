@@ -1,4 +1,4 @@
-"""The choice before a match: arena, minutes, rules."""
+"""Match setup: arena, minutes, rules."""
 
 import itertools
 import tomllib
@@ -47,21 +47,21 @@ def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
     assert page(arcade).chosen.arena == seen[0]
 
 
-def test_what_was_chosen_is_played_and_chosen_again_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
+def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) -> None:
     for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.RIGHT):
         arcade.press(button)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
     assert (minutes, variant) == (3, games()["pitanks"].variants[1])
     arcade.press(Button.FIRE)
-    assert page(arcade).chosen.variant == variant, "whoever still hammers on fire does not begin"
+    assert page(arcade).chosen.variant == variant, "hammering on FIRE does not start the match"
     arcade.wait(0.5)
     arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
     assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
     assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]
     assert match.devices == [KEYS[0], None, None, None]
-    kept = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
-    assert tuple(kept["games"]["pitanks"][name] for name in ("arena", "minutes", "variant")) == (arena, 3, variant)
+    saved = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
+    assert tuple(saved["games"]["pitanks"][name] for name in ("arena", "minutes", "variant")) == (arena, 3, variant)
 
 
 def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:

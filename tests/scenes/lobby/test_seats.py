@@ -1,4 +1,4 @@
-"""Who sits where: the rules of the lobby, without a lobby."""
+"""Seat rules of the lobby, without the scene."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from pigaming_app.ui.input.events import Device
 ANA, BEN, CARLA, DAVID, EVA = (Device("pad", number) for number in range(5))
 
 
-def test_whoever_comes_first_is_player_1() -> None:
+def test_the_first_to_join_is_player_1() -> None:
     seats = Seats()
     assert [seats.join(device) for device in (BEN, ANA)] == [0, 1]
     assert seats.devices() == [BEN, ANA, None, None]
@@ -32,7 +32,7 @@ def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
     assert seats.join(CARLA) == 2
     assert seats.join(DAVID) == 1
     assert seats.join(EVA) is None
-    assert seats.like(HUMAN) == [0, 1, 2, 3]
+    assert seats.of_kind(HUMAN) == [0, 1, 2, 3]
 
 
 def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
@@ -44,7 +44,7 @@ def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
     assert not seats.one_team
 
 
-def test_whoever_comes_joins_the_smaller_team() -> None:
+def test_a_new_player_joins_the_smaller_team() -> None:
     seats = Seats(teams=True)
     for device in (ANA, BEN, CARLA):
         seats.join(device)
@@ -62,8 +62,8 @@ def test_all_ais_become_stronger_or_weaker_up_to_an_end(steps: int, strength: st
     seats.add()
     seats.add()
     for _ in range(abs(steps)):
-        seats.strengthen(1 if steps > 0 else -1)
-    assert {seats.places[i].strength for i in seats.like(AI)} == {strength}
+        seats.change_strength(1 if steps > 0 else -1)
+    assert {seats.places[i].strength for i in seats.of_kind(AI)} == {strength}
     seats.add()
     assert seats.places[2].strength == strength
 
@@ -72,10 +72,10 @@ def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
     seats = Seats()
     seats.add()
     seats.add()
-    seats.strengthen(1, 0)
-    seats.strengthen(1, 0)
+    seats.change_strength(1, 0)
+    seats.change_strength(1, 0)
     assert [seats.places[i].strength for i in (0, 1)] == ["easy", "normal"]
-    assert not Seats().strengthen(1)
+    assert not Seats().change_strength(1)
 
 
 def test_sending_the_ais_away_leaves_the_people() -> None:
@@ -83,7 +83,7 @@ def test_sending_the_ais_away_leaves_the_people() -> None:
     seats.join(ANA)
     seats.add()
     seats.clear()
-    assert (seats.like(HUMAN), seats.like(AI), seats.like(EMPTY)) == ([0], [], [1, 2, 3])
+    assert (seats.of_kind(HUMAN), seats.of_kind(AI), seats.of_kind(EMPTY)) == ([0], [], [1, 2, 3])
 
 
 def team_of(seats: Seats) -> list[int]:
@@ -97,7 +97,7 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
     assert not seats.fill(), "one against one is a match too"
     seats.change_team(1)
     assert seats.one_team
-    assert seats.fill() == [2, 3], "two who want to play together get two rivals"
+    assert seats.fill() == [2, 3], "a pair gets two opponents"
     assert team_of(seats) == [0, 0, 1, 1]
     assert [seat.team for seat in seats.seats()] == [0, 0, 1, 1]
 
@@ -109,7 +109,7 @@ def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
-def test_three_never_stand_on_one_side_and_the_ai_is_who_gives_way() -> None:
+def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
     seats = Seats(team_mode=PAIRS)
     for device in (ANA, BEN):
         seats.join(device)
@@ -117,7 +117,7 @@ def test_three_never_stand_on_one_side_and_the_ai_is_who_gives_way() -> None:
     seats.add()
     assert team_of(seats) == [0, 1, 0, 1]
     seats.change_team(1)
-    assert team_of(seats) == [0, 0, 1, 1], "Ben came over, the AI went"
+    assert team_of(seats) == [0, 0, 1, 1], "Ben changed sides, the AI left"
 
 
 def test_in_a_race_everyone_drives_alone_against_three() -> None:
@@ -132,7 +132,7 @@ def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
     seats = Seats(rivals=("easy", "normal", "hard", "q1", "q2"))
     seats.add()
     for wanted in ("hard", "q1", "q2", "q2"):
-        seats.strengthen(1)
+        seats.change_strength(1)
         assert seats.seats()[0] == Seat(wanted, 0)
-    seats.strengthen(1, 0)
+    seats.change_strength(1, 0)
     assert seats.places[0].strength == "easy"

@@ -1,4 +1,4 @@
-"""Which matches count, and which of them are compared with each other."""
+"""Matches that count for high scores, and their contests."""
 
 from dataclasses import replace
 
@@ -41,9 +41,9 @@ def match(brains, teams=FREE, game="pitanks", minutes=2.0, goal=0, variant=None)
         ("human classic off off", FREE, False),
         ("human MY-OWN off off", FREE, False),
         ("human off off off", FREE, False),
-        ("human normal easy normal", PAIRS, True),  # the easy one is a mate
+        ("human normal easy normal", PAIRS, True),  # the easy AI is a team mate
         ("human normal normal easy", PAIRS, False),
-        ("human off human off", PAIRS, False),  # nobody plays against them
+        ("human off human off", PAIRS, False),  # no opponents
     ],
 )
 def test_a_match_counts_against_people_and_opponents_no_weaker_than_normal(brains, teams, counted):
@@ -88,14 +88,14 @@ def test_minutes_count_where_a_match_is_played_for_time_and_the_goal_where_it_is
 
 def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
     first, second = high_score_tables(contest(match("human normal off off", game="race", goal=3)))
-    assert [(one.table.feat, one.table.timed, one.days) for one in (first, second)] == [
+    assert [(board.table.feat, board.table.timed, board.days) for board in (first, second)] == [
         ("lap", True, None),
         ("race", True, None),
     ]
     assert format_score(61_230, first.table) == "1:01.23"
 
 
-def test_what_a_file_holds_of_games_and_rules_that_are_not_there_is_not_shown():
+def test_unknown_games_and_rules_in_a_file_are_not_shown():
     scores, good = Scores(), contest(match("human normal off off"))
     points = replace(good, feat="points")
     for table in (

@@ -1,4 +1,4 @@
-"""The page of the best scores: which table it opens at, and how one finds the others."""
+"""The high-score page: initial table and navigation."""
 
 from dataclasses import replace
 from pathlib import Path

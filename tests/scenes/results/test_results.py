@@ -1,4 +1,4 @@
-"""After a match: who won, who wants another one, whose three letters stand in the table."""
+"""The results: winner, rematch vote, initials."""
 
 from dataclasses import replace
 from datetime import datetime
@@ -26,7 +26,7 @@ from tests.scenes.arcade import KEYS, Arcade, setup
 ALONE = ScoreTable("pitanks", "classic", "points", rules="plain", length=1, people=1)
 LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
 RACE = replace(LAP, feat="race")
-LONG = 4.0  # seconds after which everything is there and may be pressed
+LONG = 4.0  # s after which the page is complete and accepts input
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, ...] = (0, 1, 2, 3)) -> Outcome:
-    """A minute that ended so."""
+    """A match of one minute with these scores."""
     sums = {team: sum(scores[seat] for seat in scores if teams[seat] == team) for team in teams}
     seats = sorted(scores, key=lambda seat: (-sums[teams[seat]], teams[seat], -scores[seat]))
     facts = {"hits": 9, "taken": 12, "aim": 0.617}
@@ -89,10 +89,10 @@ def test_every_ending_is_shown(
     lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
     lit.invert()
     edge = [box for box in lit.get_bounding_rects() if box.left < 20 or box.right > whole.right - 20]
-    assert not edge, "nothing runs over the edge"
+    assert not edge, "a widget is clipped at the edge"
 
 
-def test_nobody_who_still_fires_leaves_the_results_unseen(arcade: Arcade) -> None:
+def test_players_still_firing_do_not_skip_the_results(arcade: Arcade) -> None:
     results = opened(arcade, "human human hard off", LOST)
     for _ in range(10):
         for button in (Button.FIRE, Button.BACK, Button.START, Button.X):
@@ -117,7 +117,7 @@ def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
     assert match.devices == [KEYS[0], KEYS[1], None, None]
     assert replace(match.setup, seed=0) == replace(results.setup, seed=0)
     assert match.setup.seed != results.setup.seed
-    assert len(arcade.stack.scenes) == 3, "the choice of the match still lies below"
+    assert len(arcade.stack.scenes) == 3, "match setup is still below"
 
 
 def test_start_waits_for_nobody(arcade: Arcade) -> None:
@@ -127,7 +127,7 @@ def test_start_waits_for_nobody(arcade: Arcade) -> None:
     assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[1]]
 
 
-def test_somebody_who_has_gone_holds_nobody_up(arcade: Arcade) -> None:
+def test_an_absent_player_does_not_hold_up_the_rematch(arcade: Arcade) -> None:
     opened(arcade, "human human hard off", LOST)
     arcade.wait(LONG)
     arcade.press(Button.FIRE, KEYS[0])
@@ -162,7 +162,7 @@ def test_other_ways_on(arcade: Arcade) -> None:
     arcade.until(lambda: arcade.stack.top is arcade.title, IDLE + 1.0)
 
 
-def test_the_mouse_clicks_on_what_the_row_says(arcade: Arcade) -> None:
+def test_the_prompts_can_be_clicked(arcade: Arcade) -> None:
     results = opened(arcade, "human human hard off", LOST)
     arcade.wait(LONG)
     arcade.click(960, 500)
@@ -180,7 +180,7 @@ def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) 
     arcade.wait(1.0)
     for button in (Button.UP, Button.FIRE, Button.DOWN, Button.DOWN, Button.FIRE, Button.BACK, Button.FIRE):
         arcade.press(button, KEYS[1])
-        arcade.press(Button.DOWN, KEYS[3])  # the others cannot interfere
+        arcade.press(Button.DOWN, KEYS[3])  # the other players have no effect
         arcade.press(Button.START, KEYS[2])
         arcade.frame(draw=True)
     arcade.press(Button.DOWN, KEYS[0])
@@ -192,9 +192,9 @@ def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) 
     assert [row.initials for row in arcade.shown(HighScores).fresh] == ["BAA", "ZCA"]
     arcade.press(Button.FIRE)
     assert arcade.shown(Results) is results
-    kept, said = Scores.load(folders().data)
+    saved, said = Scores.load(folders().data)
     assert not said
-    assert [(row.initials, row.score) for row in kept.best(replace(ALONE, people=3))] == [("ZCA", 9), ("BAA", 4)]
+    assert [(row.initials, row.score) for row in saved.best(replace(ALONE, people=3))] == [("ZCA", 9), ("BAA", 4)]
 
 
 def test_after_ten_seconds_letters_are_taken_as_they_are_but_not_those_of_somebody_who_only_fired(
@@ -301,13 +301,13 @@ def test_axes_hold_every_score_and_zero() -> None:
         assert (top - bottom) // step <= 6
 
 
-def test_times_below_a_plot() -> None:
+def test_ticks_of_the_time_axis() -> None:
     assert moments(180.0) == [0, 60, 120, 180]
     assert moments(60.0) == [0, 15, 30, 45, 60]
     assert moments(6.0) == [0, 2, 4, 6]
 
 
-def test_badges_part_and_stay_on_the_page() -> None:
+def test_badges_do_not_overlap_and_stay_on_the_page() -> None:
     assert spread([100, 110, 500], 54, 600) == [100, 154, 500]
     assert spread([590, 110, 595], 54, 600) == [546, 110, 600]
 
@@ -318,7 +318,7 @@ def test_a_team_is_the_sum_of_its_robots() -> None:
 
 
 def race(arcade: Arcade, lap: int, whole: int) -> Results:
-    """A race of three laps on the classic track that player 1 won, with a best lap and in all (ms)."""
+    """A race of three laps on the classic track, won by player 1, with best lap and total time in ms."""
     human, ai = Seat("human", 0), Seat("hard", 1)
     match = Setup("race", "classic", (human, ai, Seat("off", 2), Seat("off", 3)), 10, 3, "standard", 3)
     facts = {"laps": 3, "best": lap / 1000.0, "total": whole / 1000.0}
@@ -353,11 +353,11 @@ def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) 
     arcade.press(Button.START, KEYS[0])
     arcade.wait(2.0, draw=True)
     arcade.shown(HighScores)
-    kept, said = Scores.load(folders().data)
+    saved, said = Scores.load(folders().data)
     assert not said
-    assert [row.score for row in kept.best(LAP)] == [9_870]
-    assert [row.score for row in kept.best(RACE)] == [30_120]
-    assert not kept.best(replace(RACE, length=5)), "five laps are another race"
+    assert [row.score for row in saved.best(LAP)] == [9_870]
+    assert [row.score for row in saved.best(RACE)] == [30_120]
+    assert not saved.best(replace(RACE, length=5)), "five laps are another race"
 
 
 def test_a_slow_race_with_a_fast_lap_claims_the_lap_alone(arcade: Arcade) -> None:
@@ -377,10 +377,10 @@ def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None
     [(x, y)] = plot.marked()
     assert x == pytest.approx(plot.to(1.0, 9.87)[0])
     assert y == pytest.approx(plot.to(1.0, 9.87)[1], abs=5.0)
-    assert [said for _, said in plot.marks()] == ["1", "2", "3"]
-    assert len(plot.corners(curves[1].series)) == 2, "an only lap is a stroke that can be seen"
+    assert [label for _, label in plot.marks()] == ["1", "2", "3"]
+    assert len(plot.corners(curves[1].series)) == 2, "a single lap is a visible stroke"
     assert len(plot.heads(0.1)) == 0
-    assert len(plot.heads(1.0)) == 2, "who drove no lap has no line"
+    assert len(plot.heads(1.0)) == 2, "a driver without a lap has no line"
     assert LapPlot(100, 100, 800, 500, [Curve((0,), ())], 3).marked() == []
 
 

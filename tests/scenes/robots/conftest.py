@@ -1,4 +1,4 @@
-"""Real robots on the emulated arena in made-up time: one arena for all tests of a process."""
+"""Fixtures: real robots on the emulated arena in simulated time, one arena per test process."""
 
 from collections.abc import Iterator
 
@@ -11,8 +11,8 @@ from tests.scenes.arcade import Arcade
 
 
 @pytest.fixture(scope="session")
-def kept() -> Iterator[EmulatedSession]:
-    """The arena, made and calibrated once."""
+def emulated() -> Iterator[EmulatedSession]:
+    """The arena, created and calibrated once."""
     pytest.importorskip("cv2")
     mat = EmulatedSession(live=False)
     yield mat
@@ -20,21 +20,21 @@ def kept() -> Iterator[EmulatedSession]:
 
 
 @pytest.fixture
-def mat(kept: EmulatedSession) -> Iterator[EmulatedSession]:
-    """The arena as if nothing had happened there: dark, four robots on it, no fault."""
-    arena = kept.arena
+def mat(emulated: EmulatedSession) -> Iterator[EmulatedSession]:
+    """The arena in its initial state: dark, four robots, no fault."""
+    arena = emulated.arena
     arena.project(np.zeros((1080, 1920), np.uint8))
     for robot, pose in enumerate(((180, 260, 0.4), (1300, 700, 2.9), (1300, 200, 3.9), (300, 700, 5.5))):
         arena.place(robot, pose)
-    yield kept
+    yield emulated
     for name, robot in arena.faults.on():
         arena.faults.switch(name, False, robot)
-    kept.close()
+    emulated.close()
 
 
 @pytest.fixture
 def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
-    """An arcade beside the arena."""
+    """An arcade connected to the arena."""
     arcade = Arcade(controls)
     arcade.context.session = mat
     return arcade

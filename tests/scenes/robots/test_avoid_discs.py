@@ -1,4 +1,4 @@
-"""The robots' page makes way for robots: wherever four stand, all of it can be read and clicked."""
+"""Layout of the robots' page around four robots: every block stays readable and clickable."""
 
 import math
 import random
@@ -17,7 +17,7 @@ PAGE = [ROWS, ROBOTS, LINE, HINTS, SENTENCE]
 
 
 def standing(chance: random.Random) -> list[Circle]:
-    """Four robots anywhere on the mat, with their arrows and tags."""
+    """Four robots at random positions, with their arrows and tags."""
     found: list[Circle] = []
     for _ in range(4):
         x, y, a = 160 + chance.uniform(45, 1555), 140 + chance.uniform(45, 855), chance.uniform(0.0, math.tau)
@@ -27,7 +27,7 @@ def standing(chance: random.Random) -> list[Circle]:
 
 
 def test_without_robots_everything_is_at_home() -> None:
-    assert [(one.at, one.scale) for one in arrange(PAGE[:4], [])] == [(home.topleft, 1.0) for home in PAGE[:4]]
+    assert [(block.at, block.scale) for block in arrange(PAGE[:4], [])] == [(home.topleft, 1.0) for home in PAGE[:4]]
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -35,10 +35,10 @@ def test_wherever_robots_stand_no_block_is_hidden_nor_over_another_one(seed: int
     discs = standing(random.Random(seed))
     placed = arrange(PAGE, discs)
     assert not hit(placed, discs)
-    boxes = [one.box for one in placed]
+    boxes = [block.box for block in placed]
     assert all(ROOM.contains(box) for box in boxes)
     assert not [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.colliderect(b)]
-    assert placed[0].scale >= 0.5, "20 px for what had 40"
+    assert placed[0].scale >= 0.5, "40 px text is at least 20 px"
 
 
 def test_a_block_stays_until_a_robot_reaches_it_and_comes_home_when_all_have_gone() -> None:
@@ -49,21 +49,21 @@ def test_a_block_stays_until_a_robot_reaches_it_and_comes_home_when_all_have_gon
     aside.update(1.0, page, [(590.0, 400.0, 95.0)])
     assert aside.placed == first
     aside.update(1.0, page, [])
-    assert [one.at for one in aside.placed] == [home.topleft for home in page]
+    assert [block.at for block in aside.placed] == [home.topleft for home in page]
 
 
 def test_a_click_means_what_is_shown_there() -> None:
     aside = BlockLayout()
     aside.update(0.1, PAGE, standing(random.Random(3)))
-    for one in aside.placed:
-        x, y = aside.back(one.box.center)
-        assert abs(x - one.home.centerx) < 2
-        assert abs(y - one.home.centery) < 2
+    for block in aside.placed:
+        x, y = aside.back(block.box.center)
+        assert abs(x - block.home.centerx) < 2
+        assert abs(y - block.home.centery) < 2
     empty = next(
         (x, y)
         for x in range(0, 1920, 40)
         for y in range(200, 1080, 40)
-        if not any(one.box.collidepoint(x, y) for one in aside.placed)
+        if not any(block.box.collidepoint(x, y) for block in aside.placed)
     )
     assert aside.back(empty) == (-1.0, -1.0)
 

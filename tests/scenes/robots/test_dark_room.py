@@ -1,4 +1,4 @@
-"""Real robots in a dark room, on the emulated arena: even light until every one of them is seen."""
+"""Real robots in a dark room, on the emulated arena: floodlight until all of them are seen."""
 
 from collections.abc import Iterator
 from random import Random
@@ -34,7 +34,7 @@ def gathering(arcade: Arcade) -> tuple[RealMatch, TakePlaces]:
 
 
 def scattered(mat: EmulatedSession, trial: int) -> None:
-    """Robots near the rim of a mat on which nothing has been projected for a while."""
+    """Robots near the rim of a mat without recent projection."""
     mat.arena.project(np.zeros((1080, 1920), np.uint8))
     random = Random(trial)
     for robot, (x, y) in enumerate(((60, 80), (1500, 90), (1520, 820), (90, 800))):
@@ -51,7 +51,7 @@ def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedSession, ambient
     scattered(mat, trial)
     _, page = gathering(arcade)
     play(arcade, 0.04, lit=True)
-    if ambient < 1.0:  # else they are seen at once
+    if ambient < 1.0:  # otherwise they are seen at once
         assert arcade.screen.get_at((960, 540))[:3] == (LIGHT,) * 3
     for _ in range(60):
         if not page.missing:
@@ -60,7 +60,7 @@ def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedSession, ambient
     assert page.missing == []
     play(arcade, FADE + 0.1, lit=True)
     assert arcade.screen.get_at((960, 540))[:3] == (0, 0, 0)
-    assert page.missing == [], "the discs are enough from now on"
+    assert page.missing == [], "the discs suffice from here on"
 
 
 @pytest.mark.long

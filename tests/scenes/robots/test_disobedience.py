@@ -1,4 +1,4 @@
-"""Robots that do not do as they are told, on the emulated arena: named, stopped, and paired again."""
+"""Robots that do not follow commands, on the emulated arena: fault page, stop, new pairing."""
 
 from collections.abc import Iterator
 from math import hypot
@@ -30,7 +30,7 @@ def named(arcade: Arcade) -> list[tuple[str, int | None]]:
 
 
 def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
-    """A match whose robots have yet to take their places."""
+    """A match whose robots are still driving to their start positions."""
     match = match_of(arcade.context, match_for("pitanks", "normal easy easy easy", 1.0), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
@@ -38,7 +38,7 @@ def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
 
 
 def paired(arcade: Arcade) -> PairAgain:
-    """Pair again from the page of the fault; the page, once it has said how that ended."""
+    """Run a new pairing from the fault page and return its page with the result."""
     arcade.press(Button.FIRE)
     page = arcade.shown(PairAgain)
     for _ in range(100):

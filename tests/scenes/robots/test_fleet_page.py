@@ -1,4 +1,4 @@
-"""The operator's page of the robots: who is there, who is who, how late, and what is wrong."""
+"""The fleet page: robot status, pairing, latency, faults."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -35,7 +35,7 @@ def arcade(controls: Controls, home: Path, mat: EmulatedSession) -> Iterator[Arc
 
 
 def idle(arcade: Arcade, page: FleetPage) -> None:
-    """Wait until nothing moves any more."""
+    """Wait until all robots stand still."""
     for _ in range(60):
         arcade.wait(0.5, fps=50)
         if not page.check.busy:
@@ -54,7 +54,7 @@ def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: 
     assert "no deadman" not in page._line()
 
 
-def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedSession) -> None:
+def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)
     arcade.wait(4.0, fps=50)
@@ -82,7 +82,7 @@ def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSessio
     rows = page.aside.placed[0]
     at = [rows.at[i] + (box.center[i] - rows.home.topleft[i]) * rows.scale for i in (0, 1)]
     page.on(InputEvent(Button.POINT, Device("mouse"), at=(at[0], at[1])))
-    assert page.focus.name == "pair", "the row is where it is shown"
+    assert page.focus.name == "pair", "clicks follow the moved block"
 
 
 @pytest.mark.long
@@ -92,7 +92,7 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedS
     assert rig is not None
     one, two = mat.arena.poses()[:2]
     heard = mat.arena.firmwares
-    heard[0].robot, heard[1].robot = heard[1].robot, heard[0].robot  # each radio sits in the other robot
+    heard[0].robot, heard[1].robot = heard[1].robot, heard[0].robot  # swap the radios of two robots
     try:
         arcade.press(Button.FIRE)
         assert page.check.busy
@@ -125,7 +125,7 @@ def test_the_delay_of_the_whole_loop_is_measured(arcade: Arcade) -> None:
     page.check._todo = [0]
     assert page.check._next()
     idle(arcade, page)
-    late = page.check.late[0]
+    late = page.check.latencies[0]
     assert late is not None
     assert 0.05 < late < 0.15
 
@@ -143,7 +143,7 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         assert "calibra" in page._state()
         arcade.wait(0.5)
         arcade.until(lambda: mat.trouble is not None, 5.0)
-        assert "Não há nenhuma porta /dev/nowhere" in str(page._trouble())
+        assert "Não há nenhuma porta /dev/nowhere" in str(page._fault())
         arcade.press(Button.UP)
         arcade.press(Button.LEFT)
         assert settings.radio == "api2"

@@ -1,4 +1,4 @@
-"""What lights real robots: an even grey under every marker, whatever a game draws and whoever is near."""
+"""Marker discs: even grey under every marker, whatever the game draws and wherever other robots are."""
 
 from math import hypot
 from typing import cast
@@ -16,7 +16,7 @@ LID = 36  # px, radius
 
 
 class Seen:
-    """A rig that sees robots there."""
+    """A rig with fixed sightings."""
 
     def __init__(self, *sightings: Sighting) -> None:
         self.sightings = list(sightings)
@@ -38,14 +38,14 @@ def test_every_lid_is_lit_evenly_even_where_robots_touch(controls: Controls, gap
     seen = Seen(Sighting(400.0, 300.0, 0.3, 0.0), Sighting(400.0 + gap, 300.0, 3.0, 0.0))
     lit(screen, seen, {0, 1})
     assert seen.asked > 0.0
-    for one in seen.sightings:
+    for sighting in seen.sightings:
         for x in range(-LID, LID + 1, 3):
             for y in range(-LID, LID + 1, 3):
                 if hypot(x, y) <= LID:
-                    assert screen.get_at((round(160 + one.x + x), round(140 + one.y + y)))[:3] == GREY
+                    assert screen.get_at((round(160 + sighting.x + x), round(140 + sighting.y + y)))[:3] == GREY
 
 
-def test_the_ring_and_the_arrow_tell_whose_it_is_and_where_it_looks(controls: Controls) -> None:
+def test_ring_and_arrow_show_player_and_heading(controls: Controls) -> None:
     screen = pygame.Surface((1920, 1080))
     lit(screen, Seen(Sighting(400.0, 300.0, 0.0, 0.0)), {0})
     assert screen.get_at((560, 440 - RING))[2] > 150  # player 1 is blue
@@ -54,7 +54,7 @@ def test_the_ring_and_the_arrow_tell_whose_it_is_and_where_it_looks(controls: Co
     assert max(ahead) > 200
 
 
-def test_who_is_not_real_or_long_unseen_gets_no_disc(controls: Controls) -> None:
+def test_simulated_and_lost_robots_have_no_disc(controls: Controls) -> None:
     screen = pygame.Surface((1920, 1080))
     lit(screen, Seen(Sighting(400.0, 300.0, 0.0, 0.0), Sighting(900.0, 300.0, 0.0, 3.0)), {1})
     for x in (560, 1060):

@@ -1,4 +1,4 @@
-"""From the options to all that robots need, and the sheet of markers in the user's folder."""
+"""The operator menu, opened from the options, and the marker sheet in the user's folder."""
 
 from pathlib import Path
 

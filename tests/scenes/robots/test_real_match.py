@@ -1,4 +1,4 @@
-"""Matches with real robots as people live them, on the emulated arena in made-up time."""
+"""Matches with real robots on the emulated arena in simulated time."""
 
 from math import hypot
 
@@ -41,7 +41,7 @@ def match_for(game: str, brains: str, minutes: float) -> Setup:
 
 
 def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
-    """Let made-up time pass; if `lit`, what is shown falls on the mat."""
+    """Advance simulated time; with `lit`, the screen is projected onto the mat."""
     for _ in range(round(seconds * FPS)):
         arcade.frame(1 / FPS, draw=lit)
         if lit:
@@ -50,17 +50,17 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
             mat.show(lambda: pixels_of(arcade.screen))
 
 
-def until(arcade: Arcade, kind: type, most: float = 8.0) -> float:
-    """Let time pass until a scene of this kind is on top; how long that took, s."""
-    for frame in range(round(most * FPS)):
+def until(arcade: Arcade, kind: type, timeout: float = 8.0) -> float:
+    """Advance until a scene of this type is on top; returns the time taken, s."""
+    for frame in range(round(timeout * FPS)):
         if isinstance(arcade.stack.top, kind):
             return frame / FPS
         arcade.frame(1 / FPS)
-    raise AssertionError(f"{type(arcade.stack.top).__name__} is on top after {most} s")
+    raise AssertionError(f"{type(arcade.stack.top).__name__} is on top after {timeout} s")
 
 
 def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) -> RealMatch:
-    """A match of PiTanks whose robots may begin as they stand, running."""
+    """A running PiTanks match whose robots may start from their current positions."""
     match = match_of(arcade.context, match_for("pitanks", "normal easy off off", minutes), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
@@ -69,7 +69,7 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
 
 
 def started(arcade: Arcade, match: RealMatch) -> None:
-    """Let the robots begin as they stand, and wait until they drive."""
+    """Start from the current positions and wait until the robots drive."""
     play(arcade, 1.0)
     arcade.press(Button.START)
     for _ in range(round(5.0 * FPS)):
@@ -149,7 +149,7 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
 
 
 def test_a_match_drives_with_the_drift_that_its_session_measures(arcade: Arcade, mat: EmulatedSession) -> None:
-    """The scene paints the corner markers; that they have moved is measured without it."""
+    """The scene draws the corner markers; their drift is measured independently of it."""
     match = begun(arcade)
     before, mat.arena.camera.painter.refresh = mat.arena.camera.painter.refresh, 1
     play(arcade, 1.5, lit=True)
@@ -245,7 +245,7 @@ def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
     body = mat.arena.robots[1]
     before, body.battery = body.battery, 3.95
     until(arcade, FaultPage, 3.0)
-    body.battery = 4.2  # cells recover at rest; the robot still refuses its motors
+    body.battery = 4.2  # cells recover without load; the robot still refuses to drive
     play(arcade, 3.0)
     assert [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults] == [("empty", 1)]
     body.battery = 4.45
@@ -257,7 +257,7 @@ def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
 def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     arcade: Arcade, mat: EmulatedSession, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It still reports, but hears nothing: as with a receiver whose antenna is loose."""
+    """The robot still reports but receives nothing, as with a loose antenna."""
     match = begun(arcade)
     monkeypatch.setattr(mat.arena.firmwares[1], "_obey", lambda packet, now: None)
     play(arcade, 0.6)
@@ -314,7 +314,7 @@ def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedSess
 
 @pytest.mark.parametrize("again", one_in(2, [False, True]))
 def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedSession, again: bool) -> None:
-    """Nor is one begun again, where the radio was changed meanwhile."""
+    """Including a rematch after the radio was changed."""
     if again:
         match = begun(arcade)
         arcade.context.settings.radio = "stock"
@@ -333,7 +333,7 @@ def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedSes
     assert mat.arena.clock() - max(mat.arena.ran) > 0.2
 
 
-def test_what_cannot_be_used_is_said_and_simulated_robots_play(
+def test_the_reason_is_shown_and_simulated_robots_play(
     arcade: Arcade, mat: EmulatedSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def missing() -> None:

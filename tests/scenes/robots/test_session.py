@@ -1,4 +1,4 @@
-"""Matches with real robots open what they need, close it when they end, and go on without what is missing."""
+"""Matches with real robots open their devices, release them at the end, and cope with missing ones."""
 
 from functools import partial
 from pathlib import Path
@@ -50,7 +50,7 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
 
 
 class Failing(RealMatch):
-    """A match that breaks as soon as its robots drive."""
+    """A match that raises as soon as its robots drive."""
 
     def update(self, seconds: float) -> Turn:
         turn = super().update(seconds)

@@ -1,4 +1,4 @@
-"""A match of Robot Factory on the screen: everything is shown, everything is heard once, and nothing is written."""
+"""The view of Robot Factory: everything is drawn, every sound plays once, and the match is not modified."""
 
 import math
 
@@ -64,7 +64,7 @@ def sounds(view, state):
 
 
 def picture(screen, view, state, x, y, half=60):
-    """What is seen round a place of the arena, once all that flies has gone out."""
+    """Pixels around a point of the arena, after all particles have faded."""
     view.particles.advance(9.0)
     view.draw(screen, state, 1.0, 0.0)
     box = pygame.Rect(160 + int(x) - half, 140 + int(y) - half, 2 * half, 2 * half).clip(screen.get_rect())
@@ -110,13 +110,13 @@ def test_a_pallet_that_was_just_moved_is_larger_for_a_moment(screen):
     feed(state, 0, INPUT_A)
     feed(state, 0, 0, ON_ROBOT)
     view.watch(state)
-    assert view.popping.tenths(0, view.particles.clock) > 10
-    assert view.popping.tenths(1, view.particles.clock) == 10
+    assert view.pops.tenths(0, view.particles.clock) > 10
+    assert view.pops.tenths(1, view.particles.clock) == 10
     view.particles.advance(1.0)
-    assert view.popping.tenths(0, view.particles.clock) == 10
+    assert view.pops.tenths(0, view.particles.clock) == 10
 
 
-def test_what_is_carried_lies_on_the_fork(screen):
+def test_a_load_lies_on_the_forks(screen):
     match = begun()
     view, state = seen(match), match.state
     robot = state.robots[0]
@@ -142,7 +142,7 @@ def test_every_state_of_a_pallet_of_each_team_looks_its_own(screen, team):
 
 
 def test_states_are_told_apart_without_colours(screen):
-    """In grey, at a quarter of the size, no two states look alike."""
+    """In greyscale at a quarter of the size, all states differ."""
     match = begun()
     view, state = seen(match), match.state
     feed(state, 0, INPUT_A)
@@ -199,7 +199,7 @@ def test_a_delivery_is_heard_once_sparks_and_counts(screen):
     state.robots[0].score = state.loads[0].delivered = 1
     assert view.watch(state) == [("delivered", 0, state.slots[EXIT_ICE].x)]
     assert view.particles.particles
-    assert [(one.text, one.player) for one in view.particles.scores] == [("+1", 0)]
+    assert [(popup.text, popup.player) for popup in view.particles.scores] == [("+1", 0)]
     panel = pygame.Rect(160, 0, 652, 136)
     old = pygame.image.tobytes(screen.subsurface(panel), "RGB")
     view.draw(screen, state, 1.0, 9.0)
@@ -277,11 +277,11 @@ def test_people_and_robots_are_seen_between_two_ticks(screen):
     assert len(pictures) == 3
 
 
-def test_what_waits_and_what_drove_off_is_counted_beside_the_warehouses(screen):
+def test_waiting_and_delivered_pallets_are_counted_beside_the_warehouses(screen):
     match = begun(goal=8)
     view, state = seen(match), match.state
     entry, out = state.slots[0], state.slots[EXIT_ICE]
-    assert sum(one.place == WAITING for one in state.pallets[:MOST_PALLETS]) == 4
+    assert sum(pallet.place == WAITING for pallet in state.pallets[:MOST_PALLETS]) == 4
     four = picture(screen, view, state, entry.x - 150, entry.y - 14)
     feed(state, 7, ICE, SHIPPED)
     three = picture(screen, view, state, entry.x - 150, entry.y - 14)

@@ -1,4 +1,4 @@
-"""A race on the screen: everything is shown and heard when it happens, once, and nothing is written to the race."""
+"""The race view: everything is drawn and heard once when it happens, and the race is not modified."""
 
 import json
 from dataclasses import replace
@@ -12,7 +12,7 @@ from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.benchmark.race import BusyRace
-from pigaming_app.scenes.views.particles import MOST
+from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.scenes.views.race import hud_cards as race_cards
@@ -51,25 +51,25 @@ def sounds(view, state):
 
 
 def shown(screen, view, state, box, seconds=0.0):
-    """What a part of the picture shows."""
+    """Pixels of a part of the canvas."""
     view.draw(screen, state, 1.0, seconds)
     return pygame.image.tobytes(screen.subsurface(box), "RGB")
 
 
 def over(state, seat, w=220, h=130):
-    """The part of the picture above a robot."""
+    """The area above a robot."""
     robot = state.robots[seat]
     return pygame.Rect(160 + int(robot.x) - w // 2, 140 + int(robot.y) - 40 - h, w, h).clip((0, 0, 1920, 1080))
 
 
 def put(state, seat, x, y):
-    """Stand a robot somewhere."""
+    """Place a robot."""
     robot = state.robots[seat]
     robot.x, robot.y = x, y
     locate(state.course, x, y, state.racers[seat].place)
 
 
-# ---- all of it
+# ---- whole races
 
 
 @pytest.mark.parametrize("seats", [2, 3, 4])
@@ -84,7 +84,7 @@ def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, sea
         if tick % 10 == 0:
             view.draw(screen, scene.state, 0.5, 0.2)
         assert digest(scene.state) == before
-        assert len(view.particles.particles) <= MOST
+        assert len(view.particles.particles) <= MAX_PARTICLES
 
 
 @pytest.mark.parametrize("track", arenas("race"))
@@ -116,7 +116,7 @@ def test_a_preview_shows_the_track_at_any_size(screen, track):
         assert max(pygame.transform.average_color(image)[:3]) > 8
 
 
-# ---- what is heard, once
+# ---- sounds
 
 
 def test_a_race_is_heard_from_the_first_line_to_the_last():
@@ -140,9 +140,13 @@ def test_a_race_is_heard_from_the_first_line_to_the_last():
 def test_a_lap_and_a_better_one_sound_different():
     scene = BusyRace(2, laps=5)
     view, racer, robot = seen(scene), scene.state.racers[1], scene.state.robots[1]
-    for passed, lap, best, said in ((5, 520.0, 520.0, "lap"), (9, 500.0, 500.0, "best_lap"), (13, 510.0, 500.0, "lap")):
+    for passed, lap, best, sound in (
+        (5, 520.0, 520.0, "lap"),
+        (9, 500.0, 500.0, "best_lap"),
+        (13, 510.0, 500.0, "lap"),
+    ):
         racer.passed, racer.last_lap, racer.best_lap, robot.score = passed, lap, best, passed // LINES
-        assert view.watch(scene.state) == [(said, 1, robot.x)]
+        assert view.watch(scene.state) == [(sound, 1, robot.x)]
 
 
 def test_mud_is_heard_on_the_way_in_and_flies_while_one_drives():
@@ -254,7 +258,7 @@ def test_cards_run_in_order_and_change_places_only_when_an_order_holds(screen):
     scene = BusyRace(4)
     view, state = seen(scene), scene.state
     assert view.detector.order == [0, 1, 2, 3]
-    for tick in range(3 * SETTLE):  # two side by side
+    for tick in range(3 * SETTLE):  # two robots side by side
         state.tick += 1
         state.racers[0].rank, state.racers[1].rank = (1, 2) if tick // 5 % 2 else (2, 1)
         view.watch(state)
@@ -272,7 +276,7 @@ def test_the_one_behind_is_as_many_seconds_behind_as_ago_the_leader_was_there():
     scene = BusyRace(2)
     view, state = seen(scene), scene.state
     leader, other = state.racers[:2]
-    for _ in range(300):  # 100 px/s, the other one 250 px behind
+    for _ in range(300):  # 100 px/s, the other robot 250 px behind
         state.tick += 1
         leader.progress, other.progress = 2.0 * state.tick, 2.0 * state.tick - 250.0
         view.watch(state)
@@ -280,12 +284,12 @@ def test_the_one_behind_is_as_many_seconds_behind_as_ago_the_leader_was_there():
     assert view.cards.gaps.gap(state, 0) == 0.0
     leader.finished, leader.finish = 1, 400.0
     other.finished, other.finish = 1, 561.0
-    assert view.cards.gaps.gap(state, 1) == pytest.approx(3.22), "in the end, behind the winner"
+    assert view.cards.gaps.gap(state, 1) == pytest.approx(3.22), "after the finish, to the winner"
 
 
 def test_a_gap_is_no_longer_than_four_characters():
-    told = {0.0: "+0.0", 0.04: "+0.0", 9.94: "+9.9", 9.96: "+10", 42.4: "+42", 599.9: "+600", -0.1: "+0.0"}
-    assert {seconds: figure(seconds) for seconds in told} == told
+    texts = {0.0: "+0.0", 0.04: "+0.0", 9.94: "+9.9", 9.96: "+10", 42.4: "+42", 599.9: "+600", -0.1: "+0.0"}
+    assert {seconds: figure(seconds) for seconds in texts} == texts
 
 
 @pytest.mark.parametrize(("language", "gap"), [("en", "+2.5"), ("pt", "+2,5")])
@@ -324,18 +328,18 @@ def test_the_figures_of_a_card_stand_apart_and_read_at_three_metres(screen, lang
 
 
 def columns(picture):
-    """From where to where there is bright ink, with at least 6 px of none between."""
+    """Ranges of columns with bright ink, separated by at least 6 dark px."""
     bright = [
         any(max(picture.get_at((x, y))[:3]) > 150 for y in range(picture.get_height()))
         for x in range(picture.get_width())
     ]
-    found = []
+    ranges = []
     for x in (x for x, lit in enumerate(bright) if lit):
-        if found and x - found[-1][1] <= 8:
-            found[-1][1] = x
+        if ranges and x - ranges[-1][1] <= 8:
+            ranges[-1][1] = x
         else:
-            found.append([x, x])
-    return found
+            ranges.append([x, x])
+    return ranges
 
 
 def test_the_clock_counts_up_and_then_down_for_those_who_still_race(screen):
@@ -378,13 +382,13 @@ CROSSED = (0.0, 3.0, 5.0, 8.0)
 
 
 def a_ghost(seconds: float = 10.0, line: int = 0) -> Ghost:
-    """Round a square, one side from line to line."""
+    """A lap around a square, one side per line."""
     poses = tuple((10.0 * i, 100.0, 0.0) for i in range(int(seconds * 10) + 1))
     return Ghost(line, seconds, CROSSED, poses)
 
 
 def drive_laps(scene, view, seat, laps, first=100):
-    """Let a robot drive laps of so many ticks, a line every quarter."""
+    """Drive laps of a given number of ticks, one line per quarter."""
     state = scene.state
     racer, robot = state.racers[seat], state.robots[seat]
     for number, ticks in enumerate((first, *laps)):
@@ -444,13 +448,13 @@ def test_ghosts_are_cleared_with_the_scores(tmp_path):
 @pytest.mark.parametrize("version", ["1.3.0", "1.4.0"])
 def test_a_ghost_of_an_older_version_is_shown_if_todays_robots_could_drive_its_lap(version, monkeypatch):
     folder, arena = Path(__file__).parents[2] / "data" / version, load("race", "classic")
-    found, trouble = call(folder, arena)
+    ghost, trouble = call(folder, arena)
     assert trouble == ""
-    assert found.seconds == 8.1834
-    assert ghosts.drivable(found, arena)
-    assert not ghosts.drivable(replace(found, crossed=(0.0, 1.0, 2.0, 3.0)), arena)
+    assert ghost.seconds == 8.1834
+    assert ghosts.drivable(ghost, arena)
+    assert not ghosts.drivable(replace(ghost, crossed=(0.0, 1.0, 2.0, 3.0)), arena)
     monkeypatch.setattr(ghosts, "SLACK", 0.5)  # as if robots were half as fast
-    assert not ghosts.drivable(found, arena)
+    assert not ghosts.drivable(ghost, arena)
     assert call(folder, arena) == (None, "old")
 
 
@@ -465,8 +469,8 @@ def test_a_ghost_of_another_engine_that_no_robot_could_drive_is_dropped_with_a_w
     assert view.recorder.trouble == "old"
     assert "no robot can drive this lap" in caplog.text
     word = pygame.Rect(400, 1040, 1120, 40)
-    said = shown(screen, view, scene.state, word)
-    assert said != shown(screen, view, scene.state, word, 9.0)
+    notice = shown(screen, view, scene.state, word)
+    assert notice != shown(screen, view, scene.state, word, 9.0)
 
 
 @pytest.mark.parametrize("text", ["", "no ghost", "[1]", '{"engine": "x"}', "{}", '{"engine":1e999}'])
@@ -510,13 +514,13 @@ def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp
     scene.state.tick += 1
     view.watch(scene.state)
     view.recorder.writing.join()
-    kept, _ = call(tmp_path, scene.arena)
-    assert kept == view.recorder.ghost
-    assert kept.seconds == 10.0
-    assert kept.line == 0
-    assert kept.crossed == (0.0, 2.5, 5.0, 7.5)
-    assert len(kept.poses) == 101
-    assert kept.poses[50] == pytest.approx((200.0 + 249.0, 300.0, 0.5), abs=2.0)
+    saved, _ = call(tmp_path, scene.arena)
+    assert saved == view.recorder.ghost
+    assert saved.seconds == 10.0
+    assert saved.line == 0
+    assert saved.crossed == (0.0, 2.5, 5.0, 7.5)
+    assert len(saved.poses) == 101
+    assert saved.poses[50] == pytest.approx((200.0 + 249.0, 300.0, 0.5), abs=2.0)
 
 
 def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_path):
@@ -528,7 +532,7 @@ def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_pat
     view.watch(scene.state)
     assert view.recorder.ghost is None
 
-    players[1] = "normal"  # the shell's list: somebody's pad was lost
+    players[1] = "normal"  # the shell's list: a person's pad was disconnected
     view.players[1] = "normal"
     drive_laps(scene, view, 1, [400])
     view.players[1] = "human"

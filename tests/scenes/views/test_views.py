@@ -1,4 +1,4 @@
-"""A match of PiTanks on the screen: everything is shown, everything is heard once, and nothing is written."""
+"""The PiTanks view: everything is drawn, every sound plays once, and the match is not modified."""
 
 import itertools
 
@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, POWERS, SHIELD
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects, BusyPiTanks
-from pigaming_app.scenes.views.particles import MOST
+from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.pitanks.hud import layout
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.registry import VIEWS
@@ -44,7 +44,7 @@ def test_a_second_of_any_company_draws_and_leaves_the_match_alone(screen, teams)
         view.watch(scene.state)
         view.draw(screen, scene.state, 0.5, 0.02)
         assert digest(scene.state) == before
-    assert len(view.particles.particles) <= MOST
+    assert len(view.particles.particles) <= MAX_PARTICLES
 
 
 @pytest.mark.parametrize("power", range(len(POWERS)), ids=POWERS)
@@ -76,7 +76,7 @@ def test_a_hit_is_heard_once_and_scores_rise_over_both(screen):
     state.robots[0].score, state.robots[2].score = 1, -1
 
     assert view.watch(state) == [("hit", 2, state.robots[2].x)]
-    assert {(one.text, one.player) for one in view.particles.scores} == {("+1", 0), ("−1", 2)}
+    assert {(popup.text, popup.player) for popup in view.particles.scores} == {("+1", 0), ("−1", 2)}
     assert view.watch(state) == []
     view.draw(screen, state, 1.0, 1.0)
     assert view.particles.scores == []
@@ -191,7 +191,7 @@ def test_absent_seats_have_no_panel_and_two_teams_stand_on_their_sides():
 
     slots, sums = layout(BusyPiTanks((0, 1, 0, 1)).state.robots)
     assert [slot.seat for slot in slots] == [0, 2, 1, 3]
-    assert [one.team for one in sums] == [0, 1]
+    assert [panel.team for panel in sums] == [0, 1]
     assert slots[0].x == 160
     assert slots[-1].x + slots[-1].w == 1760
     assert all(a.x + a.w <= b.x for a, b in itertools.pairwise(slots))

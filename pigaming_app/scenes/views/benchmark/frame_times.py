@@ -1,6 +1,6 @@
-"""How long the pictures of a game take: its busiest match, on a display that nobody sees.
+"""Frame-time benchmark: a game's busiest match on an invisible display.
 
-Two hundred particles are kept in the air, and every number of the match moves.
+Two hundred particles are kept alive, and every number of the match changes.
 """
 
 from collections.abc import Callable
@@ -22,11 +22,11 @@ from pigaming_app.ui.i18n import Words
 
 PARTICLES = 200
 FPS = 60
-FIRST = 60  # frames that are not counted
+FIRST = 60  # warm-up frames, not counted
 
 
 class BenchmarkMatch(Protocol):
-    """A match, or what looks like one."""
+    """A match or a synthetic replacement."""
 
     arena: Arena
     state: Any
@@ -36,7 +36,7 @@ class BenchmarkMatch(Protocol):
 
 
 class BusyFactory:
-    """A factory with eight pallets a team and drivers in a hurry; somebody is always frozen."""
+    """Factory match with eight pallets per team and frantic drivers; one robot is always frozen."""
 
     def __init__(self) -> None:
         rules = games()["factory"]
@@ -46,7 +46,6 @@ class BusyFactory:
         self.arena, self.state = self.match.arena, self.match.state
 
     def tick(self) -> None:
-        """Advance by 1/50 s."""
         self.match.tick()
         frozen = self.state.loads[3]
         frozen.frozen = frozen.frozen or self.state.rules.freeze
@@ -60,7 +59,7 @@ BUSY: dict[str, Callable[[], BenchmarkMatch]] = {
 
 
 def frame_times(game: str, frames: int) -> list[float]:
-    """Milliseconds of so many frames at 60 a second, warm. The caller has chosen the dummy driver."""
+    """Times of `frames` warm frames at 60 per second, ms. The caller has selected the dummy video driver."""
     pygame.display.init()
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))

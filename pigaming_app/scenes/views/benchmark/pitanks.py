@@ -1,6 +1,6 @@
-"""The busiest second of a match of PiTanks, made up: every number moves. For measuring frames and for looking at them.
+"""Synthetic PiTanks match at peak load, for benchmarks and visual checks: every number changes.
 
-Four robots, thirty bullets, powers, pick-ups, mines, walls that break, and a HUD that changes.
+Four robots, thirty bullets, powers, pick-ups, mines, breaking walls and a changing HUD.
 """
 
 import math
@@ -17,14 +17,14 @@ BULLETS = 30
 
 @dataclass
 class AllEffects:
-    """A taste that wants everything."""
+    """View options with every effect on."""
 
     flashes: str = "full"
     shake: bool = True
 
 
 class BusyPiTanks:
-    """A match without an engine. `teams`: the team of each seat, -1 where nobody sits."""
+    """A match without an engine. `teams`: team of each seat, -1 for an empty seat."""
 
     def __init__(self, teams: tuple[int, ...] = (0, 1, 2, 3), arena: Arena | None = None) -> None:
         self.arena = arena or load("pitanks", "classic")
@@ -41,7 +41,7 @@ class BusyPiTanks:
         self.seats = [i for i in range(4) if teams[i] >= 0]
 
     def tick(self) -> None:
-        """Everything moves by 1/50 s."""
+        """Advance everything by 1/50 s."""
         state, t = self.state, self.state.tick * DT
         state.tick += 1
         for seat in self.seats:
@@ -56,7 +56,7 @@ class BusyPiTanks:
         self._shoot()
         if state.tick % 15 == 0:
             self._hit()
-        self._lie_about()
+        self._scatter_items()
 
     def _shoot(self) -> None:
         state = self.state
@@ -87,7 +87,7 @@ class BusyPiTanks:
         if standing:
             self.random.choice(standing).health -= 1
 
-    def _lie_about(self) -> None:
+    def _scatter_items(self) -> None:
         state = self.state
         for i in range(PICKUPS):
             pickup = state.pickups[i]

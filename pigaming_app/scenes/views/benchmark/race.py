@@ -1,6 +1,6 @@
-"""The busiest second of a race, made up: every number moves. For measuring frames and for looking at them.
+"""Synthetic race at peak load, for benchmarks and visual checks: every number changes.
 
-Four robots drive, cut through mud, swap places, miss lines, turn round, end laps and finish, all at once.
+Four robots drive, cut through mud, change places, miss lines, turn round, complete laps and finish at the same time.
 """
 
 import math
@@ -14,12 +14,12 @@ from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 LAP = 9.0  # s
-PACES = (1.0, 0.95, 0.9, 0.85)  # of the robots
-SWAY = (40.0, 150.0, 60.0, 90.0)  # px to either side of the middle; one of them cuts through mud
+PACES = (1.0, 0.95, 0.9, 0.85)  # relative speeds of the robots
+SWAY = (40.0, 150.0, 60.0, 90.0)  # px, lateral amplitude around the centre line; one robot cuts through mud
 
 
 class BusyRace:
-    """A race without an engine. `seats`: how many drive."""
+    """A race without an engine. `seats`: number of drivers."""
 
     def __init__(self, seats: int = ROBOTS, arena: Arena | None = None, laps: int = 3) -> None:
         self.arena = arena or load("race", "classic")
@@ -29,7 +29,7 @@ class BusyRace:
         self.seats = range(seats)
 
     def tick(self) -> None:
-        """Everything moves by 1/50 s."""
+        """Advance everything by 1/50 s."""
         state = self.state
         state.tick += 1
         for seat in self.seats:
@@ -55,7 +55,7 @@ class BusyRace:
         racer.wrong = 60 if seat == 3 and t % 3 > 1.5 else 0
 
     def _cross(self, seat: int) -> None:
-        """Lines that lie behind it now."""
+        """Count the lines crossed since the last tick."""
         state = self.state
         racer, laps = state.racers[seat], state.rules.laps
         passed = min(1 + LINES * laps, 1 + int(LINES * max(0.0, racer.progress) / state.course.length))

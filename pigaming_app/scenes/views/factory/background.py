@@ -1,4 +1,4 @@
-"""The ground of Robot Factory: warehouses in their teams' colours, machines, the aisle; drawn once for a floor."""
+"""Background of Robot Factory: warehouses in team colours, machines, the aisle; rendered once per floor."""
 
 import math
 
@@ -14,15 +14,15 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached
 
 SLOT = 68  # px
-MARGIN_X = 84  # px from the arena's edge to the signs beside it
+MARGIN_X = 84  # px from the arena's edge to the signs outside it
 WALKWAY = (124, 104, 30)
-Inks = tuple[GlowCanvas, GlowCanvas]  # what glows, and what does not
+Inks = tuple[GlowCanvas, GlowCanvas]  # glowing and crisp canvas
 
 
 @cached
 @resumable
 def bare(floor: Floor) -> Steps[pygame.Surface]:
-    """The whole canvas of a floor without what changes."""
+    """Static canvas of a floor."""
     page = LayeredCanvas()
     for ink in (page.glow, page.crisp):
         ink.to(LEFT, TOP)
@@ -32,21 +32,21 @@ def bare(floor: Floor) -> Steps[pygame.Surface]:
     yield
     yield from draw_floor((page.glow, page.crisp), floor)
     for first in range(0, MACHINE_SLOTS, SHELVES):
-        _beside((page.glow, page.crisp), floor.slots[first : first + SHELVES])
+        _draw_storage((page.glow, page.crisp), floor.slots[first : first + SHELVES])
     page.glow.line(cut_box(-3, -3, WIDTH + 6, HEIGHT + 6, 28), WALL, THIN, True)
     yield
     return (yield from page.lighting())
 
 
 def draw_floor(canvases: Inks, floor: Floor) -> Steps[None]:
-    """Aisle, warehouses and machines, in arena px."""
+    """Draw aisle, warehouses and machines in arena px."""
     _aisle(canvases, floor.aisle)
     yield
     for first in range(0, MACHINE_SLOTS, SHELVES):
         _warehouse(canvases, floor.slots[first : first + SHELVES])
         yield
-    for m, one in enumerate(floor.machines):
-        _machine(canvases, floor, m, one.kind, one.x, one.y)
+    for m, machine in enumerate(floor.machines):
+        _machine(canvases, floor, m, machine.kind, machine.x, machine.y)
         yield
 
 
@@ -78,7 +78,7 @@ def _warehouse(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
 
 
 def draw_slot(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
-    """The four corners of a place for a pallet."""
+    """Draw the four corners of a pallet slot."""
     h, k = SLOT / 2, 18
     for sx in (-1, 1):
         for sy in (-1, 1):
@@ -88,7 +88,7 @@ def draw_slot(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
 
 
 def draw_machine(canvases: Inks, kind: int, x: float, y: float) -> None:
-    """The body of a machine, without its slots."""
+    """Draw the body of a machine, without its slots."""
     glow, crisp = canvases
     body = cut_box(x - BODY, y - BODY, 2 * BODY, 2 * BODY, 20)
     glow.fill(body, (10, 14, 22)).neon(body, dim(WALL, 0.55), LINE, True)
@@ -111,8 +111,8 @@ def _machine(canvases: Inks, floor: Floor, m: int, kind: int, x: float, y: float
         crisp.fill([(cx + u * c - v * s, cy + u * s + v * c) for u, v in ((8, 0), (-6, 13), (-6, -13))], WALL)
 
 
-def _beside(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
-    """A shelf or a lorry beside a warehouse, outside the arena, and which way pallets go."""
+def _draw_storage(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
+    """Draw a shelf or lorry beside a warehouse, outside the arena, with the direction of the pallets."""
     glow, _ = canvases
     color, entry = TEAMS[slots[0].team], slots[0].kind == ENTRY
     left = slots[0].x < WIDTH / 2
@@ -137,7 +137,7 @@ def _shelf(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
 
 
 def draw_lorry(ink: GlowCanvas, x: float, y: float, color: Color, way: int) -> None:
-    """What takes pallets away, heading left (`way` -1) or right (1)."""
+    """Draw a lorry heading left (`way` -1) or right (1)."""
     box = [(-46, -30), (12, -30), (12, 16), (-46, 16)]
     cab = [(12, -14), (30, -14), (42, 2), (42, 16), (12, 16)]
     for part in (box, cab):

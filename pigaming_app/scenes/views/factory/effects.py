@@ -1,4 +1,4 @@
-"""What an event of Robot Factory looks and sounds like."""
+"""Particles and sounds for the events of Robot Factory."""
 
 from collections.abc import Iterable
 
@@ -17,57 +17,57 @@ from pigaming_app.scenes.views.factory.events import (
 )
 from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
-from pigaming_app.scenes.views.view import Heard, ViewOptions
+from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.ui.draw import ALARM
 
-POP = 0.12  # seconds in which a crate that was moved snaps to its size
+POP = 0.12  # s, pop animation of a moved crate
 
 
 class CratePops:
-    """Crates that have just been lifted or set down are a little larger for a moment."""
+    """Pop animation: a crate is slightly enlarged after being lifted or set down."""
 
     def __init__(self) -> None:
         self.since: dict[int, float] = {}
 
     def begin(self, pallet: int, now: float) -> None:
-        """This one has just been moved."""
+        """Start the animation of a pallet."""
         self.since[pallet] = now
 
     def tenths(self, pallet: int, now: float) -> int:
-        """How large it is, in tenths."""
+        """Current size in tenths."""
         share = (now - self.since.get(pallet, -9.0)) / POP
         return 10 if share >= 1.0 else 13 - round(3 * share)
 
 
 def react(
-    events: Iterable[FactoryEvent], state: Factory, particles: Particles, popping: CratePops, options: ViewOptions
-) -> list[Heard]:
-    """Put what happened into the air; answers what is heard of it."""
-    heard: list[Heard] = []
-    for one in events:
-        x, y = LEFT + one.x, TOP + one.y
-        if one.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
-            popping.begin(one.what, particles.clock)
-        match one.kind:
+    events: Iterable[FactoryEvent], state: Factory, particles: Particles, pops: CratePops, options: ViewOptions
+) -> list[SoundCue]:
+    """Add particles for the events; returns their sounds."""
+    cues: list[SoundCue] = []
+    for event in events:
+        x, y = LEFT + event.x, TOP + event.y
+        if event.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
+            pops.begin(event.what, particles.clock)
+        match event.kind:
             case "delivered":
-                color = TEAMS[state.pallets[one.what].team]
+                color = TEAMS[state.pallets[event.what].team]
                 particles.burst(x, y, color, 30, 30, 120)
                 if options.flashes != "off":
                     particles.shock(x, y, color)
                 if options.flashes == "full":
                     particles.glow(x, y, color)
-                if one.player is not None:
-                    particles.score(x, y - 70, "+1", one.player)
+                if event.player is not None:
+                    particles.score(x, y - 70, "+1", event.player)
             case "spoiled":
                 particles.burst(x, y, ALARM, 24, 26, 100)
                 if options.flashes == "full" and options.shake:
                     particles.shake()
             case "machine_done":
-                particles.burst(x, y, STATES[state.pallets[one.what].state], 10, 26, 50)
+                particles.burst(x, y, STATES[state.pallets[event.what].state], 10, 26, 50)
             case "freeze":
                 particles.burst(x, y, ALARM, 16, 50, 70)
             case _:
                 pass
-        if one.kind not in (THAWED, STARTED):
-            heard.append((one.kind, one.player, one.x))
-    return heard
+        if event.kind not in (THAWED, STARTED):
+            cues.append((event.kind, event.player, event.x))
+    return cues

@@ -1,4 +1,4 @@
-"""What happened in a tick of Robot Factory, found by comparing a match with what it was before; nothing is written."""
+"""Event detection for Robot Factory, by comparing a match with its previous tick; read-only."""
 
 from typing import Any, NamedTuple
 
@@ -9,7 +9,7 @@ STARTED, DONE, FROZEN, THAWED, RENEWED = "machine_start", "machine_done", "freez
 
 
 class FactoryEvent(NamedTuple):
-    """One thing that happened at (x, y), px; `player`: who did it, or None; `what`: pallet or machine, -1: neither."""
+    """An event at (x, y), px; `player`: the robot that caused it, or None; `what`: pallet or machine, -1: neither."""
 
     kind: str
     player: int | None
@@ -19,63 +19,63 @@ class FactoryEvent(NamedTuple):
 
 
 class FactoryEventDetector:
-    """Remembers one match from tick to tick."""
+    """Keeps the previous tick of one match."""
 
     def __init__(self, state: Factory) -> None:
-        self._remember(state)
+        self._store(state)
 
     def look(self, state: Factory) -> list[FactoryEvent]:
-        """What has happened since the last look."""
-        found = [*self._robots(state), *self._pallets(state)]
-        self._remember(state)
-        return found
+        """Events since the last call."""
+        events = [*self._robots(state), *self._pallets(state)]
+        self._store(state)
+        return events
 
-    def _remember(self, state: Factory) -> None:
+    def _store(self, state: Factory) -> None:
         self.loads = [(load.pallet, load.refused, load.frozen) for load in state.loads]
-        self.pallets = [(one.state, one.place, one.at) for one in state.pallets]
+        self.pallets = [(pallet.state, pallet.place, pallet.at) for pallet in state.pallets]
 
     def _robots(self, state: Factory) -> list[FactoryEvent]:
-        found = []
+        events = []
         for k, (load, robot) in enumerate(zip(state.loads, state.robots, strict=True)):
             _, refused, frozen = self.loads[k]
             if load.refused == 1 and refused != 1:
-                found.append(FactoryEvent(REFUSED, k, robot.x, robot.y))
+                events.append(FactoryEvent(REFUSED, k, robot.x, robot.y))
             if load.frozen > frozen:
-                found.append(FactoryEvent(FROZEN, k, robot.x, robot.y))
+                events.append(FactoryEvent(FROZEN, k, robot.x, robot.y))
             elif frozen and not load.frozen:
-                found.append(FactoryEvent(THAWED, k, robot.x, robot.y))
-        return found
+                events.append(FactoryEvent(THAWED, k, robot.x, robot.y))
+        return events
 
     def _pallets(self, state: Factory) -> list[FactoryEvent]:
-        found = []
-        for p, one in enumerate(state.pallets):
-            was, place, at = self.pallets[p]
-            if (one.state, one.place, one.at) == (was, place, at):
+        events = []
+        for p, pallet in enumerate(state.pallets):
+            old_state, old_place, old_at = self.pallets[p]
+            if (pallet.state, pallet.place, pallet.at) == (old_state, old_place, old_at):
                 continue
-            who = at if place == ON_ROBOT else one.at if one.place == ON_ROBOT else None
+            carrier = old_at if old_place == ON_ROBOT else pallet.at if pallet.place == ON_ROBOT else None
             x, y = spot(state, p)
-            if one.state == DELIVERED and was != DELIVERED:
-                found.append(FactoryEvent(DELIVERY, who, x, y, p))
-            elif one.state == DAMAGED and was != DAMAGED:
-                found.append(FactoryEvent(SPOILED, who, x, y, p))
-            elif was == DAMAGED and one.state != DAMAGED:
-                found.append(FactoryEvent(RENEWED, None, x, y, p))
-            elif one.place == ON_ROBOT:
-                found.append(FactoryEvent(LIFTED, who, x, y, p))
-            elif one.place == IN_MACHINE:
-                found.append(FactoryEvent(STARTED, None, x, y, p))
-            elif place == IN_MACHINE:
-                found.append(FactoryEvent(DONE, None, x, y, p))
-            elif one.place == IN_SLOT and place == ON_ROBOT:
-                found.append(FactoryEvent(SET_DOWN, who, x, y, p))
-        return found
+            if pallet.state == DELIVERED and old_state != DELIVERED:
+                events.append(FactoryEvent(DELIVERY, carrier, x, y, p))
+            elif pallet.state == DAMAGED and old_state != DAMAGED:
+                events.append(FactoryEvent(SPOILED, carrier, x, y, p))
+            elif old_state == DAMAGED and pallet.state != DAMAGED:
+                events.append(FactoryEvent(RENEWED, None, x, y, p))
+            elif pallet.place == ON_ROBOT:
+                events.append(FactoryEvent(LIFTED, carrier, x, y, p))
+            elif pallet.place == IN_MACHINE:
+                events.append(FactoryEvent(STARTED, None, x, y, p))
+            elif old_place == IN_MACHINE:
+                events.append(FactoryEvent(DONE, None, x, y, p))
+            elif pallet.place == IN_SLOT and old_place == ON_ROBOT:
+                events.append(FactoryEvent(SET_DOWN, carrier, x, y, p))
+        return events
 
 
 def spot(state: Factory, p: int) -> tuple[float, float]:
-    """Where a pallet is, in arena px: its slot, its machine, or the robot or worker that carries it."""
-    one = state.pallets[p]
+    """Position of a pallet in arena px: its slot, its machine, or the robot or worker carrying it."""
+    pallet = state.pallets[p]
     owner: Any = {IN_SLOT: state.slots, ON_ROBOT: state.robots, IN_MACHINE: state.machines}.get(
-        one.place, state.workers
+        pallet.place, state.workers
     )
-    here = owner[min(one.at, len(owner) - 1)]
-    return here.x, here.y
+    at = owner[min(pallet.at, len(owner) - 1)]
+    return at.x, at.y

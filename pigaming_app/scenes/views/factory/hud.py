@@ -1,6 +1,6 @@
-"""The panels over a match of Robot Factory: what each team has delivered, its robots, the state of its pallets.
+"""HUD of Robot Factory: each team's deliveries, robots and pallet states.
 
-They are baked into the ground whenever what they say changes.
+Panels are baked into the background when their content changes.
 """
 
 from collections.abc import Callable, Iterator
@@ -20,13 +20,13 @@ from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import glyph, number_width
 
-Y, H, W, EDGE = 26, 104, 652, 24  # px: top, height and width of a panel, margin round its sprites
+Y, H, W, EDGE = 26, 104, 652, 24  # px: top, height and width of a panel, margin around its sprites
 X = (160, 1108)
 EMBLEM, NUMBER, ROBOT, CRATES = 58, 106, 268, 330  # px from a panel's outer edge
 
 
 class FactoryHud:
-    """Keeps the ground saying what the match says. `players`: who sits where; names in BRAINS are marked as AI."""
+    """Keeps the HUD up to date. `players`: driver of each seat; names in BRAINS are marked as AI."""
 
     def __init__(self, background: Background, players: list[str]) -> None:
         self.background, self.players = background, players
@@ -34,7 +34,7 @@ class FactoryHud:
         self.delivered = [0] * TEAMS
 
     def show(self, state: Any) -> list[int]:
-        """Bake what has changed; answers the teams that have delivered something."""
+        """Bake changed panels; returns the teams with new deliveries."""
         new = [team for team in range(TEAMS) if state.delivered[team] > self.delivered[team]]
         self.delivered = list(state.delivered)
         for team in range(TEAMS):
@@ -45,15 +45,17 @@ class FactoryHud:
             )
             first = team * MOST_PALLETS
             states = tuple(
-                sorted((one.state for one in state.pallets[first : first + MOST_PALLETS] if one.exists), key=order)
+                sorted(
+                    (pallet.state for pallet in state.pallets[first : first + MOST_PALLETS] if pallet.exists), key=order
+                )
             )
-            says = state.delivered[team], state.rules.pallets, mates, states
-            self.parts.show(team, says, X[team] - 8, W + 16, partial(panel_bits, team, *says))
+            content = state.delivered[team], state.rules.pallets, mates, states
+            self.parts.show(team, content, X[team] - 8, W + 16, partial(panel_bits, team, *content))
         self.parts.countdown(state, 82)
         return new
 
     def jobs(self) -> Iterator[Callable[[], object]]:
-        """The pieces of the panels, each made by one small job."""
+        """Prewarm jobs for the pieces of the panels."""
         for team in range(TEAMS):
             yield partial(frame, team)
             yield partial(pulse, team)
@@ -64,14 +66,14 @@ class FactoryHud:
 
 
 def order(state: int) -> int:
-    """Delivered pallets come first, then those that are nearest to it; the damaged ones last."""
+    """Sort key of a pallet: delivered first, then by remaining steps, damaged last."""
     return (3, 2, 1, 4, 0)[state]
 
 
 def panel_bits(
     team: int, delivered: int, whole: int, mates: tuple[tuple[int, bool, int], ...], states: tuple[int, ...]
 ) -> Iterator[Bit]:
-    """The pieces of a panel; that of the second team is a mirror of the first."""
+    """Pieces of a panel; the second team's is mirrored."""
     x = X[team]
     yield frame(team), (x - EDGE, Y - EDGE), None
 
@@ -79,10 +81,10 @@ def panel_bits(
         return x + px if team == 0 else x + W - px - width
 
     text, of = str(delivered), f"/{whole}"
-    wide, rest = number_width(text, SUB), number_width(of, LABEL)
-    begin = at(NUMBER, wide + rest + 4)
+    number_w, rest = number_width(text, SUB), number_width(of, LABEL)
+    begin = at(NUMBER, number_w + rest + 4)
     yield from number_bits(text, SUB, begin, Y + H / 2, ICE)
-    yield from number_bits(of, LABEL, begin + wide + 4, Y + H / 2 + 7, MIST)
+    yield from number_bits(of, LABEL, begin + number_w + 4, Y + H / 2 + 7, MIST)
     for i, (seat, ai, turbo) in enumerate(mates):
         image = robot_sign(seat, ai, turbo)
         y = Y + H / 2 + (0 if len(mates) == 1 else -25 + 50 * i)
@@ -107,7 +109,7 @@ def frame(team: int) -> pygame.Surface:
 
 @cached
 def small_crate(team: int, state: int, size: int) -> pygame.Surface:
-    """A crate in a panel."""
+    """Crate in a panel."""
     ink = GlowCanvas(size + 28, size + 28, 3)
     draw_crate(ink, team, state, size / 2 + 14, size / 2 + 14, size)
     return ink.lit(0.5)
@@ -115,7 +117,7 @@ def small_crate(team: int, state: int, size: int) -> pygame.Surface:
 
 @cached
 def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
-    """A robot of the team: badge, the mark of an AI, and its turbo, of 16."""
+    """Robot in a panel: badge, AI mark, and turbo in sixteenths."""
     ink = GlowCanvas(120, 52, 3)
     badge(ink, seat, 34, 22, 18)
     if ai:
@@ -128,7 +130,7 @@ def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
 
 @cached
 def pulse(team: int) -> tuple[Sprite, ...]:
-    """A panel that lights up at a delivery, and how that fades; from its upper left corner."""
+    """Fade-out of a panel flash after a delivery, relative to its top left."""
     ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE).fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.24))
     whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))

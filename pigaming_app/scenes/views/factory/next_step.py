@@ -1,4 +1,4 @@
-"""Where to go next: a dashed arrow for people, small corners round what AIs are making for."""
+"""Next-step guide: a dashed arrow for people, small corners around the targets of AIs."""
 
 import math
 
@@ -11,21 +11,21 @@ from pigaming_app.scenes.views.view import Pose
 from pigaming_app.ui.draw import PLAYERS, dim
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 
-EVERY = 10  # ticks between two looks
-PITCH, SPEED = 34.0, 50.0  # px from dash to dash, px/s at which they run
-AIMS = 0.8  # of a driver's colour, for what it is making for
-STAY = 120.0  # px by which another slot must be nearer before the arrow turns to it
+EVERY = 10  # ticks between two updates
+PITCH, SPEED = 34.0, 50.0  # px between dashes, px/s of their motion
+AIMS = 0.8  # brightness of a driver's colour for a target
+STAY = 120.0  # px, hysteresis: another slot must be nearer by this much to become the target
 
 
 class NextStepGuide:
-    """Knows for each seat the slot to which it should go; -1: none."""
+    """Suggested next slot of each seat; -1: none."""
 
     def __init__(self, players: list[str]) -> None:
         self.players = players
         self.slots = [-1] * len(players)
 
     def look(self, state: Factory) -> None:
-        """Think again now and then."""
+        """Update the suggestions every EVERY ticks."""
         for seat, robot in enumerate(state.robots):
             if not robot.present or (state.tick + seat) % EVERY:
                 continue
@@ -35,7 +35,7 @@ class NextStepGuide:
                 self.slots[seat] = state.loads[seat].aim - 1
 
     def draw(self, light: Batch, state: Factory, seat: int, pose: Pose, clock: float) -> None:
-        """The arrow, or the corners."""
+        """Draw the arrow or the corners."""
         s, human = self.slots[seat], self.players[seat] == "human"
         if s < 0 or state.over:
             return
@@ -56,12 +56,12 @@ class NextStepGuide:
 
 
 def next_slot(state: Factory, seat: int, before: int) -> int:
-    """The nearest slot at which a robot could do what is next; a job further on comes before one at its beginning."""
+    """The nearest slot for a robot's next step; later production stages take precedence."""
     robot, load = state.robots[seat], state.loads[seat]
     best, least = -1, 1e9
     for s in range(SLOTS):
         slot = state.slots[s]
-        useful = _useful_to_put(state, seat, s) if load.pallet else _useful_to_lift(state, seat, s)
+        useful = _drop_cost(state, seat, s) if load.pallet else _lift_cost(state, seat, s)
         if useful < 0.0:
             continue
         cost = math.dist((robot.x, robot.y), (slot.x, slot.y)) + useful - (STAY if s == before else 0.0)
@@ -70,8 +70,8 @@ def next_slot(state: Factory, seat: int, before: int) -> int:
     return best
 
 
-def _useful_to_put(state: Factory, seat: int, s: int) -> float:
-    """What it costs besides the way to put the load there; below 0: it does not belong there."""
+def _drop_cost(state: Factory, seat: int, s: int) -> float:
+    """Cost, in addition to the distance, of setting the load down there; below 0: it does not belong there."""
     slot, pallet = state.slots[s], state.pallets[state.loads[seat].pallet - 1]
     if not may_set_down(state, seat, s):
         return -1.0
@@ -83,8 +83,10 @@ def _useful_to_put(state: Factory, seat: int, s: int) -> float:
     return 0.0 if slot.kind == EXIT and pallet.state == DONE else -1.0
 
 
-def _useful_to_lift(state: Factory, seat: int, s: int) -> float:
-    """What it costs besides the way to lift what lies there; below 0: nothing, or it lies where it should."""
+def _lift_cost(state: Factory, seat: int, s: int) -> float:
+    """Cost, in addition to the distance, of lifting the load there; below 0: there is none, or it is in its right
+    place.
+    """
     slot = state.slots[s]
     if not may_lift(state, seat, s):
         return -1.0

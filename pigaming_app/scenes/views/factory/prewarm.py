@@ -1,4 +1,4 @@
-"""Sprites that a match of Robot Factory will ask for besides those of driving robots."""
+"""Prewarm jobs for the sprites specific to Robot Factory."""
 
 from collections.abc import Iterator, Sequence
 from functools import partial
@@ -15,7 +15,7 @@ from pigaming_app.ui.draw.text import glyph
 
 
 def jobs(seats: Sequence[int]) -> Iterator[Job]:
-    """One small piece of work after the other."""
+    """One small job per sprite."""
     for team in range(TEAMS):
         for turn in range(HEADINGS):
             yield partial(crates.forks, team, turn)

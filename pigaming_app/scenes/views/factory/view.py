@@ -1,4 +1,4 @@
-"""A match of Robot Factory on the screen: robots with their forks, crates, machines at work, and people."""
+"""View of Robot Factory: robots with forks, crates, running machines, people."""
 
 import math
 from functools import partial
@@ -32,16 +32,16 @@ from pigaming_app.scenes.views.factory.next_step import NextStepGuide
 from pigaming_app.scenes.views.factory.prewarm import jobs
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
+from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
 
-SHOWN_REFUSED = 14  # ticks for which a cross says that there is nothing to do
-HANDS = 40.0  # px from a worker to what it carries
-BEFORE = 124.0  # px from a real robot, in its wide disc, to what it carries
-BESIDE = 102.0  # px from a robot to the number that counts down
+SHOWN_REFUSED = 14  # ticks for which a cross marks a refused action
+HANDS = 40.0  # px from a worker to its load
+BEFORE = 124.0  # px from a real robot, in its wide disc, to its load
+BESIDE = 102.0  # px from a robot to its countdown
 
 
 class FactoryView(MatchView):
@@ -54,20 +54,18 @@ class FactoryView(MatchView):
         self.hud = FactoryHud(self.background, players)
         self.detector = FactoryEventDetector(state)
         self.guide = NextStepGuide(players)
-        self.popping = CratePops()
+        self.pops = CratePops()
         self.people = self.people_before = _people(state)
         self.ahead(self.hud.jobs())
         self.ahead(jobs(self.seats))
 
-    def watch(self, state: Factory) -> list[Heard]:
-        """See what the last tick did; answers what is to be heard."""
+    def watch(self, state: Factory) -> list[SoundCue]:
         self.follow(state)
         self.people_before, self.people = self.people, _people(state)
         self.guide.look(state)
-        return react(self.detector.look(state), state, self.particles, self.popping, self.options)
+        return react(self.detector.look(state), state, self.particles, self.pops, self.options)
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
-        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.particles.advance(seconds)
         for team in self.hud.show(state):
             if self.options.flashes != "off":
@@ -99,15 +97,15 @@ class FactoryView(MatchView):
                 put(light, crates.progress(HALF if machine.kind == A else DONE, part), x, y)
 
     def _crates(self, over: Batch, state: Factory) -> None:
-        """Those that lie in slots; whoever carries one draws it."""
+        """Draw the crates in slots; carried ones are drawn with their carrier."""
         for p in range(PALLETS):
-            one = state.pallets[p]
-            if one.exists and one.place == IN_SLOT:
+            pallet = state.pallets[p]
+            if pallet.exists and pallet.place == IN_SLOT:
                 x, y = spot(state, p)
-                put(over, self._crate(p, one), LEFT + x, TOP + y)
+                put(over, self._crate(p, pallet), LEFT + x, TOP + y)
 
-    def _crate(self, p: int, one: Any) -> Any:
-        return crates.crate(one.team, one.state, self.popping.tenths(p, self.particles.clock))
+    def _crate(self, p: int, pallet: Any) -> Any:
+        return crates.crate(pallet.team, pallet.state, self.pops.tenths(p, self.particles.clock))
 
     def _people(self, over: Batch, top: Batch, state: Factory, blend: float) -> None:
         for old, new, worker in zip(self.people_before, self.people, state.workers, strict=True):
@@ -145,21 +143,23 @@ class FactoryView(MatchView):
             put(top, crates.digit(-(-load.frozen // HZ)), x, y + (BESIDE if y < TOP + BESIDE else -BESIDE))
 
     def _counts(self, light: Batch, state: Factory) -> None:
-        """What waits outside, what has driven off, and when a new pallet comes."""
+        """Draw the numbers of waiting and delivered pallets, and the time until the next one."""
         for team in range(TEAMS):
             entry = state.slots[team * 2 * SHELVES]
             left = entry.x < 800
-            waiting = sum(one.place == WAITING and one.team == team and one.exists for one in state.pallets)
-            shipped = sum(one.place == SHIPPED and one.team == team for one in state.pallets)
+            waiting = sum(pallet.place == WAITING and pallet.team == team and pallet.exists for pallet in state.pallets)
+            shipped = sum(pallet.place == SHIPPED and pallet.team == team for pallet in state.pallets)
             gate = LEFT + entry.x + (-150 if left else 150)
             if waiting:
                 put(light, crates.count(waiting, team), gate, TOP + entry.y - 14)
             if shipped:
                 out = state.slots[team * 2 * SHELVES + SHELVES]
                 put(light, crates.count(shipped, team), LEFT + out.x + (-150 if out.x < 800 else 150), TOP + out.y - 14)
-            soon = [one for one in state.pallets if one.exists and one.team == team and one.state == DAMAGED]
-            for i, one in enumerate(soon):
-                seconds = -(-(state.rules.replace - one.waited) // HZ)
+            damaged = [
+                pallet for pallet in state.pallets if pallet.exists and pallet.team == team and pallet.state == DAMAGED
+            ]
+            for i, pallet in enumerate(damaged):
+                seconds = -(-(state.rules.replace - pallet.waited) // HZ)
                 put(light, crates.awaited(seconds), gate, TOP + entry.y + 3 * 88 - 60 * i)
 
 

@@ -1,4 +1,4 @@
-"""The ground of PiTanks: frame, grid, the places on which robots begin, and walls, drawn again when they break."""
+"""Background of PiTanks: frame, grid, start positions, and walls, which are redrawn when damaged."""
 
 import math
 from functools import partial
@@ -18,7 +18,7 @@ Starts = tuple[tuple[int, float, float], ...]  # seat, px, px
 
 
 class WalledBackground(Background):
-    """The ground of a match with walls that break."""
+    """Background with destructible walls."""
 
     def __init__(self, state: Any, starts: Starts) -> None:
         super().__init__(partial(bare, starts))
@@ -26,42 +26,42 @@ class WalledBackground(Background):
         self.sprites: list[Sprite | None] = [None] * state.wall_count
 
     def show_walls(self, state: Any) -> None:
-        """Bake walls whose health has changed."""
+        """Bake the walls whose health has changed."""
         for i in range(state.wall_count):
-            one = state.walls[i]
-            if self.sprites[i] is None or one.health != self.health[i]:
-                before, now = self.sprites[i], wall_sprite(one, one.health)
-                self.health[i], self.sprites[i] = one.health, now
-                box = _box(one, now)
-                self._bake_walls(state, box.union(_box(one, before)) if before else box)
+            part = state.walls[i]
+            if self.sprites[i] is None or part.health != self.health[i]:
+                before, now = self.sprites[i], wall_sprite(part, part.health)
+                self.health[i], self.sprites[i] = part.health, now
+                box = _box(part, now)
+                self._bake_walls(state, box.union(_box(part, before)) if before else box)
 
     def _bake_walls(self, state: Any, box: pygame.Rect) -> None:
         self.surface.set_clip(box)
         self.surface.blit(self.bare, box, box)
-        for one, sprite in zip(state.walls, self.sprites, strict=False):
+        for part, sprite in zip(state.walls, self.sprites, strict=False):
             if sprite:
-                at = _box(one, sprite)
+                at = _box(part, sprite)
                 if at.colliderect(box):
                     self.surface.blit(sprite.image, at, special_flags=PRE)
         self.surface.set_clip(None)
 
 
-def wall_sprite(one: Any, health: int) -> Sprite:
-    """A wall of a match with so much health."""
-    length = math.dist((one.ax, one.ay), (one.bx, one.by)) + 2 * one.half - 4
-    angle = math.atan2(one.by - one.ay, one.bx - one.ax)
-    return wall(length, 2 * one.half - 4, angle, health, int(one.ax * 7 + one.ay * 13 + one.bx), max(1, one.whole))
+def wall_sprite(part: Any, health: int) -> Sprite:
+    """Wall sprite for a given health."""
+    length = math.dist((part.ax, part.ay), (part.bx, part.by)) + 2 * part.half - 4
+    angle = math.atan2(part.by - part.ay, part.bx - part.ax)
+    return wall(length, 2 * part.half - 4, angle, health, int(part.ax * 7 + part.ay * 13 + part.bx), max(1, part.whole))
 
 
-def _box(one: Any, sprite: Sprite) -> pygame.Rect:
-    x, y = LEFT + (one.ax + one.bx) / 2, TOP + (one.ay + one.by) / 2
+def _box(part: Any, sprite: Sprite) -> pygame.Rect:
+    x, y = LEFT + (part.ax + part.bx) / 2, TOP + (part.ay + part.by) / 2
     return sprite.image.get_rect(topleft=(int(x + sprite.dx + 0.5), int(y + sprite.dy + 0.5)))
 
 
 @cached
 @resumable
 def bare(starts: Starts) -> Steps[pygame.Surface]:
-    """Grid, frame and the shapes on which robots begin."""
+    """Grid, frame and start position markers."""
     canvas = LayeredCanvas()
     glow, crisp = canvas.glow, canvas.crisp
     _grid(canvas)

@@ -1,4 +1,4 @@
-"""What an event of PiTanks looks and sounds like."""
+"""Particles and sounds for the events of PiTanks."""
 
 from collections.abc import Iterable
 
@@ -6,11 +6,11 @@ from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.pitanks.events import PiTanksEvent
-from pigaming_app.scenes.views.view import Heard, ViewOptions
+from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
 
-BESIDE = 46.0  # px from a robot to where its scores rise
+BESIDE = 46.0  # px from a robot to its score popup
 
 
 SOUNDS = {
@@ -27,35 +27,35 @@ SOUNDS = {
 }
 
 
-def react(events: Iterable[PiTanksEvent], state: PiTanks, particles: Particles, options: ViewOptions) -> list[Heard]:
-    """Put what happened into the air; answers what is heard of it."""
-    heard: list[Heard] = []
-    for one in events:
-        _show(one, state, particles, options)
-        if one.kind in SOUNDS:
-            heard.append((SOUNDS[one.kind], one.player, one.x))
-    return heard
+def react(events: Iterable[PiTanksEvent], state: PiTanks, particles: Particles, options: ViewOptions) -> list[SoundCue]:
+    """Add particles for the events; returns their sounds."""
+    cues: list[SoundCue] = []
+    for event in events:
+        _show(event, state, particles, options)
+        if event.kind in SOUNDS:
+            cues.append((SOUNDS[event.kind], event.player, event.x))
+    return cues
 
 
-def _show(one: PiTanksEvent, state: PiTanks, particles: Particles, options: ViewOptions) -> None:
-    x, y, player = LEFT + one.x, TOP + one.y, one.player
+def _show(event: PiTanksEvent, state: PiTanks, particles: Particles, options: ViewOptions) -> None:
+    x, y, player = LEFT + event.x, TOP + event.y, event.player
     color = ICE if player is None else PLAYERS[player]
-    match one.kind:
+    match event.kind:
         case "hit":
             particles.burst(x, y, color, 30, 46, 120)
             _blast(x, y, color, particles, options)
-            particles.score(_inside(x) + BESIDE, y - 66, f"−{one.number}", player or 0)
+            particles.score(_clamp_x(x) + BESIDE, y - 66, f"−{event.number}", player or 0)
         case "scored":
-            particles.score(_inside(x) - BESIDE, y - 66, f"+{one.number}", player or 0)
+            particles.score(_clamp_x(x) - BESIDE, y - 66, f"+{event.number}", player or 0)
         case "shielded":
             particles.burst(x, y, color, 26, 66, 90)
             particles.burst(x, y, FOCUS, 10, 66, 70)
             if options.flashes != "off":
                 particles.shock(x, y, color)
         case "stopped" | "bounced":
-            particles.burst(x, y, color, 7 if one.kind == "stopped" else 4, 8, 60, (one.angle, 1.1))
+            particles.burst(x, y, color, 7 if event.kind == "stopped" else 4, 8, 60, (event.angle, 1.1))
         case "cracked" | "crumbled":
-            _break(one, state, particles)
+            _break(event, state, particles)
         case "pickup":
             particles.burst(x, y, FOCUS, 16, 46, 60)
         case "mine_blown":
@@ -72,18 +72,18 @@ def _blast(x: float, y: float, color: tuple[int, int, int], particles: Particles
             particles.shake()
 
 
-def _break(one: PiTanksEvent, state: PiTanks, particles: Particles) -> None:
-    """Splinters of a wall: a few where a cell goes out, many where it falls."""
-    wall = state.walls[one.number]
+def _break(event: PiTanksEvent, state: PiTanks, particles: Particles) -> None:
+    """Splinters of a wall: a few for a lost cell, many for a collapse."""
+    wall = state.walls[event.number]
     ends = LEFT + wall.ax, TOP + wall.ay, LEFT + wall.bx, TOP + wall.by
-    particles.debris(*ends, 5 if one.kind == "cracked" else 26)
-    if one.kind == "crumbled":
+    particles.debris(*ends, 5 if event.kind == "cracked" else 26)
+    if event.kind == "crumbled":
         for i in range(5):
             t = (i + 0.5) / 5
             x, y = ends[0] + (ends[2] - ends[0]) * t, ends[1] + (ends[3] - ends[1]) * t
             particles.burst(x, y, WALL, 5, 10, 70)
 
 
-def _inside(x: float) -> float:
-    """Where two scores have room beside each other."""
+def _clamp_x(x: float) -> float:
+    """Clamp x so that two score popups fit side by side."""
     return min(max(x, LEFT + 60 + BESIDE), LEFT + WIDTH - 60 - BESIDE)

@@ -1,6 +1,6 @@
-"""What happened in a tick of PiTanks, found by comparing a match with what it was before. Nothing here writes to it.
+"""Event detection for PiTanks, by comparing a match with its previous tick; read-only.
 
-The engine sends no messages: it is a record of numbers, also inside a compiled rollout. Whoever looks, remembers.
+The engine emits no events: its state consists of numbers only, so that it can run inside a compiled rollout.
 """
 
 import math
@@ -9,25 +9,25 @@ from typing import NamedTuple
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, Bullet, PiTanks
 from pigaming_app.sim.robot import RADIUS
 
-NEAR = RADIUS + 20.0  # px between a robot and a bullet that it stopped
+NEAR = RADIUS + 20.0  # px, maximum distance between a bullet and the robot that stopped it
 
 
 class PiTanksEvent(NamedTuple):
-    """One thing that happened at (x, y), px; `angle`: which way it points, rad.
+    """An event at (x, y), px; `angle`: its direction, rad.
 
     kind        player   number
-    fire        who      -
-    stopped     whose    -       a bullet ended on a wall, or on a robot that could not be hit
-    bounced     whose    -
-    cracked     -        which wall
-    crumbled    -        which wall
-    hit         victim   how often
+    fire        shooter  -
+    stopped     owner    -       a bullet ended on a wall or an invulnerable robot
+    bounced     owner    -
+    cracked     -        wall
+    crumbled    -        wall
+    hit         victim   count
     shielded    victim   -
-    scored      who      how many
-    pickup      who      which power
-    power_end   who      which power
-    mine_laid   whose    -
-    mine_blown  whose    -
+    scored      scorer   points
+    pickup      robot    power
+    power_end   robot    power
+    mine_laid   owner    -
+    mine_blown  owner    -
     """
 
     kind: str
@@ -47,18 +47,18 @@ class _Shot(NamedTuple):
 
 
 class PiTanksEventDetector:
-    """Remembers one match from tick to tick."""
+    """Keeps the previous tick of one match."""
 
     def __init__(self, state: PiTanks) -> None:
-        self._remember(state)
+        self._store(state)
 
     def look(self, state: PiTanks) -> list[PiTanksEvent]:
-        """What has happened since the last look."""
-        found = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
-        self._remember(state)
-        return found
+        """Events since the last call."""
+        events = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
+        self._store(state)
+        return events
 
-    def _remember(self, state: PiTanks) -> None:
+    def _store(self, state: PiTanks) -> None:
         self.tanks = [(t.shots, t.hits, t.taken, tuple(t.powers)) for t in state.tanks]
         self.shots = [_shot(bullet) for bullet in state.bullets]
         self.walls = [wall.health for wall in state.walls]
@@ -66,41 +66,41 @@ class PiTanksEventDetector:
         self.places = [(robot.x, robot.y) for robot in state.robots]
 
     def _tanks(self, state: PiTanks) -> list[PiTanksEvent]:
-        found = []
+        events = []
         for k, (tank, robot) in enumerate(zip(state.tanks, state.robots, strict=True)):
             shots, hits, taken, powers = self.tanks[k]
             x, y = robot.x, robot.y
             if tank.shots > shots:
-                found.append(PiTanksEvent("fire", k, x, y, robot.heading))
+                events.append(PiTanksEvent("fire", k, x, y, robot.heading))
             if tank.hits > hits:
-                found.append(PiTanksEvent("scored", k, x, y, 0.0, tank.hits - hits))
+                events.append(PiTanksEvent("scored", k, x, y, 0.0, tank.hits - hits))
             if tank.taken > taken:
-                found.append(PiTanksEvent("hit", k, x, y, 0.0, tank.taken - taken))
+                events.append(PiTanksEvent("hit", k, x, y, 0.0, tank.taken - taken))
             for power in range(len(POWERS)):
                 before, now = powers[power], tank.powers[power]
                 if now > before:
-                    found.append(PiTanksEvent("pickup", k, x, y, 0.0, power))
+                    events.append(PiTanksEvent("pickup", k, x, y, 0.0, power))
                 elif power == SHIELD and before > 1 and not now:
-                    found.append(PiTanksEvent("shielded", k, x, y))
+                    events.append(PiTanksEvent("shielded", k, x, y))
                 elif before == 1 and not now:
-                    found.append(PiTanksEvent("power_end", k, x, y, 0.0, power))
-        return found
+                    events.append(PiTanksEvent("power_end", k, x, y, 0.0, power))
+        return events
 
     def _bullets(self, state: PiTanks) -> list[PiTanksEvent]:
-        found = []
+        events = []
         for i, bullet in enumerate(state.bullets):
             before, owner = self.shots[i], i // OWN_BULLETS
             if bullet.alive and before.alive and (bullet.vx != before.vx or bullet.vy != before.vy):
-                found.append(PiTanksEvent("bounced", owner, bullet.x, bullet.y, math.atan2(bullet.vy, bullet.vx)))
+                events.append(PiTanksEvent("bounced", owner, bullet.x, bullet.y, math.atan2(bullet.vy, bullet.vx)))
             elif not bullet.alive and (before.alive or (bullet.x, bullet.y) != (before.x, before.y)):
                 victim = self._stopped_by(state, bullet, owner)
                 if victim is None or state.tanks[victim].taken == self.tanks[victim][2]:
                     angle = math.atan2(-bullet.vy, -bullet.vx)
-                    found.append(PiTanksEvent("stopped", owner, bullet.x, bullet.y, angle))
-        return found
+                    events.append(PiTanksEvent("stopped", owner, bullet.x, bullet.y, angle))
+        return events
 
     def _stopped_by(self, state: PiTanks, bullet: Bullet, owner: int) -> int | None:
-        """The robot on which a bullet ended. Robots have moved on since: where they were counts."""
+        """The robot that stopped a bullet, by the positions of the previous tick, since robots have moved on."""
         for k, (x, y) in enumerate(self.places):
             robot = state.robots[k]
             if (
@@ -112,7 +112,7 @@ class PiTanksEventDetector:
         return None
 
     def _walls(self, state: PiTanks) -> list[PiTanksEvent]:
-        found = []
+        events = []
         for i in range(state.wall_count):
             wall = state.walls[i]
             if wall.health != self.walls[i]:
@@ -121,18 +121,18 @@ class PiTanksEventDetector:
                     (wall.ay + wall.by) / 2,
                     math.atan2(wall.by - wall.ay, wall.bx - wall.ax),
                 )
-                found.append(PiTanksEvent("cracked" if wall.health else "crumbled", None, x, y, angle, i))
-        return found
+                events.append(PiTanksEvent("cracked" if wall.health else "crumbled", None, x, y, angle, i))
+        return events
 
     def _mines(self, state: PiTanks) -> list[PiTanksEvent]:
-        found = []
+        events = []
         for i, mine in enumerate(state.mines):
             alive, _, _ = self.mines[i]
             if mine.alive > alive:
-                found.append(PiTanksEvent("mine_laid", i // OWN_MINES, mine.x, mine.y))
+                events.append(PiTanksEvent("mine_laid", i // OWN_MINES, mine.x, mine.y))
             elif alive > 1 and not mine.alive:
-                found.append(PiTanksEvent("mine_blown", i // OWN_MINES, mine.x, mine.y))
-        return found
+                events.append(PiTanksEvent("mine_blown", i // OWN_MINES, mine.x, mine.y))
+        return events
 
 
 def _shot(bullet: Bullet) -> _Shot:

@@ -1,7 +1,7 @@
-"""The panels and the clock over a PiTanks match, baked into the ground whenever what they say changes.
+"""HUD of PiTanks: panels and clock, baked into the background when their content changes.
 
-Free-for-all: a panel for each seat, two left and two right of the clock. Two teams: one on each side, their sum beside
-the clock and linked to their panels.
+Free-for-all: one panel per seat, two on either side of the clock. Two teams: one on each side, their totals next to the
+clock and linked to their panels.
 """
 
 from collections.abc import Callable, Iterator
@@ -40,12 +40,12 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
 
 SUM_W = 116  # px
-CELL = 17.75  # px from one cell of the turbo bar to the next
+CELL = 17.75  # px, pitch of the turbo bar cells
 
 
 @dataclass(frozen=True)
 class SeatPanel:
-    """The panel of a seat."""
+    """Panel of a seat."""
 
     seat: int
     x: int
@@ -54,7 +54,7 @@ class SeatPanel:
 
 @dataclass(frozen=True)
 class TeamPanel:
-    """The box with a team's points; `mates`: the slots linked to it."""
+    """Box with a team's points; `mates`: the panels linked to it."""
 
     team: int
     x: int
@@ -62,7 +62,7 @@ class TeamPanel:
 
 
 def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
-    """Where the panels stand, and the sums of two teams. Absent seats have no panel."""
+    """Positions of the panels and of the totals of two teams. Empty seats have no panel."""
     seats = [i for i, robot in enumerate(robots) if robot.present]
     teams = list(dict.fromkeys(robots[i].team for i in seats))
     if len(teams) != 2 or len(seats) == 2:
@@ -82,7 +82,7 @@ def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
 
 
 class PiTanksHud:
-    """Keeps the ground saying what the match says. `players`: who sits where; names in BRAINS are marked as AI."""
+    """Keeps the HUD up to date. `players`: driver of each seat; names in BRAINS are marked as AI."""
 
     def __init__(self, background: Background, state: Any, players: list[str]) -> None:
         self.background, self.players = background, players
@@ -91,25 +91,25 @@ class PiTanksHud:
         self.points: dict[int, int] = {}
 
     def show(self, state: Any) -> list[SeatPanel]:
-        """Bake what has changed; answers the panels whose points have."""
+        """Bake changed parts; returns the panels whose points changed."""
         points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
-        totals = {one.team: sum(points[slot.seat] for slot in one.mates) for one in self.sums}
-        ahead = _ahead(totals or points)
+        totals = {panel.team: sum(points[slot.seat] for slot in panel.mates) for panel in self.sums}
+        ahead = _sole_leader(totals or points)
         changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
         self.points = points
         for slot in self.slots:
             leads = slot.seat == ahead and not self.sums
-            says = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
-            self.parts.show(slot, says, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *says))
-        for one in self.sums:
-            total = totals[one.team], one.team == ahead
-            if self.parts.changed(one, total):
-                self._bake_sum(one, *total)
+            content = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
+            self.parts.show(slot, content, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *content))
+        for panel in self.sums:
+            total = totals[panel.team], panel.team == ahead
+            if self.parts.changed(panel, total):
+                self._bake_sum(panel, *total)
         self.parts.countdown(state, 84)
         return changed
 
     def jobs(self, state: Any) -> Iterator[Callable[[], object]]:
-        """The pieces of the panels, each made by one small job."""
+        """Prewarm jobs for the pieces of the panels."""
         turbo = bool(state.rules.turbo)
         for slot in self.slots:
             for leads in {False, not self.sums}:
@@ -124,32 +124,32 @@ class PiTanksHud:
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS["pitanks"]
 
-    def _bake_sum(self, one: TeamPanel, points: int, leads: bool) -> None:
+    def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
         text = str(points).replace("-", "−")
         size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
-        bits: list[Bit] = [(sum_frame(leads, one is self.sums[1]), (one.x - EDGE, Y - EDGE), None)]
-        bits += number_bits(text, size, one.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
-        self.background.bake(pygame.Rect(one.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
-        inner = one.x - 12 if one.x < 960 else one.x + SUM_W
-        gaps = [inner, *(slot.x + slot.w for slot in one.mates[:-1])]
+        bits: list[Bit] = [(sum_frame(leads, panel is self.sums[1]), (panel.x - EDGE, Y - EDGE), None)]
+        bits += number_bits(text, size, panel.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
+        self.background.bake(pygame.Rect(panel.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
+        inner = panel.x - 12 if panel.x < 960 else panel.x + SUM_W
+        gaps = [inner, *(slot.x + slot.w for slot in panel.mates[:-1])]
         for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
             self.background.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
 
 
-def _ahead(points: dict[int, int]) -> int | None:
-    """Who leads alone."""
+def _sole_leader(points: dict[int, int]) -> int | None:
+    """The sole leader, if any."""
     best = max(points.values(), default=0)
     leaders = [who for who, score in points.items() if score == best]
     return leaders[0] if len(leaders) == 1 and len(points) > 1 else None
 
 
 def _turbo(state: Any, seat: int) -> int | None:
-    """What is left in the meter, of 64, or None without turbo."""
+    """Turbo level, 0..64, or None without turbo."""
     return round(64 * state.robots[seat].turbo) if state.rules.turbo else None
 
 
 def _powers(state: Any, seat: int) -> tuple[tuple[int, int], ...]:
-    """(what is left of 48, power) of every power held, what ends first first."""
+    """(remaining 0..48, power) of every active power, soonest to end first."""
     life = max(1, state.rules.power_life)
     held = [(min(48, -(-48 * left // life)), i) for i, left in enumerate(state.tanks[seat].powers) if left]
     return tuple(sorted(held))
@@ -158,7 +158,7 @@ def _powers(state: Any, seat: int) -> tuple[tuple[int, int], ...]:
 def panel_bits(
     slot: SeatPanel, score: int, leads: bool, ai: bool, turbo: int | None, powers: tuple[tuple[int, int], ...]
 ) -> list[Bit]:
-    """The pieces of a panel."""
+    """Pieces of a panel."""
     x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
     text = str(score).replace("-", "−")
     size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
@@ -179,7 +179,7 @@ def panel_bits(
 
 @cached
 def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Surface:
-    """Outline and badge of a panel, the leader's crown and the sign of an AI."""
+    """Outline and badge of a panel, with the leader's crown and the AI mark."""
     ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
     outline = cut_box(0, 0, w, H)
     if leads:
@@ -197,7 +197,7 @@ def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Sur
 
 @cached
 def pulse(player: int, w: int) -> tuple[Sprite, ...]:
-    """A panel that lights up when its points change, and how that fades; from its upper left corner."""
+    """Fade-out of a panel flash after a change of points, relative to its top left."""
     ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
     ink.fill(cut_box(0, 0, w, H), dim(color, 0.24))
     whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
@@ -206,7 +206,7 @@ def pulse(player: int, w: int) -> tuple[Sprite, ...]:
 
 @cached
 def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
-    """The cells of a turbo meter, all lit or all dark."""
+    """Cells of a turbo bar, all lit or all dark."""
     ink = GlowCanvas(w - 32 + 2 * EDGE, 10 + 2 * EDGE).to(EDGE, EDGE)
     for i in range(int((w - 32) / CELL + 0.01)):
         x = i * CELL
@@ -217,7 +217,7 @@ def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
 
 @cached
 def sum_frame(leads: bool, second: bool) -> pygame.Surface:
-    """The box of a team's sum, with the bars that its robots wear: one, or two for the second team."""
+    """Box of a team's total, with its team bars: one, or two for the second team."""
     ink = GlowCanvas(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     if leads:
         ink.fill(cut_box(0, 0, SUM_W, H), dim(ICE, 0.10))
@@ -232,7 +232,7 @@ def sum_frame(leads: bool, second: bool) -> pygame.Surface:
 
 @cached
 def link() -> pygame.Surface:
-    """Two short bars between panels that belong together."""
+    """Two short bars between linked panels."""
     ink = GlowCanvas(12 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     for y in (30, 62):
         ink.line([(-6, y), (18, y)], MIST, LINE)

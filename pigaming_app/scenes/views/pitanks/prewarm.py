@@ -1,4 +1,4 @@
-"""Sprites that a match of PiTanks will ask for besides those of driving robots."""
+"""Prewarm jobs for the sprites specific to PiTanks."""
 
 from collections.abc import Iterator, Sequence
 from functools import partial
@@ -16,7 +16,7 @@ from pigaming_app.ui.draw.text import glyph
 
 
 def jobs(state: Any, seats: Sequence[int]) -> Iterator[Job]:
-    """One small piece of work after the other; each makes one sprite, or finds it made."""
+    """One small job per sprite; a cached sprite costs nothing."""
     yield from (partial(tank.ghost, seat) for seat in seats)
     yield from _shooting(seats)
     yield from _numbers(seats)
@@ -49,9 +49,9 @@ def _numbers(seats: Sequence[int]) -> Iterator[Job]:
 
 def _walls(state: Any) -> Iterator[Job]:
     for i in range(state.wall_count):
-        one = state.walls[i]
-        for health in range(one.whole - 1, -1, -1):
-            yield partial(wall_sprite, one, health)
+        wall = state.walls[i]
+        for health in range(wall.whole - 1, -1, -1):
+            yield partial(wall_sprite, wall, health)
 
 
 def _hits(seats: Sequence[int]) -> Iterator[Job]:

@@ -1,4 +1,4 @@
-"""A match of PiTanks on the screen: walls, robots, bullets, what lies on the floor, and what happens to them."""
+"""View of PiTanks: walls, robots, bullets, items on the floor, and effects."""
 
 import math
 
@@ -15,16 +15,16 @@ from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
+from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
 
-FLASH = 0.06  # seconds
-ENDING = 2 * HZ  # ticks before its end at which a shield begins to blink
-MUZZLE = 70.0  # px from a robot to the middle of its muzzle flash
+FLASH = 0.06  # s
+ENDING = 2 * HZ  # remaining ticks from which a shield blinks
+MUZZLE = 70.0  # px from a robot to the centre of its muzzle flash
 
 
 class PiTanksView(MatchView):
@@ -43,11 +43,10 @@ class PiTanksView(MatchView):
         self.flying = [0] * len(state.bullets)
         self.ahead(self.hud.jobs(state))
         self.ahead(jobs(state, self.seats))
-        self.marked = [slot.seat for one in self.hud.sums for slot in one.mates]
+        self.marked = [slot.seat for event in self.hud.sums for slot in event.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
 
-    def watch(self, state: PiTanks) -> list[Heard]:
-        """See what the last tick did; answers what is to be heard: (sound, player or None, x in arena px)."""
+    def watch(self, state: PiTanks) -> list[SoundCue]:
         self.follow(state)
         for i, bullet in enumerate(state.bullets):
             was = self.detector.shots[i]
@@ -55,13 +54,12 @@ class PiTanksView(MatchView):
             self.shots[i] = (bullet.x - bullet.vx * DT, bullet.y - bullet.vy * DT) if fresh else (was.x, was.y)
             self.flying[i] = bullet.alive
         events = self.detector.look(state)
-        for one in events:
-            if one.kind == "fire" and one.player is not None:
-                self.flashed[one.player] = self.particles.clock
+        for event in events:
+            if event.kind == "fire" and event.player is not None:
+                self.flashed[event.player] = self.particles.clock
         return react(events, state, self.particles, self.options)
 
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
-        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.particles.advance(seconds)
         self.walls.show_walls(state)
         for slot in self.hud.show(state):
@@ -71,7 +69,7 @@ class PiTanksView(MatchView):
         over: Batch = []
         light: Batch = []
         top: Batch = []
-        self._things(over, light, state)
+        self._items(over, light, state)
         for seat in self.seats:
             self._robot(under, over, light, state, seat, self.pose(seat, blend))
         self._bullets(light, state, blend)
@@ -79,7 +77,7 @@ class PiTanksView(MatchView):
         self.particles.draw_scores(top)
         self.paint(screen, under, over, light, top)
 
-    def _things(self, over: Batch, light: Batch, state: PiTanks) -> None:
+    def _items(self, over: Batch, light: Batch, state: PiTanks) -> None:
         rules = state.rules
         for pickup in state.pickups:
             if pickup.alive:
@@ -106,7 +104,9 @@ class PiTanksView(MatchView):
             put(light, flash, x + MUZZLE * math.cos(heading), y + MUZZLE * math.sin(heading))
 
     def _powers(self, light: Batch, state: PiTanks, seat: int, x: float, y: float) -> None:
-        """A ring for what ends first; the HUD says what it is. A shield is seen, and blinks before it ends."""
+        """Draw a timer ring for the power that ends first (the HUD names it). A shield is drawn itself, and blinks at
+        the end.
+        """
         powers = state.tanks[seat].powers
         ends = min((left for left in powers if left), default=0)
         if ends:

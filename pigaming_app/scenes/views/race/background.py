@@ -1,4 +1,4 @@
-"""The ground of a race: road, mud, lines and what stands beside them; painted once for every track and kept."""
+"""Background of a race: road, mud, lines and their badges; rendered once per track and cached."""
 
 from functools import partial
 
@@ -13,11 +13,11 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached
 
 GLOW = 0.75
-CORNER = 44  # px: the marks in the corners of the arena
+CORNER = 44  # px, marks in the corners of the arena
 
 
 class RaceBackground(Background):
-    """The ground of one race."""
+    """The background of one race."""
 
     def __init__(self, track: TrackPlan) -> None:
         super().__init__(partial(bare, track))
@@ -26,7 +26,7 @@ class RaceBackground(Background):
 @cached
 @resumable
 def bare(track: TrackPlan) -> Steps[pygame.Surface]:
-    """The whole canvas without HUD."""
+    """Static canvas without HUD."""
     below = earth(track)
     glow, crisp = GlowCanvas(1920, 1080).to(LEFT, TOP), GlowCanvas(1920, 1080).to(LEFT, TOP)
     yield from draw_track(glow, crisp, track)
@@ -44,8 +44,8 @@ def bare(track: TrackPlan) -> Steps[pygame.Surface]:
 @cached
 @resumable
 def earth(track: TrackPlan) -> Steps[pygame.Surface]:
-    """The arena of 1600 x 900: mud, and in it the black of the road and of where badges stand."""
-    from pigaming_app.scenes.views.race.mud import mud  # with numpy, for which the title does not wait
+    """The 1600 x 900 arena: mud, with black areas for the road and the badges."""
+    from pigaming_app.scenes.views.race.mud import mud  # imports numpy, which must not delay the title screen
 
     out = mud(track.course).copy()
     yield

@@ -1,4 +1,4 @@
-"""What an event of a race looks and sounds like, and the words and times that rise over robots."""
+"""Particles, sounds, and rising words and times for the events of a race."""
 
 import math
 from collections.abc import Sequence
@@ -6,13 +6,13 @@ from typing import NamedTuple
 
 from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.particles import MOST, Particle, Particles
+from pigaming_app.scenes.views.particles import MAX_PARTICLES, Particle, Particles
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
-from pigaming_app.scenes.views.view import Heard, Pose, ViewOptions, decimal
+from pigaming_app.scenes.views.view import Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
@@ -30,13 +30,13 @@ SOUNDS = {
     "mud": "mud",
 }
 BY_WEIGHT = list(SOUNDS)
-LASTS, RISE = 1.7, 46.0  # s and px of what rises
-OVER = 70.0  # px from a robot to what rises
-HIGH = 76.0  # px from one that rises to another over it
+LASTS, RISE = 1.7, 46.0  # s and px of an announcement
+ABOVE = 70.0  # px from a robot to its announcement
+STACK_PITCH = 76.0  # px between stacked announcements
 
 
 class Announcement(NamedTuple):
-    """Rises over the robot of a seat: a sprite, or a number after a star if it is the best."""
+    """Rises over a seat's robot: a sprite, or a number, with a star if it is a best time."""
 
     born: float
     seat: int
@@ -46,28 +46,28 @@ class Announcement(NamedTuple):
 
 
 class Announcements:
-    """All that rises at the moment; what would lie over another stands above it."""
+    """Current announcements; overlapping ones are stacked."""
 
     def __init__(self) -> None:
         self.notes: list[Announcement] = []
 
     def say(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
-        """Let something rise over a robot."""
+        """Start an announcement over a robot."""
         self.notes.append(Announcement(now, seat, sprite, text, color))
 
     def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
-        """Add what has not gone yet; over those who wear a sign, nothing."""
+        """Draw the live announcements, except over robots in `busy`, which show a sign."""
         self.notes = [note for note in self.notes if now - note.born < LASTS and note.seat not in busy]
         placed: list[tuple[float, float, float]] = []
         for note in self.notes:
-            wide = note.sprite.image.get_width() if note.sprite else number_width(note.text, SUB) + 70
+            width = note.sprite.image.get_width() if note.sprite else number_width(note.text, SUB) + 70
             t = (now - note.born) / LASTS
-            x = min(max(poses[note.seat][0], LEFT + wide / 2), LEFT + WIDTH - wide / 2)
-            y = poses[note.seat][1] - OVER - RISE * (1.0 - (1.0 - t) ** 2)
-            while any(abs(x - px) < (wide + w) / 2 and abs(y - py) < HIGH for px, py, w in placed):
-                y -= HIGH
+            x = min(max(poses[note.seat][0], LEFT + width / 2), LEFT + WIDTH - width / 2)
+            y = poses[note.seat][1] - ABOVE - RISE * (1.0 - (1.0 - t) ** 2)
+            while any(abs(x - px) < (width + w) / 2 and abs(y - py) < STACK_PITCH for px, py, w in placed):
+                y -= STACK_PITCH
             y = max(y, TOP + 60)
-            placed.append((x, y, wide))
+            placed.append((x, y, width))
             if note.sprite:
                 put(top, note.sprite, x, y)
             else:
@@ -75,49 +75,49 @@ class Announcements:
 
 
 def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
-    wide = number_width(note.text, SUB)
+    width = number_width(note.text, SUB)
     if note.color == FOCUS:
-        put(light, race_signs.gold_star(), x - wide / 2 - 12, y)
+        put(light, race_signs.gold_star(), x - width / 2 - 12, y)
         x += 26
-    x -= wide / 2
+    x -= width / 2
     for char in note.text:
         sprite, advance = glyph(char, SUB, note.color)
         put(light, sprite, x, y)
         x += advance
 
 
-def heard(events: Sequence[RaceEvent], state: Race) -> list[Heard]:
-    """What is heard: of every robot only what matters most."""
+def sound_cues(events: Sequence[RaceEvent], state: Race) -> list[SoundCue]:
+    """Sounds of the events: for each robot only the most important one."""
     loudest: dict[int, str] = {}
-    for one in events:
-        if one.kind in SOUNDS:
-            loudest[one.seat] = min(loudest.get(one.seat, one.kind), one.kind, key=BY_WEIGHT.index)
+    for event in events:
+        if event.kind in SOUNDS:
+            loudest[event.seat] = min(loudest.get(event.seat, event.kind), event.kind, key=BY_WEIGHT.index)
     return [(SOUNDS[kind], seat, state.robots[seat].x) for seat, kind in loudest.items()]
 
 
 class RaceEffects:
-    """Puts what happened into the air."""
+    """Adds the particles and announcements of events."""
 
     def __init__(self, particles: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
         self.particles, self.notes, self.options, self.words = particles, notes, options, words
 
-    def show(self, one: RaceEvent, state: Race, golden: Delta | None) -> None:
-        """Show one event; `golden`: what the racer is away from the best lap ever."""
-        particles, robot, racer = self.particles, state.robots[one.seat], state.racers[one.seat]
-        x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[one.seat]
-        match one.kind:
+    def show(self, event: RaceEvent, state: Race, golden: Delta | None) -> None:
+        """Show one event; `golden`: the racer's difference to the best lap ever."""
+        particles, robot, racer = self.particles, state.robots[event.seat], state.racers[event.seat]
+        x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[event.seat]
+        match event.kind:
             case "line":
-                particles.burst(x, y, PLAYERS[int(one.number)], 10, 40, 50)
-                if int(one.number) != one.seat:
-                    self._difference(one.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
+                particles.burst(x, y, PLAYERS[int(event.number)], 10, 40, 50)
+                if int(event.number) != event.seat:
+                    self._difference(event.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
             case "lap" if not racer.finished:
-                self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), ICE)
+                self._say(event.seat, decimal(self.words, f"{event.number:.2f}"), ICE)
             case "best":
                 if not racer.finished:
-                    self._say(one.seat, decimal(self.words, f"{one.number:.2f}"), FOCUS)
+                    self._say(event.seat, decimal(self.words, f"{event.number:.2f}"), FOCUS)
                 particles.burst(x, y, FOCUS, 16, 44, 80)
             case "last_lap" if self.words:
-                self._say(one.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
+                self._say(event.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
             case "missed" | "void":
                 particles.burst(x, y, ALARM, 12, 44, 60)
             case "mud":
@@ -126,10 +126,10 @@ class RaceEffects:
                 self.celebrate(x, y, color)
 
     def celebrate(self, x: float, y: float, color: Color) -> None:
-        """A chequered cloud."""
+        """A cloud of chequered confetti."""
         particles = self.particles
         for tone in (color, WHITE):
-            for _ in range(min(22, MOST - len(particles.particles))):
+            for _ in range(min(22, MAX_PARTICLES - len(particles.particles))):
                 _fly(particles, x, y, 210.0, race_signs.confetti(tone, particles.random.randrange(4)), 1.3)
         particles.burst(x, y, FOCUS, 14, 46, 130)
         if self.options.flashes != "off":
@@ -138,7 +138,7 @@ class RaceEffects:
             particles.glow(x, y, color)
 
     def record(self, x: float, y: float) -> None:
-        """The best lap ever on this track."""
+        """Effects of a new best lap ever on this track."""
         self.particles.burst(x, y, FOCUS, 40, 46, 150)
         if self.options.flashes != "off":
             self.particles.shock(x, y, FOCUS)
@@ -154,8 +154,8 @@ class RaceEffects:
 
 
 def spray(particles: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:
-    """Clods that fly up behind wheels."""
-    for _ in range(min(count, MOST - len(particles.particles))):
+    """Clods thrown up behind the wheels."""
+    for _ in range(min(count, MAX_PARTICLES - len(particles.particles))):
         frames = race_signs.clods(particles.random.choice(race_signs.CLODS))
         _fly(particles, x, y, 70.0, frames, 0.6, heading, spread)
 

@@ -1,28 +1,28 @@
-"""What happened in a tick of a race, found by comparing it with what it was before. Nothing here writes to it."""
+"""Event detection for races, by comparing a race with its previous tick; read-only."""
 
 from typing import NamedTuple
 
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.sim.world import DT
 
-SETTLE = 12  # ticks for which an order holds before it is believed: two side by side would swap for ever
-SHOWN_FROM = 25  # ticks of driving the wrong way after which it is said
+SETTLE = 12  # ticks for which a new order must hold; otherwise robots side by side would swap constantly
+SHOWN_FROM = 25  # ticks of driving the wrong way before it is reported
 
 
 class RaceEvent(NamedTuple):
-    """One thing that happened to the robot of a seat.
+    """An event of a seat's robot.
 
     kind       number
-    line       which line it has passed, in order
-    lap        seconds of the lap that it has ended
-    best       the same, and it was its best so far
-    last_lap   -          the last one begins
-    missed     which line it must go back to
-    void       which line it had missed when it crossed its own
-    wrong      -          it drives the wrong way
-    mud        -          it has left the track
-    finish     its place
-    up, down   its place now
+    line       index of the line it has crossed in order
+    lap        time of the completed lap, s
+    best       the same, for its best lap so far
+    last_lap   -          the last lap begins
+    missed     line it must return to
+    void       line it had missed when crossing its own
+    wrong      -          drives the wrong way
+    mud        -          has left the track
+    finish     final place
+    up, down   new place
     """
 
     kind: str
@@ -31,25 +31,24 @@ class RaceEvent(NamedTuple):
 
 
 class RaceEventDetector:
-    """Remembers one race from tick to tick. `order`: the seats as they run, the first leads."""
+    """Keeps the previous tick of one race. `order`: seats in running order, leader first."""
 
     def __init__(self, state: Race) -> None:
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.order = self._running(state)
-        self.asked, self.since = self.order, state.tick
-        self._remember(state)
+        self.candidate, self.since = self.order, state.tick
+        self._store(state)
 
     def look(self, state: Race) -> list[RaceEvent]:
-        """What has happened since the last look."""
-        found = [one for seat in self.seats for one in self._racer(state, seat)]
-        found += self._order(state)
-        self._remember(state)
-        return found
+        """Events since the last call."""
+        events = [event for seat in self.seats for event in self._racer(state, seat)]
+        events += self._order(state)
+        self._store(state)
+        return events
 
-    def _remember(self, state: Race) -> None:
+    def _store(self, state: Race) -> None:
         self.racers = [
-            (one.passed, one.missed, one.void, one.wrong > SHOWN_FROM, one.place.on, one.finished, one.best_lap)
-            for one in state.racers
+            (r.passed, r.missed, r.void, r.wrong > SHOWN_FROM, r.place.on, r.finished, r.best_lap) for r in state.racers
         ]
 
     def _racer(self, state: Race, seat: int) -> list[RaceEvent]:
@@ -72,7 +71,7 @@ class RaceEventDetector:
         return found
 
     def _lap(self, state: Race, seat: int, best: float) -> list[RaceEvent]:
-        """What passing a line meant for the laps, if it was its own."""
+        """Lap events after a robot crossed its own start line."""
         racer, laps = state.racers[seat], state.robots[seat].score
         if racer.passed % LINES != 1:
             return []
@@ -88,10 +87,10 @@ class RaceEventDetector:
         return sorted(self.seats, key=lambda seat: state.racers[seat].rank)
 
     def _order(self, state: Race) -> list[RaceEvent]:
-        """Believe another order once it has held for a while, or when somebody has finished."""
+        """Accept a new order after it has held for SETTLE ticks, or when a robot finishes."""
         running = self._running(state)
-        if running != self.asked:
-            self.asked, self.since = running, state.tick
+        if running != self.candidate:
+            self.candidate, self.since = running, state.tick
         finished = any(state.racers[seat].finished > self.racers[seat][5] for seat in self.seats)
         if running == self.order or not (finished or state.tick - self.since >= SETTLE or state.over):
             return []

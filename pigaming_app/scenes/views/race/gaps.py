@@ -1,24 +1,24 @@
-"""How far everybody is behind the leader, in seconds: how long ago somebody was first where a robot is now."""
+"""Gaps to the leader in seconds: the time since the leader passed a robot's present position."""
 
 from bisect import bisect_left
 
 from pigaming_app.games.race.state import Race
 from pigaming_app.sim.world import DT
 
-EVERY = 25  # ticks between two readings: tenths that change all the time cannot be read
+EVERY = 25  # ticks between two readings, so that the tenths are readable
 
 
 class Gaps:
-    """Remembers a race from tick to tick."""
+    """Keeps the leading distance of every tick of a race."""
 
     def __init__(self, state: Race) -> None:
         self.began = state.tick
-        self.reached: list[float] = []  # px: the farthest that anybody had come, for each tick since
+        self.reached: list[float] = []  # px, leading distance at each tick
         self.shown = [0.0] * len(state.robots)
         self.follow(state)
 
     def follow(self, state: Race) -> None:
-        """Note this tick; read the gaps anew from time to time."""
+        """Record this tick; refresh the gaps every EVERY ticks."""
         farthest = max(racer.progress for racer, robot in zip(state.racers, state.robots, strict=True) if robot.present)
         while len(self.reached) <= state.tick - self.began:
             self.reached.append(max(farthest, self.reached[-1] if self.reached else farthest))
@@ -26,10 +26,10 @@ class Gaps:
             self.shown = [self.gap(state, seat) for seat in range(len(state.robots))]
 
     def gap(self, state: Race, seat: int) -> float:
-        """Seconds behind the leader now; at the end, behind the winner."""
+        """Gap to the leader in s; after the finish, to the winner."""
         racer = state.racers[seat]
         if racer.finished:
-            first = min(one.finish for one in state.racers if one.finished)
+            first = min(other.finish for other in state.racers if other.finished)
             return (racer.finish - first) * DT
         return (len(self.reached) - 1 - bisect_left(self.reached, racer.progress)) * DT
 

@@ -1,6 +1,6 @@
-"""The ghost in a race: it drives along with the first person, and a better lap of any person takes its place.
+"""Ghost of a race: replays the best lap alongside the first person; a faster lap by any person replaces it.
 
-Only laps of people count, from their own line to it again without an AI at the wheel in between.
+Only laps driven entirely by a person count, from their own line back to it.
 """
 
 from collections.abc import Sequence
@@ -14,28 +14,28 @@ from pigaming_app.scenes.views.race.ghost_files import Pose
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT
 
-Delta = tuple[float, int]  # ticks, and the tick at which it came
+Delta = tuple[float, int]  # ticks, and the tick of measurement
 
 
 class GhostRecorder:
-    """The ghost of one track in one race. `trouble`: a word if the kept one had to be dropped."""
+    """The ghost of one track during a race. `trouble`: reason why the saved one was dropped, or ""."""
 
     def __init__(self, folder: Path, arena: Arena, players: Sequence[str]) -> None:
         self.folder, self.arena, self.players = folder, arena, players
         self.ghost, self.trouble = ghosts.call(folder, arena)
-        self.notes: list[list[tuple[int, Pose]]] = [[] for _ in players]  # of each seat's lap: tick and pose
+        self.notes: list[list[tuple[int, Pose]]] = [[] for _ in players]  # tick and pose, for each seat's current lap
         self.golden: dict[int, Delta] = {}
         self.writing: Thread | None = None
 
     def watch(self, state: Race, events: Sequence[RaceEvent]) -> list[int]:
-        """See a tick: note the laps of people, compare them; answers the seats that have set a new best lap ever."""
+        """Record people's laps and compare them with the ghost; returns the seats with a new best lap ever."""
         new = []
-        for seat in (one.seat for one in events if one.kind == "line" and self._person(one.seat)):
+        for seat in (event.seat for event in events if event.kind == "line" and self._person(event.seat)):
             self._compare(state, seat)
             if state.racers[seat].passed % LINES == 1:
                 if self._best_ever(state, seat):
                     new.append(seat)
-                del self.notes[seat][:-2]  # the line lies between the two that stay
+                del self.notes[seat][:-2]  # keep the two samples on either side of the line
         for seat, notes in enumerate(self.notes):
             robot = state.robots[seat]
             if not self._person(seat):
@@ -45,7 +45,7 @@ class GhostRecorder:
         return new
 
     def pose(self, state: Race, blend: float) -> Pose | None:
-        """Where the ghost drives, `blend` of the way from the tick before to the last."""
+        """Pose of the ghost, interpolated by `blend` between the last two ticks."""
         first = next((seat for seat in range(LINES) if self._person(seat) and state.robots[seat].present), None)
         if self.ghost is None or first is None or state.over:
             return None
@@ -58,7 +58,7 @@ class GhostRecorder:
         return self.players[seat] == "human"
 
     def _compare(self, state: Race, seat: int) -> None:
-        """How the way since the own line compares with the ghost's."""
+        """Compare the time since the racer's own line with the ghost's."""
         racer = state.racers[seat]
         later = (racer.passed - 1) % LINES
         if self.ghost and racer.passed > 1:
@@ -66,7 +66,7 @@ class GhostRecorder:
             self.golden[seat] = ticks - self.ghost.since(seat, later or LINES) / DT, state.tick
 
     def _best_ever(self, state: Race, seat: int) -> bool:
-        """If the lap that has just ended is the best ever, it is the ghost from now on."""
+        """Replace the ghost if the lap just completed is the best ever."""
         racer, notes = state.racers[seat], self.notes[seat]
         began = racer.lap_began - racer.last_lap
         whole = len(notes) > 1 and racer.last_lap == racer.best_lap > 0.0 and notes[0][0] <= began

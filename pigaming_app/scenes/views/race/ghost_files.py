@@ -1,8 +1,8 @@
-"""The best lap ever driven by a person on each track, kept as a ghost that drives along and touches nobody.
+"""Ghost files: the best lap by a person on each track, replayed without collisions.
 
-A ghost is worth something only as long as today's robots could drive its lap: one that another version of the engine
-wrote is compared with the rules and dropped if they could not. A file for each track, by its name and a hash of its
-source, in `ghosts` of the folder for data:
+A ghost is valid only if its lap is possible for the current robots: one recorded with another engine version is checked
+against the rules, and dropped if it violates them. One file per track, named after it with a hash of its source, in
+`ghosts` of the data folder:
 {"engine": "…", "line": 0, "seconds": 11.32, "crossed": [0, 2.9, 5.6, 8.5], "poses": [[x, y, heading], …]}.
 """
 
@@ -24,19 +24,19 @@ from pigaming_app.sim.arena import Arena
 from pigaming_app.storage.parsing import parse_json, quote
 from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_with_backup
 
-RATE = 10.0  # poses in a second
+RATE = 10.0  # poses per second
 FOLDER = "ghosts"
 LONGEST = 600.0  # s
-FARTHEST = 10_000.0  # px from the middle, or rad
-SLACK = 1.1  # real robots may be a little faster than the rules say, and a camera sees them tremble
-NEAR = 50.0  # px along the track from a line, of a robot that crosses it
+FARTHEST = 10_000.0  # px from the centre, or rad
+SLACK = 1.1  # tolerance: real robots may be slightly faster than the rules, and tracked poses jitter
+NEAR = 50.0  # px along the track between a robot and the line it crosses
 Pose = tuple[float, float, float]  # px, px, rad
 log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
 class Ghost:
-    """A lap from line `line` to itself, RATE poses a second; `crossed`: s until each next line, the first is 0."""
+    """A lap from line `line` to itself, RATE poses/s; `crossed`: time at each line in s, starting with 0."""
 
     line: int
     seconds: float
@@ -44,14 +44,14 @@ class Ghost:
     poses: tuple[Pose, ...]
 
     def since(self, line: int, later: int) -> float:
-        """Seconds that it took from one line to the one `later` lines on, 0..LINES; all of them are a lap."""
+        """Time in s between one line and the one `later` lines on, 0..LINES; LINES is a full lap."""
         if later == LINES:
             return self.seconds
         first, second = (line - self.line) % LINES, (line + later - self.line) % LINES
         return (self.crossed[second] - self.crossed[first]) % self.seconds
 
     def pose(self, line: int, seconds: float) -> Pose | None:
-        """Where it was so long after crossing a line; None before it did, and once it was round."""
+        """Pose `seconds` after crossing a line; None before the crossing and after the lap."""
         if not 0.0 <= seconds <= self.seconds:
             return None
         at = (self.crossed[(line - self.line) % LINES] + seconds) % self.seconds * RATE
@@ -61,13 +61,13 @@ class Ghost:
 
 
 def between(a: Pose, b: Pose, share: float) -> Pose:
-    """A pose on the way from one to another, turning the short way."""
+    """Interpolated pose, turning the short way."""
     turn = (b[2] - a[2] + math.pi) % math.tau - math.pi
     return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * turn
 
 
 def ghost_of(line: int, seconds: float, crossed: Sequence[float], track: Sequence[tuple[float, Pose]]) -> Ghost:
-    """The ghost of a lap that was noted as (s since its start, pose), in order, from before its start to its end."""
+    """Ghost from a recorded lap: samples (s since its start, pose) in order, from before its start to after its end."""
     poses, k = [], 0
     for i in range(int(seconds * RATE) + 1):
         at = i / RATE
@@ -76,37 +76,37 @@ def ghost_of(line: int, seconds: float, crossed: Sequence[float], track: Sequenc
         (before, a), (after, b) = track[k], track[k + 1]
         x, y, heading = between(a, b, max(0.0, min(1.0, (at - before) / (after - before))))
         poses.append((round(x, 1), round(y, 1), round(heading, 3)))
-    return Ghost(line, round(seconds, 4), tuple(round(one, 4) for one in crossed), tuple(poses))
+    return Ghost(line, round(seconds, 4), tuple(round(time, 4) for time in crossed), tuple(poses))
 
 
 # ---- files
 
 
 def file_of(folder: Path, arena: Arena) -> Path:
-    """Where the ghost of a track is kept; another track of the same name has another file."""
-    made_of = hashlib.sha256(arena.source.encode()).hexdigest()[:8]
-    return folder / FOLDER / f"{arena.name}-{made_of}.json"
+    """File of a track's ghost; a different track of the same name has a different file."""
+    digest = hashlib.sha256(arena.source.encode()).hexdigest()[:8]
+    return folder / FOLDER / f"{arena.name}-{digest}.json"
 
 
 def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
-    """The ghost of a track, if there is one; and a word if one had to be dropped: "old", "lost", else ""."""
-    found, said = read_or_restore(file_of(folder, arena), _parsed)
-    for line in said:
+    """The ghost of a track, if any, and the reason if one was dropped: "old", "lost", else ""."""
+    parsed, warnings = read_or_restore(file_of(folder, arena), _parsed)
+    for line in warnings:
         log.warning("%s", line)
-    if found is None:
-        return None, "lost" if said else ""
-    engine, ghost = found
-    if drivable(ghost, arena) or engine == engine_hash():  # the hash takes a tenth of a second
+    if parsed is None:
+        return None, "lost" if warnings else ""
+    engine, ghost = parsed
+    if drivable(ghost, arena) or engine == engine_hash():  # hashing the engine takes a tenth of a second
         return ghost, ""
-    log.warning("%s: by today's rules no robot can drive this lap; it is not shown", file_of(folder, arena))
+    log.warning("%s: dropped; under the current rules no robot can drive this lap", file_of(folder, arena))
     return None, "old"
 
 
 def drivable(ghost: Ghost, arena: Arena) -> bool:
-    """Whether a lap is no faster than the rules allow, and crosses each line when it says so."""
+    """True if a lap is no faster than the rules allow and crosses each line at the recorded time."""
     rules, course, place = Rules(), arena.plan.course, CoursePosition()
-    way = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(ghost.poses))
-    if way > SLACK * rules.speed * rules.turbo_factor * ghost.seconds:
+    length = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(ghost.poses))
+    if length > SLACK * rules.speed * rules.turbo_factor * ghost.seconds:
         return False
     for later in range(LINES):
         line = (ghost.line + later) % LINES
@@ -119,14 +119,14 @@ def drivable(ghost: Ghost, arena: Arena) -> bool:
 
 
 def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
-    """Keep a ghost while the race goes on: a card may take a tenth of a second to write. Trouble goes to the log."""
+    """Save a ghost in the background, since an SD card may take a tenth of a second. Errors are logged."""
     text = json.dumps({"engine": engine_hash(), **asdict(ghost)}, separators=(",", ":"))
 
     def save() -> None:
         try:
             write_with_backup(file_of(folder, arena), text)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
+        except NotSaved as error:
+            log.warning("%s", error)
 
     thread = Thread(target=save, name="ghost")
     thread.start()
@@ -134,32 +134,32 @@ def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
 
 
 def forget(folder: Path) -> None:
-    """Drop the ghosts of all tracks, as the best scores are cleared. Raises OSError."""
+    """Delete all ghosts, together with the high scores. Raises OSError."""
     for path in (folder / FOLDER).glob("*.json*"):
         path.unlink(missing_ok=True)
 
 
 def _parsed(text: str) -> tuple[str, Ghost]:
-    """Engine and ghost of a file. Raises ValueError."""
+    """Parse a ghost file into engine hash and ghost. Raises ValueError."""
     match parse_json(text):
         case {"engine": str(engine), "line": int(line), "seconds": seconds, "crossed": crossed, "poses": poses}:
             pass
         case _:
-            raise ValueError("it is no ghost")
+            raise ValueError("not a ghost")
     (lap,) = _numbers([seconds], 1, 1.0, LONGEST)
     if line is True or not 0 <= line < LINES or not isinstance(poses, list) or len(poses) != int(lap * RATE) + 1:
-        raise ValueError("its lap is not whole")
+        raise ValueError("the lap is incomplete")
     lines = _numbers(crossed, LINES, 0.0, lap)
     if lines[0] != 0.0 or any(before >= after for before, after in pairwise((*lines, lap))):
-        raise ValueError("its lap does not cross one line after the other")
+        raise ValueError("the lap does not cross the lines in order")
     ways = (_numbers(pose, 3, -FARTHEST, FARTHEST) for pose in poses)
     return engine, Ghost(line, lap, lines, tuple((x, y, heading) for x, y, heading in ways))
 
 
-def _numbers(found: Any, count: int, low: float, high: float) -> tuple[float, ...]:
-    """So many numbers from `low` to `high`. Raises ValueError."""
-    if not isinstance(found, list) or len(found) != count:
-        raise ValueError(f"{quote(found)} should be {count} numbers")
-    if not all(isinstance(one, int | float) and not isinstance(one, bool) and low <= one <= high for one in found):
-        raise ValueError(f"{quote(found)} are not all numbers from {low:g} to {high:g}")
-    return tuple(float(one) for one in found)
+def _numbers(values: Any, count: int, low: float, high: float) -> tuple[float, ...]:
+    """Validate `count` numbers between `low` and `high`. Raises ValueError."""
+    if not isinstance(values, list) or len(values) != count:
+        raise ValueError(f"{quote(values)} should be {count} numbers")
+    if not all(isinstance(v, int | float) and not isinstance(v, bool) and low <= v <= high for v in values):
+        raise ValueError(f"{quote(values)} are not all numbers from {low:g} to {high:g}")
+    return tuple(float(value) for value in values)

@@ -1,6 +1,6 @@
-"""The cards over a race, in running order, and its clock; baked into the ground whenever what they say changes.
+"""Race HUD: cards in running order and a clock, baked into the background when their content changes.
 
-The clock counts up; once somebody has finished it counts down what the others have left.
+The clock counts up; once a robot has finished it counts down the time left for the others.
 """
 
 from collections.abc import Iterator, Sequence
@@ -24,11 +24,11 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import glyph, number_width
 from pigaming_app.ui.i18n import Words
 
-MOVED = int(1.2 * HZ)  # ticks for which an arrow says that the order has changed
+MOVED = int(1.2 * HZ)  # ticks for which an arrow marks a change of place
 
 
 class RaceHud:
-    """Keeps the ground saying what the race says. `players`: who sits where; names in BRAINS are marked as AI."""
+    """Keeps the HUD up to date. `players`: driver of each seat; names in BRAINS are marked as AI."""
 
     def __init__(self, background: Background, state: Race, players: list[str], words: Words | None) -> None:
         self.background, self.players, self.words = background, players, words
@@ -37,18 +37,18 @@ class RaceHud:
         self.xs = XS[len(seats)]
         self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
         self.parts = HudParts(background)
-        self.moves: dict[int, tuple[int, int]] = {}  # seat: which way it went, at which tick
+        self.moves: dict[int, tuple[int, int]] = {}  # seat: (direction, tick) of its last change of place
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
-        """A robot has gone ahead or fallen back."""
+        """Record a change of place."""
         self.moves[seat] = (1 if ahead else -1), tick
 
     def follow(self, state: Race) -> None:
-        """Note where everybody is after this tick."""
+        """Record the positions after this tick."""
         self.gaps.follow(state)
 
     def show(self, state: Race, order: Sequence[int]) -> None:
-        """Bake what has changed."""
+        """Bake changed parts."""
         for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
             card = self._card(state, seat, i + 1)
             self.parts.show(x, card, x - 8, W + 16, partial(card_bits, card, x))
@@ -57,7 +57,7 @@ class RaceHud:
         self.parts.show("clock", clock, CLOCK.x, CLOCK.w, partial(clock_bits, *clock))
 
     def jobs(self, state: Race) -> Iterator[Job]:
-        """The pieces of the cards, each made by one small job."""
+        """Prewarm jobs for the pieces of the cards."""
         for seat in (i for i, robot in enumerate(state.robots) if robot.present):
             yield partial(race_cards.pulse, seat)
             for alarm, done in ((False, False), (True, False), (False, True)):
@@ -86,7 +86,7 @@ class RaceHud:
 
     def _card(self, state: Race, seat: int, place: int) -> RaceCard:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
-        went, when = self.moves.get(seat, (0, -MOVED))
+        direction, changed_at = self.moves.get(seat, (0, -MOVED))
         done = bool(racer.finished)
         share = racer.progress / (laps * state.course.length)
         return RaceCard(
@@ -101,7 +101,7 @@ class RaceHud:
             laps=laps,
             sign="" if done else "missed" if racer.missed else "wrong" if racer.wrong > SHOWN_FROM else "",
             missed=racer.missed - 1,
-            moved=went if state.tick - when < MOVED else 0,
+            moved=direction if state.tick - changed_at < MOVED else 0,
             done=done,
         )
 
@@ -110,7 +110,7 @@ class RaceHud:
 
 
 def clock_bits(kind: str, seconds: int) -> list[Bit]:
-    """The time of the race, or, beside a flag, what the others have left."""
+    """Race time or, beside a flag, the time left for the others."""
     text = f"{seconds // 60}:{seconds % 60:02}" if kind == "time" else str(seconds)
     lead = 0 if kind == "time" else 76
     x = 960 - (number_width(text, TITLE) + lead) / 2
@@ -121,22 +121,22 @@ def clock_bits(kind: str, seconds: int) -> list[Bit]:
 
 
 def _left(state: Race) -> int | None:
-    """The seconds that those have left who have not finished, once somebody has."""
-    racing = any(robot.present and not one.finished for robot, one in zip(state.robots, state.racers, strict=True))
+    """Seconds left for the unfinished robots, once one has finished."""
+    racing = any(robot.present and not racer.finished for robot, racer in zip(state.robots, state.racers, strict=True))
     if not state.first or not racing:
         return None
     return max(0, -(-(state.first + state.rules.patience - state.tick) // HZ))
 
 
 def signed(ticks: float) -> str:
-    """A difference of so many ticks, in seconds."""
+    """A signed difference of `ticks`, in seconds."""
     hundredths = round(100 * ticks * DT)
     return f"{'−' if hundredths < 0 else '+'}{abs(hundredths) / 100:.2f}"
 
 
 @cached
 def small_flag() -> pygame.Surface:
-    """The flag beside the clock once somebody has finished."""
+    """Flag beside the clock once a robot has finished."""
     ink = GlowCanvas(120, 120)
     race_cards.flag(ink, 58, 60, 28, WHITE)
     return ink.lit(0.7)

@@ -1,6 +1,6 @@
-"""The pieces of a card over a race: who is where, in which lap, how fast, and what is wrong.
+"""Pieces of a race card: place, lap, gap, turbo and warnings.
 
-A card is baked into the ground from these pieces whenever what it says changes.
+A card is baked into the background from these pieces when its content changes.
 """
 
 import math
@@ -35,29 +35,29 @@ from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
 
-W, EDGE = WIDE, 24  # px: width of the cards, margin round their sprites
-GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # of a time that is better, or worse; a sign says it too
-CELLS, CELL = 16, 17.75  # of the turbo bar, and px from one to the next
-PLACE, FIGURE, OF, ENDING = SUB, 58, BODY, 30  # sizes: digits of 58 are 41 px high
-ROW = 49  # px: middle of the figures
-LEFT, LAP, RIGHT = 16, 103, W - 14  # px: where place and lap begin, where the gap ends
-GAP = 122  # px: room for a gap
-FOOT = W - 40  # px: length of the bar of laps
-SIGNS = W - 132  # px: the middle of what is wrong
+W, EDGE = WIDE, 24  # px: width of the cards, margin around their sprites
+GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # colours of a gain and a loss of time; the sign shows it too
+CELLS, CELL = 16, 17.75  # cells of the turbo bar, px between them
+PLACE, FIGURE, OF, ENDING = SUB, 58, BODY, 30  # font sizes: digits of 58 are 41 px high
+ROW = 49  # px, vertical centre of the digits
+LEFT, LAP, RIGHT = 16, 103, W - 14  # px: left edge of place and lap, right edge of the gap
+GAP = 122  # px, maximum width of a gap
+FOOT = W - 40  # px, length of the lap bar
+SIGNS = W - 132  # px, centre of the warnings
 
 
 @dataclass(frozen=True)
 class RaceCard:
-    """What a card shows. `sign`: "", "wrong" or "missed"; `moved`: 1 went ahead, -1 fell back, 0."""
+    """Content of a card. `sign`: "", "wrong" or "missed"; `moved`: 1 gained a place, -1 lost one, else 0."""
 
     seat: int
     ai: bool
     place: int
-    ending: str  # of the place's number: st, nd
-    lap: int  # the one that is driven, of `laps`
-    gap: str  # to the leader, s; empty: this one leads
-    turbo: int  # left, of 64
-    way: int  # px of the bar of laps
+    ending: str  # ordinal suffix of the place: st, nd
+    lap: int  # current lap, of `laps`
+    gap: str  # to the leader, s; empty for the leader
+    turbo: int  # remaining, 0..64
+    way: int  # px of the lap bar that are lit
     laps: int
     sign: str
     missed: int
@@ -66,7 +66,7 @@ class RaceCard:
 
 
 def card_bits(card: RaceCard, x: int) -> list[Bit]:
-    """The pieces of a card whose left edge is at x."""
+    """Pieces of a card with its left edge at `x`."""
     corner = (x - EDGE, Y - EDGE)
     bits: list[Bit] = [(frame(card.seat, card.ai, bool(card.sign), card.done), corner, None)]
     number = FOCUS if card.done and card.place == 1 else WHITE
@@ -90,29 +90,29 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
 
 
 def _figures(card: RaceCard, x: int) -> list[Bit]:
-    """The lap, and how far behind the leader; the leader wears a crown, and a flag at the end."""
+    """Lap and gap; the leader has a crown instead, and a flag at the end."""
     lap = str(card.lap)
     bits = number_bits(lap, FIGURE, x + LAP, Y + ROW, ICE)
-    low = Y + ROW + 0.35 * (FIGURE - OF)  # both stand on one line
+    low = Y + ROW + 0.35 * (FIGURE - OF)  # common baseline
     bits += number_bits(f"/{card.laps}", OF, x + LAP + number_width(lap, FIGURE), low, MIST)
     if card.gap:
-        size = FIGURE if number_width(card.gap, FIGURE) < GAP else OF  # minutes behind
+        size = FIGURE if number_width(card.gap, FIGURE) < GAP else OF  # a gap of minutes
         return bits + number_bits(card.gap, size, x + RIGHT - number_width(card.gap, size), Y + ROW, ICE)
     return [*bits, (leader(card.done), (x + RIGHT - 60 - EDGE, Y - EDGE), None)]
 
 
 def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], way: float) -> list[Bit]:
-    """A bar that is lit up to `way` px."""
+    """Bar lit up to `way` px."""
     x, y, split, (w, h) = at[0] - EDGE, at[1] - EDGE, EDGE + round(way), full.get_size()
     return [(full, (x, y), (0, 0, split, h)), (empty, (x + split, y), (split, 0, w - split, h))]
 
 
-# ---- pieces, each made once
+# ---- cached pieces
 
 
 @cached
 def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
-    """Outline and badge of a card; it is red while something is wrong and bold when the race is done."""
+    """Outline and badge of a card; red during a warning, bold after the finish."""
     ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
     outline, edge = cut_box(0, 0, W, H), ALARM if alarm else color
     if alarm or done:
@@ -129,7 +129,7 @@ def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
 
 @cached
 def pulse(seat: int) -> tuple[Sprite, ...]:
-    """A card that lights up, and how that fades; from its upper left corner."""
+    """Fade-out of a card flash, relative to its top left."""
     ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     whole = Sprite(ink.fill(cut_box(0, 0, W, H), dim(PLAYERS[seat], 0.3)).lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
@@ -137,15 +137,15 @@ def pulse(seat: int) -> tuple[Sprite, ...]:
 
 @cached
 def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
-    """A short word, EDGE px in from the left and with its middle EDGE px down."""
-    wide = max(1, round(number_width(text, size)))
-    ink = GlowCanvas(wide + 2 * EDGE, size + 2 * EDGE)
+    """Short word, EDGE px from the left, vertical centre EDGE px from the top."""
+    width = max(1, round(number_width(text, size)))
+    ink = GlowCanvas(width + 2 * EDGE, size + 2 * EDGE)
     return ink.text(text, size, EDGE, EDGE, color, "head").lit(0.5)
 
 
 @cached
 def turbo(seat: int, full: bool) -> pygame.Surface:
-    """The cells of a turbo meter, all lit or all dark."""
+    """Cells of a turbo bar, all lit or all dark."""
     ink, color = GlowCanvas(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
     for i in range(CELLS):
         x = i * CELL
@@ -155,7 +155,7 @@ def turbo(seat: int, full: bool) -> pygame.Surface:
 
 @cached
 def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
-    """The bar along a card's foot, a piece for each lap, all lit or all dark."""
+    """Lap bar along the bottom of a card, one segment per lap, all lit or all dark."""
     ink, color = GlowCanvas(FOOT + 2 * EDGE, 6 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
     piece = FOOT / laps
     for i in range(laps):
@@ -166,7 +166,7 @@ def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
 
 @cached
 def mover(up: bool) -> pygame.Surface:
-    """An arrowhead: went ahead, or fell back."""
+    """Arrowhead for a gained or lost place."""
     side = -1 if up else 1
     ink = GlowCanvas(2 * EDGE + 2, 2 * EDGE + 2).to(EDGE, EDGE)
     return ink.fill([(-13, -side * 9), (13, -side * 9), (0, side * 11)], GAIN if up else LOSS).lit(0.9)
@@ -174,7 +174,7 @@ def mover(up: bool) -> pygame.Surface:
 
 @cached
 def leader(done: bool) -> pygame.Surface:
-    """The crown of the leader or, at the end, a flag."""
+    """Crown of the leader or, at the end, a flag."""
     ink = GlowCanvas(60 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     if done:
         flag(ink, 30, ROW, 21, FOCUS)
@@ -185,7 +185,7 @@ def leader(done: bool) -> pygame.Surface:
 
 @cached
 def missed_mark(line: int) -> pygame.Surface:
-    """On a card: the badge of the line that was missed."""
+    """Warning: badge of the missed line."""
     ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     badge(ink, line, 36, 44, 30)
     ink.line([(92, 22), (92, 50)], WHITE, 12)
@@ -194,21 +194,21 @@ def missed_mark(line: int) -> pygame.Surface:
 
 @cached
 def wrong_mark() -> pygame.Surface:
-    """On a card: turn round."""
+    """Warning: wrong way."""
     ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
     return u_turn(ink, 56, 46, 0.85).lit(0.7)
 
 
 def u_turn(ink: GlowCanvas, x: float, y: float, k: float) -> GlowCanvas:
-    """An arrow that turns back, 72 px high at scale 1."""
-    bow = [(18 * math.cos(t / 8), -8 - 18 * math.sin(t / 8)) for t in range(26)]
-    way = [(18.0, 30.0), (18.0, -8.0), *bow, (-18.0, 6.0)]
+    """U-turn arrow, 72 px high at scale 1."""
+    arc = [(18 * math.cos(t / 8), -8 - 18 * math.sin(t / 8)) for t in range(26)]
+    way = [(18.0, 30.0), (18.0, -8.0), *arc, (-18.0, 6.0)]
     ink.line([(x + k * a, y + k * b) for a, b in way], WHITE, 11 * k)
     return ink.fill([(x + k * a, y + k * b) for a, b in ((-39, 4), (3, 4), (-18, 32))], WHITE)
 
 
 def star(x: float, y: float, r: float) -> list[Point]:
-    """Five points."""
+    """Outline of a five-pointed star."""
     outer, inner = (
         regular_polygon(5, r, -math.pi / 2, x, y),
         regular_polygon(5, r * 0.45, -math.pi / 2 + math.pi / 5, x, y),
@@ -217,7 +217,7 @@ def star(x: float, y: float, r: float) -> list[Point]:
 
 
 def flag(ink: GlowCanvas, x: float, y: float, r: float, color: Color) -> None:
-    """A chequered flag on its pole, `r` px to each side."""
+    """Chequered flag on a pole, `r` px to each side."""
     size = 2 * r / 4
     ink.line([(x - r, y - r), (x - r, y + r)], color, max(3, r * 0.2))
     for row in range(3):

@@ -1,4 +1,4 @@
-"""Sprites that a race will ask for besides those of driving robots and of its cards, made a few in each frame."""
+"""Prewarm jobs for the sprites of a race, except driving robots and cards."""
 
 from collections.abc import Iterator, Sequence
 from functools import partial
@@ -16,7 +16,7 @@ from pigaming_app.ui.i18n import Words
 
 
 def jobs(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
-    """One small piece of work after the other; each makes one sprite, or finds it made."""
+    """One small job per sprite; a cached sprite costs nothing."""
     yield from _mud()
     yield from _rising(seats, words)
     yield from _signs(seats, words)
@@ -26,7 +26,7 @@ def jobs(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
 
 
 def void_words(words: Words | None) -> tuple[str, ...]:
-    """What is said of a lap that did not count, in lines."""
+    """Text of an invalid lap, in lines."""
     return tuple(words("race.void").split("|")) if words else ()
 
 

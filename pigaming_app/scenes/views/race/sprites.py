@@ -1,4 +1,4 @@
-"""What is put up over robots in a race, and what flies about: signs, plates, the ghost, arrows, clods, confetti."""
+"""Sprites of a race: signs and plates over robots, the ghost, arrows, clods, confetti."""
 
 import math
 import random
@@ -30,8 +30,8 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
-SIGN_AT = 100.0  # px from a robot to the middle of its sign
-LEVELS = 5  # of what flies and fades
+SIGN_AT = 100.0  # px from a robot to the centre of its sign
+LEVELS = 5  # brightness levels of fading particles
 CLODS = (3, 5, 7)  # px
 GHOST_TURNS = 48
 DARK_RED = (36, 6, 8)
@@ -39,7 +39,7 @@ DARK_RED = (36, 6, 8)
 
 @cached
 def wrong_way(below: bool) -> Sprite:
-    """Turn round: a red disc with a bent arrow, pointing at the robot above or `below` it."""
+    """Wrong-way sign: a red disc with a bent arrow pointing at the robot above or `below` it."""
     ink, up = GlowCanvas(184, 184).to(92, 92), -1 if below else 1
     ink.solid(regular_polygon(48, 54)).solid([(-18, 44 * up), (18, 44 * up), (0, 72 * up)])
     ink.fill([(-16, 42 * up), (16, 42 * up), (0, 68 * up)], ALARM)
@@ -49,36 +49,36 @@ def wrong_way(below: bool) -> Sprite:
 
 @cached
 def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
-    """A red sign with the badge of the line to go back to; `words` say that the lap did not count."""
-    wide = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
-    high = 84 + 46 * len(words)
-    half_w, half_h = round(wide / 2) + 30, high // 2 + 50
+    """Missed-line sign: the badge of the line to return to; `words`: text of an invalid lap."""
+    width = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
+    height = 84 + 46 * len(words)
+    half_w, half_h = round(width / 2) + 30, height // 2 + 50
     ink, up = GlowCanvas(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
-    ink.fill([(-17, (high / 2 - 4) * up), (17, (high / 2 - 4) * up), (0, (high / 2 + 24) * up)], ALARM)
-    box = cut_box(-wide / 2, -high / 2, wide, high, 18)
+    ink.fill([(-17, (height / 2 - 4) * up), (17, (height / 2 - 4) * up), (0, (height / 2 + 24) * up)], ALARM)
+    box = cut_box(-width / 2, -height / 2, width, height, 18)
     ink.solid(box).fill(box, DARK_RED).line(box, ALARM, LINE, True)
     for i, text in enumerate(words):
-        ink.text(text, BODY, 0, -high / 2 + 38 + 46 * i, WHITE, "head", "c")
-    middle = high / 2 - 42
+        ink.text(text, BODY, 0, -height / 2 + 38 + 46 * i, WHITE, "head", "c")
+    middle = height / 2 - 42
     badge(ink, line, -28, middle, 25)
     ink.line([(34, middle - 22), (34, middle + 3)], WHITE, 10).disc(34, middle + 21, 6.5, WHITE)
     sprite = trim(ink.sprite(0.8), half_w, half_h)
-    return Sprite(sprite.image, sprite.dx, sprite.dy - (high // 2 - 42) * up)
+    return Sprite(sprite.image, sprite.dx, sprite.dy - (height // 2 - 42) * up)
 
 
 @cached
 def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
-    """Finished: the place, over and under it a chequered band."""
+    """Finish sign: the place between chequered bands."""
     color = PLAYERS[seat]
     text = f"{number}{ending}"
-    wide = max(112, round(text_width(text, SUB, "hero")) + 40) // 16 * 16 + 16
-    half_w, half_h = wide // 2 + 30, 100
+    width = max(112, round(text_width(text, SUB, "hero")) + 40) // 16 * 16 + 16
+    half_w, half_h = width // 2 + 30, 100
     ink, up = GlowCanvas(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
-    box = [(-wide / 2, -54), (wide / 2, -54), (wide / 2, 54), (-wide / 2, 54)]
+    box = [(-width / 2, -54), (width / 2, -54), (width / 2, 54), (-width / 2, 54)]
     ink.fill([(-14, 54 * up), (14, 54 * up), (0, 76 * up)], color)
     ink.solid(box).line(box, color, THIN, True)
     for row, y in ((0, -52), (1, -44), (0, 36), (1, 44)):
-        for x in range(-wide // 2 + 8 * row, wide // 2, 16):
+        for x in range(-width // 2 + 8 * row, width // 2, 16):
             ink.fill([(x, y), (x + 8, y), (x + 8, y + 8), (x, y + 8)], ICE)
     ink.text(text, SUB, 0, 0, FOCUS if number == 1 else mix(color, WHITE, 0.6), "hero", "c")
     return trim(ink.sprite(0.8), half_w, half_h)
@@ -86,29 +86,29 @@ def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
 
 @cached
 def notice(text: str, color: Color, sign: str = "") -> Sprite:
-    """A word that rises over a robot, with a star or a flag before it."""
+    """Rising word over a robot, with a star or a flag before it."""
     lead = 64 if sign else 0
-    wide, high = round(text_width(text, LABEL, "hero")) + lead + 80, 120
-    ink = GlowCanvas(wide, high)
-    box = cut_box(14, 22, wide - 28, high - 44, 14)
+    width, height = round(text_width(text, LABEL, "hero")) + lead + 80, 120
+    ink = GlowCanvas(width, height)
+    box = cut_box(14, 22, width - 28, height - 44, 14)
     ink.solid(box).line(box, dim(color, 0.55), THIN, True)
     if sign == "star":
-        ink.fill(star(62, high / 2, 24), color)
+        ink.fill(star(62, height / 2, 24), color)
     elif sign:
-        flag(ink, 62, high / 2, 20, color)
-    ink.text(text, LABEL, 40 + lead, high / 2, color, "hero")
-    return trim(ink.sprite(0.7), wide / 2, high / 2)
+        flag(ink, 62, height / 2, 20, color)
+    ink.text(text, LABEL, 40 + lead, height / 2, color, "hero")
+    return trim(ink.sprite(0.7), width / 2, height / 2)
 
 
 @cached
 def gold_star() -> Sprite:
-    """Before a time that is the best."""
+    """Star before a best time."""
     return trim(GlowCanvas(112, 112).to(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
 
 
 @cached
 def ghost(turn: int) -> Sprite:
-    """The best lap ever, at heading `turn` of GHOST_TURNS: a dashed outline with a star."""
+    """Ghost of the best lap ever at heading `turn` of GHOST_TURNS: a dashed outline with a star."""
     return turned(painted(_ghost, ()), turn, GHOST_TURNS)
 
 
@@ -121,7 +121,7 @@ def _ghost() -> pygame.Surface:
 
 @cached
 def dash(seat: int, turn: int) -> Sprite:
-    """A piece of the way back to a missed line, at heading `turn` of HEADINGS."""
+    """Dash of the path to a missed line, at heading `turn` of HEADINGS."""
     return turned(painted(_dash, (seat,)), turn, HEADINGS)
 
 
@@ -133,7 +133,7 @@ def _dash(seat: int) -> pygame.Surface:
 
 @cached
 def tip(seat: int, turn: int) -> Sprite:
-    """Where that way ends: an arrowhead at heading `turn` of HEADINGS."""
+    """Arrowhead at the end of that path, at heading `turn` of HEADINGS."""
     return turned(painted(_tip, (seat,)), turn, HEADINGS)
 
 
@@ -145,14 +145,14 @@ def _tip(seat: int) -> pygame.Surface:
 
 @cached
 def clods(size: int) -> tuple[Sprite, ...]:
-    """A lump of mud as it fades: the last is the brightest."""
+    """Fading clod of mud: the last frame is the brightest."""
     whole = trim(GlowCanvas(48, 48).to(24, 24).disc(0, 0, size, MUD).lit(0.4), 24, 24)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole
 
 
 @cached
 def splash(which: int) -> Sprite:
-    """Mud under a robot, one of three shapes."""
+    """Splash of mud under a robot, one of three shapes."""
     rng, ink, color = random.Random(which), GlowCanvas(160, 160).to(80, 80), dim(MUD, 0.62)
     for _ in range(17):
         a, r = rng.random() * math.tau, rng.uniform(38, 56)
@@ -162,7 +162,7 @@ def splash(which: int) -> Sprite:
 
 @cached
 def confetti(color: Color, turn: int) -> tuple[Sprite, ...]:
-    """A square of the chequered flag, turned one of four ways, as it fades: the last is the brightest."""
+    """Fading chequered confetti at one of four angles: the last frame is the brightest."""
     ink = GlowCanvas(56, 56).to(28, 28, turn * math.pi / 8)
     whole = trim(ink.fill([(-6, -6), (6, -6), (6, 6), (-6, 6)], color).lit(0.6), 28, 28)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole

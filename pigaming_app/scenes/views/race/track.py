@@ -1,7 +1,7 @@
-"""A track as it is painted: edges, kerbs where it bends, a dashed middle, arrows along the way, and the four lines.
+"""Drawing of a track: edges, kerbs, a dashed centre line, direction arrows and the four lines.
 
-Everything is drawn in arena px on a sheet that the caller has placed and scaled, so that a match and a small picture of
-the track show the same.
+Everything is drawn in arena px on a sheet positioned and scaled by the caller, so that a match and a preview look the
+same.
 """
 
 import math
@@ -19,14 +19,14 @@ MUD: Color = (170, 106, 44)
 MARKS: Color = (34, 45, 64)
 ARROWS: Color = (70, 88, 116)
 TIGHT = 340.0  # px: a bend of a smaller radius has a kerb
-KERB = 26.0  # px from one block of a kerb to the next
-WIDE_LINE = 24.0  # px from the middle of a line to its rails
+KERB = 26.0  # px between kerb blocks
+WIDE_LINE = 24.0  # px from the centre of a line to its rails
 BADGE = 24.0  # px
-BESIDE = (34.0, 46.0, 60.0)  # px from the edge to a badge: the first place with room is taken
+BESIDE = (34.0, 46.0, 60.0)  # px from the edge to a badge: the first position with enough space is used
 
 
 class Rib(NamedTuple):
-    """A point of the middle: px, px, which way the track goes there (rad), half its width (px), and 1 / radius."""
+    """Point of the centre line: x, y (px), direction (rad), half the width (px), curvature."""
 
     x: float
     y: float
@@ -37,7 +37,7 @@ class Rib(NamedTuple):
 
 @lru_cache(maxsize=8)
 def ribs(course: Course) -> tuple[Rib, ...]:
-    """The middle of a course, all round."""
+    """The closed centre line of a course."""
     n = course.count
     headings = [
         math.atan2(
@@ -46,26 +46,26 @@ def ribs(course: Course) -> tuple[Rib, ...]:
         )
         for i in range(n)
     ]
-    found = []
+    out = []
     for i in range(n):
         turn = (headings[(i + 1) % n] - headings[i - 1] + math.pi) % math.tau - math.pi
-        found.append(Rib(course.xs[i], course.ys[i], headings[i], course.half[i], turn / (2 * course.step)))
-    return tuple(found)
+        out.append(Rib(course.xs[i], course.ys[i], headings[i], course.half[i], turn / (2 * course.step)))
+    return tuple(out)
 
 
 def edge_point(rib: Rib, side: float, out: float = 0.0) -> Point:
-    """The point `out` px outside the edge; `side` 1 is the right hand of the way, -1 the left."""
+    """Point `out` px outside the edge; `side` 1: right, -1: left of the driving direction."""
     far = side * (rib.half + out)
     return rib.x - far * math.sin(rib.heading), rib.y + far * math.cos(rib.heading)
 
 
 def edges(course: Course) -> tuple[list[Point], list[Point]]:
-    """The left and the right edge."""
+    """Left and right edge."""
     return [edge_point(rib, -1) for rib in ribs(course)], [edge_point(rib, 1) for rib in ribs(course)]
 
 
 def draw_track(glow: GlowCanvas, crisp: GlowCanvas, track: TrackPlan) -> Steps[None]:
-    """All of it: what glows on one sheet, what is only painted on the other. The road itself is black."""
+    """Draw a track: glowing and crisp parts on one sheet each. The road itself is black."""
     course = track.course
     crisp.dashes([(rib.x, rib.y) for rib in ribs(course)], MARKS, 4, 34, 40)
     yield
@@ -85,7 +85,7 @@ def draw_track(glow: GlowCanvas, crisp: GlowCanvas, track: TrackPlan) -> Steps[N
 
 
 def draw_kerbs(ink: GlowCanvas, course: Course) -> None:
-    """Red and white blocks on the inside of every bend."""
+    """Red and white blocks on the inside of every tight bend."""
     ring = ribs(course)
     for side in (1, -1):
         run = 0.0
@@ -104,7 +104,7 @@ def draw_kerbs(ink: GlowCanvas, course: Course) -> None:
 
 
 def _part(near: list[Point], far: list[Point], start: float, end: float) -> list[Point]:
-    """The piece of a block between two shares of its length; `far` runs against `near`."""
+    """Part of a block between two shares of its length; `far` runs opposite to `near`."""
     (a, b), (d, c) = near, far
 
     def between(p: Point, q: Point, share: float) -> Point:
@@ -114,22 +114,22 @@ def _part(near: list[Point], far: list[Point], start: float, end: float) -> list
 
 
 def draw_arrows(ink: GlowCanvas, track: TrackPlan) -> None:
-    """Two pairs of arrowheads between any two lines: the way to drive."""
+    """Two pairs of arrowheads between consecutive lines, in driving direction."""
     course = track.course
     for i, along in enumerate(track.lines):
         gap = (track.lines[(i + 1) % len(track.lines)] - along) % course.length
         for share in (0.36, 0.72):
             for back in (0.0, 26.0):
-                here = along + share * gap - back
-                k, _ = segment_at(course, here % course.length)
-                x, y = point_at(course, here % course.length, 0.0)
+                position = along + share * gap - back
+                k, _ = segment_at(course, position % course.length)
+                x, y = point_at(course, position % course.length, 0.0)
                 c, s = math.cos(ribs(course)[k].heading), math.sin(ribs(course)[k].heading)
                 head = [(-12.0, -17.0), (0.0, 0.0), (-12.0, 17.0)]
                 ink.line([(x + a * c - b * s, y + a * s + b * c) for a, b in head], ARROWS, 6)
 
 
 class LineFrame(NamedTuple):
-    """Where a line lies: its middle (px), its way along and across the course, half its width (px)."""
+    """Frame of a line: centre (px), unit vectors along and across the course, half the width (px)."""
 
     x: float
     y: float
@@ -138,19 +138,19 @@ class LineFrame(NamedTuple):
     half: float
 
     def at(self, ahead: float, right: float) -> Point:
-        """A point so many px ahead of the line's middle and to its right."""
+        """Point at an offset from the line's centre, px."""
         return self.x + ahead * self.c - right * self.s, self.y + ahead * self.s + right * self.c
 
 
 def frame(course: Course, along: float) -> LineFrame:
-    """The frame of a line across the course."""
+    """Frame of a line across the course."""
     (ax, ay), (bx, by) = point_at(course, along, -1.0), point_at(course, along, 1.0)
     half = half_width_at(course, *segment_at(course, along))
     return LineFrame((ax + bx) / 2, (ay + by) / 2, (by - ay) / 2, -(bx - ax) / 2, half)
 
 
 def draw_line(glow: GlowCanvas, crisp: GlowCanvas, line: LineFrame, color: Color) -> None:
-    """Two columns of a chequered band between two bright rails."""
+    """Two chequered columns between two bright rails."""
     half = line.half - 3
     crisp.fill([line.at(a, b) for a, b in ((-26, -half), (26, -half), (26, half), (-26, half))], BLACK)
     cells = 2 * round(half / 20)
@@ -165,7 +165,7 @@ def draw_line(glow: GlowCanvas, crisp: GlowCanvas, line: LineFrame, color: Color
 
 
 def draw_slot(ink: GlowCanvas, course: Course, along: float, seat: int) -> None:
-    """The mark behind a line on which its robot begins."""
+    """Start slot of a robot behind its line."""
     line, color = frame(course, along), dim(PLAYERS[seat], 0.30)
     for side in (-1, 1):
         corner = [(-BEHIND - 46, side * 26), (-BEHIND - 46, side * 46), (-BEHIND + 8, side * 46)]
@@ -174,7 +174,7 @@ def draw_slot(ink: GlowCanvas, course: Course, along: float, seat: int) -> None:
 
 @lru_cache(maxsize=32)
 def sign_post(course: Course, along: float) -> Point:
-    """Where the badge of a line stands: beside the track, where there is most room."""
+    """Position of a line's badge: beside the track, on the side with more space."""
     line, place = frame(course, along), CoursePosition()
     best, room = (0.0, 0.0), -1e9
     for out in BESIDE:

@@ -1,4 +1,4 @@
-"""A race on the screen: the track, robots, the ghost, mud, and what has to be said to whom."""
+"""View of a race: track, robots, ghost, mud, signs and announcements."""
 
 import math
 from itertools import pairwise
@@ -12,7 +12,7 @@ from pigaming_app.scenes.views.hud_parts import Y
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import RaceBackground
-from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, heard, spray
+from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, sound_cues, spray
 from pigaming_app.scenes.views.race.events import SHOWN_FROM, RaceEvent, RaceEventDetector
 from pigaming_app.scenes.views.race.ghost import GhostRecorder
 from pigaming_app.scenes.views.race.hud import RaceHud
@@ -20,7 +20,7 @@ from pigaming_app.scenes.views.race.prewarm import jobs, void_words
 from pigaming_app.scenes.views.race.track import LineFrame, frame
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.scenes.views.view import Heard, MatchView, Pose, ViewOptions
+from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -28,12 +28,12 @@ from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.caption import caption
 
-VOID_LASTS = 3.5  # s for which it is said that a lap did not count
-PLACE_LASTS = 6 * HZ  # ticks for which the place of a robot is shown that has finished
-TROUBLE_LASTS = 6.0  # s for which it is said that a ghost was dropped
-DASH, MARCH = 34.0, 70.0  # px from one dash to the next, px/s
-ENTRY, STOP = 170.0, 52.0  # px before a line: where the way back leads to, and where it ends
-SPRAYED = 60.0  # px/s from which mud flies
+VOID_LASTS = 3.5  # s, display of an invalid lap
+PLACE_LASTS = 6 * HZ  # ticks for which the place of a finished robot is shown
+TROUBLE_LASTS = 6.0  # s, notice of a dropped ghost
+DASH, MARCH = 34.0, 70.0  # px between dashes, px/s of their motion
+ENTRY, STOP = 170.0, 52.0  # px before a line: target of the path to it, and its end
+SPRAYED = 60.0  # px/s, minimum speed for mud spray
 
 
 class RaceView(MatchView):
@@ -47,40 +47,38 @@ class RaceView(MatchView):
         self.cards = RaceHud(self.background, state, players, words)
         self.detector = RaceEventDetector(state)
         self.notes = Announcements()
-        self.reactions = RaceEffects(self.particles, self.notes, options, words)
+        self.event_effects = RaceEffects(self.particles, self.notes, options, words)
         self.recorder: GhostRecorder | None = None
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
         self.void = void_words(words)
-        self.voided = [-VOID_LASTS] * len(state.robots)
+        self.void_at = [-VOID_LASTS] * len(state.robots)
         self.ahead(self.cards.jobs(state))
         self.ahead(jobs(self.seats, words))
 
     def for_real(self, folder: Path) -> None:
-        """People race here: the ghost of the track drives along, and their best laps are kept."""
+        """Load the track's ghost, and save people's best laps."""
         self.recorder = GhostRecorder(folder, self.arena, self.players)
 
-    def watch(self, state: Race) -> list[Heard]:
-        """See what the last tick did; answers what is to be heard."""
+    def watch(self, state: Race) -> list[SoundCue]:
         self.follow(state)
         self.cards.follow(state)
         events = self.detector.look(state)
         records = self.recorder.watch(state, events) if self.recorder else []
         golden = self.recorder.golden if self.recorder else {}
-        for one in events:
-            fresh = golden.get(one.seat)
-            self.reactions.show(one, state, fresh if fresh and fresh[1] == state.tick else None)
-            self._note(one, state)
+        for event in events:
+            fresh = golden.get(event.seat)
+            self.event_effects.show(event, state, fresh if fresh and fresh[1] == state.tick else None)
+            self._note(event, state)
         for seat in records:
-            self.reactions.record(LEFT + state.robots[seat].x, TOP + state.robots[seat].y)
+            self.event_effects.record(LEFT + state.robots[seat].x, TOP + state.robots[seat].y)
         for seat in self.seats:
             robot = state.robots[seat]
             if not state.racers[seat].place.on and abs(robot.linear) > SPRAYED:
                 back = robot.heading + (math.pi if robot.linear > 0.0 else 0.0)
                 spray(self.particles, LEFT + robot.x, TOP + robot.y, back, 1 + state.tick % 2, 0.8)
-        return heard(events, state)
+        return sound_cues(events, state)
 
     def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:
-        """Paint the canvas, `blend` of the way from the tick before to the last, `seconds` after the last picture."""
         self.particles.advance(seconds)
         self.cards.show(state, self.detector.order)
         under: Batch = []
@@ -90,7 +88,7 @@ class RaceView(MatchView):
         poses = [self.pose(seat, blend) for seat in range(len(state.robots))]
         for seat in self.seats:
             if state.racers[seat].missed and not state.racers[seat].finished:
-                self._way_back(over, seat, poses[seat], self.frames[state.racers[seat].missed - 1])
+                self._draw_path_back(over, seat, poses[seat], self.frames[state.racers[seat].missed - 1])
         self._ghost(light, state, blend)
         for seat in self.seats:
             self._robot(under, over, light, state, seat, poses[seat])
@@ -98,19 +96,19 @@ class RaceView(MatchView):
         self.particles.draw_light(light)
         self.notes.draw(light, top, poses, self.particles.clock, signed)
         self.paint(screen, under, over, light, top)
-        self._trouble(screen)
+        self._draw_notice(screen)
 
     # ---- inside
 
-    def _note(self, one: RaceEvent, state: Race) -> None:
-        """What cards and signs remember of an event."""
-        if one.kind in ("up", "down"):
-            self.cards.moved(one.seat, one.kind == "up", state.tick)
+    def _note(self, event: RaceEvent, state: Race) -> None:
+        """Update cards and signs after an event."""
+        if event.kind in ("up", "down"):
+            self.cards.moved(event.seat, event.kind == "up", state.tick)
             if self.options.flashes != "off":
-                x = self.cards.xs[int(one.number) - 1]
-                self.particles.bloom(x, Y, 0.4, race_cards.pulse(one.seat))
-        elif one.kind == "void":
-            self.voided[one.seat] = self.particles.clock
+                x = self.cards.xs[int(event.number) - 1]
+                self.particles.bloom(x, Y, 0.4, race_cards.pulse(event.seat))
+        elif event.kind == "void":
+            self.void_at[event.seat] = self.particles.clock
 
     def _robot(self, under: Batch, over: Batch, light: Batch, state: Race, seat: int, pose: Pose) -> None:
         x, y, heading = pose
@@ -129,12 +127,12 @@ class RaceView(MatchView):
             put(light, sprite, LEFT + pose[0], TOP + pose[1])
 
     def _sign(self, top: Batch, state: Race, seat: int, pose: Pose) -> bool:
-        """Put up a robot's sign, above it or, near the upper edge, below; false: it has none."""
+        """Draw a robot's sign above it or, near the upper edge, below; False if it has none."""
         racer = state.racers[seat]
-        said = bool(racer.missed) and self.particles.clock - self.voided[seat] < VOID_LASTS
+        said = bool(racer.missed) and self.particles.clock - self.void_at[seat] < VOID_LASTS
         below = pose[1] - TOP < (260.0 if said else 165.0)
         sprite = self._sign_of(racer, seat, said, below)
-        if sprite is None or (racer.finished and not self._placed(state, racer)):
+        if sprite is None or (racer.finished and not self._shows_place(state, racer)):
             return False
         half = sprite.image.get_width() / 2
         x = min(max(pose[0], LEFT + half), LEFT + WIDTH - half)
@@ -149,12 +147,14 @@ class RaceView(MatchView):
             return race_signs.missed(racer.missed - 1, below, self.void if said else ())
         return race_signs.wrong_way(below) if racer.wrong > SHOWN_FROM else None
 
-    def _placed(self, state: Race, racer: Racer) -> bool:
-        """A place is shown for a while, and again in the end; in between it would hide who still races."""
+    def _shows_place(self, state: Race, racer: Racer) -> bool:
+        """True while a place is shown: briefly after the finish and again at the end, as it would cover robots still
+        racing.
+        """
         return bool(state.over) or state.tick - racer.finish < PLACE_LASTS
 
-    def _way_back(self, over: Batch, seat: int, pose: Pose, line: LineFrame) -> None:
-        """Dashes that march from a robot to the side of a line on which it must be entered."""
+    def _draw_path_back(self, over: Batch, seat: int, pose: Pose, line: LineFrame) -> None:
+        """Draw moving dashes from a robot to the entry side of a line."""
         x, y, _ = pose
         entry, stop = (LEFT + line.x - ENTRY * line.c, TOP + line.y - ENTRY * line.s), self._stop(line)
         way = [(x, y), entry, stop]
@@ -175,8 +175,8 @@ class RaceView(MatchView):
     def _stop(self, line: LineFrame) -> tuple[float, float]:
         return LEFT + line.x - STOP * line.c, TOP + line.y - STOP * line.s
 
-    def _trouble(self, screen: pygame.Surface) -> None:
-        """Say for a moment that the ghost had to be dropped."""
+    def _draw_notice(self, screen: pygame.Surface) -> None:
+        """Briefly show that the ghost was dropped."""
         if self.recorder and self.recorder.trouble and self.words and self.particles.clock < TROUBLE_LASTS:
             caption(self.words(f"race.ghost_{self.recorder.trouble}"), FOCUS).draw(screen, 960, 1034)
 

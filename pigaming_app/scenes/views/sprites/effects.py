@@ -1,4 +1,4 @@
-"""Light that lives for a moment: shots, flashes, flames, sparks, shards, shocks. All of it is added to the picture."""
+"""Short-lived light effects as additive sprites: shots, flashes, flames, sparks, shards, shock waves."""
 
 import math
 import random
@@ -9,7 +9,7 @@ from pigaming_app.ui.draw import LINE, PLAYERS, WALL, WHITE, Color, GlowCanvas, 
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
-TURNS = 48  # headings of what may be turned coarsely
+TURNS = 48  # headings of sprites with coarse rotation
 SPARK_TURNS = 24
 SPARK_LEVELS = 6
 SPARK_SIZES = (2, 3, 5)  # px
@@ -18,13 +18,13 @@ TREAD_LEVELS = 6
 WAVE_STEPS = 16
 LIGHT_LEVELS = 8
 BEAM_TURNS = 64
-BEAM_ARM = 114  # px from a robot to the middle of its headlight
+BEAM_ARM = 114  # px from a robot to the centre of its headlight
 FLAME_ARM = -66
 
 
 @cached
 def beam(player: int, turn: int) -> Sprite:
-    """A robot's headlight at heading `turn` of BEAM_TURNS."""
+    """Headlight at heading `turn` of BEAM_TURNS."""
     return turned(painted(_beam, (player,)), turn, BEAM_TURNS, BEAM_ARM, 2.0)
 
 
@@ -40,7 +40,7 @@ def _beam(player: int) -> pygame.Surface:
 
 @cached
 def tread(player: int, turn: int, level: int) -> Sprite:
-    """The marks of both wheels at heading `turn` of TURNS, `level` of TREAD_LEVELS bright."""
+    """Marks of both wheels at heading `turn` of TURNS, brightness `level` of TREAD_LEVELS."""
     if level == TREAD_LEVELS:
         return turned(painted(_tread, (player,)), turn, TURNS)
     return faded(tread(player, turn, TREAD_LEVELS), level / TREAD_LEVELS)
@@ -55,7 +55,7 @@ def _tread(player: int) -> pygame.Surface:
 
 @cached
 def flame(player: int, turn: int, flicker: int) -> Sprite:
-    """Turbo: a flame behind each wheel at heading `turn` of TURNS, in two steps of flicker."""
+    """Turbo flames behind the wheels at heading `turn` of TURNS; `flicker`: 0 or 1."""
     return turned(painted(_flame, (player, flicker)), turn, TURNS, FLAME_ARM)
 
 
@@ -70,7 +70,7 @@ def _flame(player: int, flicker: int) -> pygame.Surface:
 
 @cached
 def bullet(player: int, turn: int) -> Sprite:
-    """A shot with its tail, flying at heading `turn` of HEADINGS."""
+    """Shot with a tail at heading `turn` of HEADINGS."""
     return turned(painted(_bullet, (player,)), turn, HEADINGS, -16)
 
 
@@ -83,7 +83,7 @@ def _bullet(player: int) -> pygame.Surface:
 
 @cached
 def flash(player: int, turn: int) -> Sprite:
-    """A muzzle flash, centred on the muzzle, at heading `turn` of TURNS."""
+    """Muzzle flash, centred on the muzzle, at heading `turn` of TURNS."""
     return turned(painted(_flash, (player,)), turn, TURNS)
 
 
@@ -98,7 +98,7 @@ def _flash(player: int) -> pygame.Surface:
 
 @cached
 def sparks(color: Color, size: int, turn: int) -> tuple[Sprite, ...]:
-    """A streak of light in one of SPARK_TURNS directions, as it fades: the last is the brightest."""
+    """Fading streak of light in one of SPARK_TURNS directions: the last frame is the brightest."""
     whole = turned(painted(_spark, (color, size)), turn, SPARK_TURNS)
     return *(faded(whole, level / SPARK_LEVELS) for level in range(1, SPARK_LEVELS)), whole
 
@@ -113,7 +113,7 @@ def _spark(color: Color, size: int) -> pygame.Surface:
 
 @cached
 def shards(shape: int, turn: int) -> tuple[Sprite, ...]:
-    """A splinter of a wall in one of SPARK_TURNS directions, as it fades: the last is the brightest."""
+    """Fading splinter of a wall in one of SPARK_TURNS directions: the last frame is the brightest."""
     whole = turned(painted(_shard, (shape,)), turn, SPARK_TURNS)
     return *(faded(whole, level / SPARK_LEVELS) for level in range(1, SPARK_LEVELS)), whole
 
@@ -128,7 +128,7 @@ def _shard(shape: int) -> pygame.Surface:
 
 @cached
 def wave(color: Color, stage: int) -> Sprite:
-    """A shock, `stage` of WAVE_STEPS: eight arcs that grow, thin out and fade."""
+    """Shock wave, `stage` of WAVE_STEPS: eight arcs that grow, thin out and fade."""
     image, dx, dy = _wave(stage)
     image = image.copy()
     image.fill(color, special_flags=pygame.BLEND_RGB_MULT)
@@ -148,7 +148,7 @@ def _wave(stage: int) -> Sprite:
 
 @cached
 def light(color: Color, level: int) -> Sprite:
-    """Light on the ground round a hit, `level` of LIGHT_LEVELS bright."""
+    """Light on the ground around a hit, brightness `level` of LIGHT_LEVELS."""
     if level < LIGHT_LEVELS:
         return faded(light(color, LIGHT_LEVELS), level / LIGHT_LEVELS)
     spot = pygame.transform.gaussian_blur(GlowCanvas(45, 45, 1).disc(22, 22, 9, dim(color, 0.55)).plain(), 7)
@@ -157,7 +157,7 @@ def light(color: Color, level: int) -> Sprite:
 
 @cached
 def shield(player: int, turn: int, r: int = 72) -> Sprite:
-    """A shield: a hexagon of radius `r` px, turned by `turn` of 24 parts of the way to itself."""
+    """Shield: a hexagon of radius `r` px, rotated by `turn` / 24 of its symmetry angle."""
     return turned(painted(_shield, (player, r)), turn, 6 * 24)
 
 
@@ -171,7 +171,7 @@ def _shield(player: int, r: int) -> pygame.Surface:
 
 @cached
 def timer_ring(color: Color, left: int, r: int, width: int = LINE) -> Sprite:
-    """What is left of something, `left` of 48: a ring of radius `r` px that empties clockwise from the top."""
+    """Timer ring of radius `r` px, `left` of 48, which empties clockwise from the top."""
     half = r + 22
     ink = GlowCanvas(2 * half, 2 * half)
     if left:

@@ -1,7 +1,7 @@
-"""What moves in a factory, as sprites: crates, forks, people; and the signs that stand for teams and states.
+"""Sprites of Robot Factory: crates, forks, people, and symbols of teams and states.
 
-A crate tells its state by icon and colour, its team by outline and shape (ICE round corners, FIRE cut ones), and that
-it is delivered by being filled.
+A crate shows its state by icon and colour, its team by outline and shape (ICE: round corners, FIRE: cut corners), and
+delivery by a solid fill.
 """
 
 import math
@@ -34,13 +34,13 @@ STATES: dict[int, Color] = {
     DELIVERED: BLACK,
 }
 CRATE = 54  # px
-PERSON_TURNS, STRIDE = 36, 4  # headings, and pictures of a walk
+PERSON_TURNS, STRIDE = 36, 4  # headings, frames of the walk cycle
 SUIT, SKIN, BOOTS, GOLD = (80, 205, 215), (255, 205, 160), (40, 96, 110), (255, 214, 48)
-COUNTS = 36  # pictures of a ring that fills or empties
+COUNTS = 36  # steps of a progress ring
 
 
 def state_icon(ink: GlowCanvas, state: int, x: float, y: float, r: float, color: Color) -> None:
-    """Raw: a disc. Half done: half a disc. Done and delivered: a star. Damaged: a cross."""
+    """State icon: raw a disc, half done half a disc, done and delivered a star, damaged a cross."""
     if state == RAW:
         ink.disc(x, y, r, color)
     elif state == HALF:
@@ -54,7 +54,7 @@ def state_icon(ink: GlowCanvas, state: int, x: float, y: float, r: float, color:
 
 
 def star(x: float, y: float, r: float) -> Points:
-    """Five rays."""
+    """Outline of a five-pointed star."""
     out = []
     for i in range(10):
         a, far = -math.pi / 2 + i * math.pi / 5, r if i % 2 == 0 else r * 0.44
@@ -63,7 +63,7 @@ def star(x: float, y: float, r: float) -> Points:
 
 
 def outline(team: int, x: float, y: float, half: float) -> Points:
-    """A crate's shape, `half` px to each side of (x, y)."""
+    """Shape of a team's crate, `half` px to each side of (x, y)."""
     corner = half * 0.52
     if team != ICE:
         return cut_box(x - half, y - half, 2 * half, 2 * half, corner)
@@ -79,7 +79,7 @@ def outline(team: int, x: float, y: float, half: float) -> Points:
 
 
 def draw_crate(ink: GlowCanvas, team: int, state: int, x: float, y: float, size: float = CRATE) -> None:
-    """A crate, its middle at (x, y)."""
+    """Draw a crate centred on (x, y)."""
     color, half = TEAMS[team], size / 2 - 3
     shape = outline(team, x, y, half)
     ink.solid(shape)
@@ -95,7 +95,7 @@ def draw_crate(ink: GlowCanvas, team: int, state: int, x: float, y: float, size:
 
 @cached
 def crate(team: int, state: int, tenths: int = 10) -> Sprite:
-    """A crate of a team in a state, at so many tenths of its size; it hides what is below."""
+    """Opaque crate of a team in a state, scaled to `tenths` / 10."""
     size = CRATE * tenths / 10
     ink = GlowCanvas(120, 120, 3).to(60, 60)
     draw_crate(ink, team, state, 0, 0, size)
@@ -103,7 +103,7 @@ def crate(team: int, state: int, tenths: int = 10) -> Sprite:
 
 
 def emblem(ink: GlowCanvas, team: int, x: float, y: float, r: float) -> None:
-    """A snowflake for ICE, a flame for FIRE."""
+    """Snowflake for ICE, flame for FIRE."""
     color = TEAMS[team]
     if team == ICE:
         for k in range(6):
@@ -119,7 +119,7 @@ def emblem(ink: GlowCanvas, team: int, x: float, y: float, r: float) -> None:
 
 
 def flame(x: float, y: float, r: float) -> Points:
-    """A flame's outline."""
+    """Outline of a flame."""
     half = [(0.0, -1.05), (0.20, -0.62), (0.50, -0.25), (0.72, 0.22), (0.56, 0.74), (0.0, 1.0)]
     left = [(-0.56, 0.74), (-0.72, 0.24), (-0.60, -0.18), (-0.36, -0.42), (-0.26, -0.12), (-0.14, -0.60)]
     return [(x + r * u, y + r * v) for u, v in (*half, *left)]
@@ -127,8 +127,9 @@ def flame(x: float, y: float, r: float) -> Points:
 
 @cached
 def forks(team: int, turn: int) -> Sprite:
-    """The two prongs of a robot at heading `turn` of HEADINGS, and the ring of its team, open in front. They lie below
-    the robot and what it carries, and hide the floor."""
+    """Opaque forks of a robot at heading `turn` of HEADINGS, with the team's ring, open at the front. Drawn below the
+    robot and its load.
+    """
     return turned(painted(_forks, (team,)), turn, HEADINGS, 24)
 
 
@@ -142,7 +143,7 @@ def _forks(team: int) -> pygame.Surface:
 
 @cached
 def person(turn: int, stride: int, working: bool) -> Sprite:
-    """A worker from above at heading `turn` of PERSON_TURNS: yellow helmet, hands that swing or work."""
+    """Worker from above at heading `turn` of PERSON_TURNS: yellow helmet, swinging or working hands."""
     return turned(painted(_person, (stride, working)), turn, PERSON_TURNS)
 
 
@@ -170,7 +171,7 @@ def _person(stride: int, working: bool) -> pygame.Surface:
 
 @cached
 def progress(state: int, part: int) -> Sprite:
-    """How far a machine has come, `part` of COUNTS, in the colour of what it makes."""
+    """Progress ring of a machine, `part` of COUNTS, in the colour of its product."""
     ink = GlowCanvas(150, 150).to(75, 75)
     if part:
         ink.arc(0, 0, 44, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, STATES[state], 10)
@@ -179,7 +180,7 @@ def progress(state: int, part: int) -> Sprite:
 
 @cached
 def busy(team: int, kind: int) -> Sprite:
-    """A machine of a kind while it holds a team's pallet: it wears the team's outline."""
+    """Machine of a kind in use: it shows the team's outline."""
     ink, body = GlowCanvas(230, 230).to(115, 115), cut_box(-66, -66, 132, 132, 20)
     ink.solid(cut_box(-69, -69, 138, 138, 21)).fill(body, dim(TEAMS[team], 0.10)).line(body, TEAMS[team], 8, True)
     ink.ring(0, 0, 44, dim(TEAMS[team], 0.26), 10)
@@ -189,7 +190,7 @@ def busy(team: int, kind: int) -> Sprite:
 
 @cached
 def frozen(part: int, r: int = 54) -> Sprite:
-    """The ring, of `r` px, that runs down while a robot must stand still, `part` of COUNTS left."""
+    """Timer ring of a frozen robot, radius `r` px, `part` of COUNTS left."""
     half = r + 31
     ink = GlowCanvas(2 * half, 2 * half).to(half, half)
     ink.ring(0, 0, r, dim(ALARM, 0.3), 8)
@@ -200,7 +201,7 @@ def frozen(part: int, r: int = 54) -> Sprite:
 
 @cached
 def awaited(seconds: int) -> Sprite:
-    """Where a new pallet will come, and in how many seconds."""
+    """Marker and countdown for the next pallet."""
     ink = GlowCanvas(110, 110, 3).to(55, 55)
     ink.dashes(regular_polygon(40, 27), dim(STATES[RAW], 0.85), THIN, 8, 8)
     ink.text(str(seconds), 40, 0, 0, WHITE, "hero", "c")
@@ -209,7 +210,7 @@ def awaited(seconds: int) -> Sprite:
 
 @cached
 def exclaim() -> Sprite:
-    """Watch out!"""
+    """Exclamation mark."""
     ink = GlowCanvas(120, 130, 3).to(60, 60)
     ink.solid(cut_box(-30, -30, 60, 56, 10)).fill([(-10, 24), (10, 24), (-12, 44)], ALARM)
     ink.line(cut_box(-30, -30, 60, 56, 10), ALARM, 5, True).line([(0, -18), (0, 2)], WHITE, 8).disc(0, 15, 5, WHITE)
@@ -218,7 +219,7 @@ def exclaim() -> Sprite:
 
 @cached
 def cross() -> Sprite:
-    """Not here."""
+    """Refusal cross."""
     ink = GlowCanvas(110, 110, 3).to(55, 55)
     ink.solid(regular_polygon(32, 30)).ring(0, 0, 27, ALARM, 5)
     for side in (-1, 1):
@@ -228,7 +229,7 @@ def cross() -> Sprite:
 
 @cached
 def digit(number: int) -> Sprite:
-    """A big number over a robot that must wait."""
+    """Large countdown digit over a frozen robot."""
     ink = GlowCanvas(130, 140, 3).to(65, 70)
     ink.solid(regular_polygon(8, 40, math.pi / 8)).text(str(number), 76, 0, 0, WHITE, "hero", "c")
     return trim(ink.sprite(0.6), 65, 70)
@@ -236,7 +237,7 @@ def digit(number: int) -> Sprite:
 
 @cached
 def target(color: Color, small: bool) -> Sprite:
-    """Corners round a slot to which somebody is going."""
+    """Corners around a targeted slot."""
     half, reach, width = (38, 12, 4) if small else (44, 22, 7)
     ink = GlowCanvas(150, 150, 3).to(75, 75)
     for sx in (-1, 1):
@@ -248,7 +249,7 @@ def target(color: Color, small: bool) -> Sprite:
 
 @cached
 def arrow(color: Color, turn: int) -> Sprite:
-    """The head of a dashed arrow at heading `turn` of HEADINGS."""
+    """Head of a dashed arrow at heading `turn` of HEADINGS."""
     return turned(painted(_arrow, (color,)), turn, HEADINGS)
 
 
@@ -258,7 +259,7 @@ def _arrow(color: Color) -> pygame.Surface:
 
 @cached
 def dash(color: Color, turn: int) -> Sprite:
-    """One dash of an arrow at heading `turn` of HEADINGS."""
+    """Dash of an arrow at heading `turn` of HEADINGS."""
     return turned(painted(_dash, (color,)), turn, HEADINGS)
 
 
@@ -268,7 +269,7 @@ def _dash(color: Color) -> pygame.Surface:
 
 @cached
 def count(number: int, team: int) -> Sprite:
-    """How many more there are, beside a warehouse."""
+    """Number of further pallets beside a warehouse."""
     ink = GlowCanvas(160, 80, 3).to(80, 40)
     ink.text(f"+{number}", 40, 0, 0, TEAMS[team], "hero", "c")
     return trim(ink.lit(0.5), 80, 40)

@@ -1,4 +1,4 @@
-"""What lies in an arena or rises from it: pick-ups, mines, scores, small icons."""
+"""Sprites of items and popups: pick-ups, mines, scores, small icons."""
 
 import math
 
@@ -29,7 +29,7 @@ POPUP_LEVELS = 6
 
 @cached
 def pickup(name: str) -> Sprite:
-    """A power that lies on the floor."""
+    """A power on the floor."""
     ink = GlowCanvas(152, 152, 3).to(76, 76)
     frame = regular_polygon(6, 42, math.pi / 6)
     ink.solid(frame).neon(frame, FOCUS, THIN, True)
@@ -39,7 +39,7 @@ def pickup(name: str) -> Sprite:
 
 @cached
 def mine(player: int, bright: bool) -> Sprite:
-    """A mine in its owner's colour and with its number; an armed one is `bright` every other moment."""
+    """Mine in its owner's colour with the player number; an armed mine blinks with `bright`."""
     ink = GlowCanvas(120, 120, 3).to(60, 60)
     ink.solid(regular_polygon(24, 25))
     icon(ink, "mine", 0, 0, 27, PLAYERS[player], 4)
@@ -50,7 +50,7 @@ def mine(player: int, bright: bool) -> Sprite:
 
 @cached
 def small_icon(name: str, color: Color = ICE, r: int = 16, width: float = THIN) -> Sprite:
-    """An icon `r` px to each side, as light."""
+    """Icon as additive light, `r` px to each side."""
     ink = GlowCanvas(2 * r + 64, 2 * r + 64, 3)
     icon(ink, name, r + 32, r + 32, r, color, width)
     return trim(ink.lit(0.6), r + 32, r + 32)
@@ -58,7 +58,7 @@ def small_icon(name: str, color: Color = ICE, r: int = 16, width: float = THIN) 
 
 @cached
 def popup(text: str, player: int, level: int = POPUP_LEVELS) -> Sprite:
-    """A score that rises, `level` of POPUP_LEVELS there; it carries its own dark edge and reads over anything."""
+    """Rising score, opacity `level` of POPUP_LEVELS; a dark edge keeps it readable on any background."""
     if level < POPUP_LEVELS:
         return faded(popup(text, player), level / POPUP_LEVELS)
     face = font("hero", 2 * SUB)

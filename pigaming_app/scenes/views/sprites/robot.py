@@ -1,6 +1,6 @@
-"""The robot of the house: a disc on two wheels, white lights ahead, red behind, a turret in the player's shape.
+"""The robot: a disc on two wheels, white headlights, red tail lights, a turret in the player's shape.
 
-The same drawing serves the arena, the title and the lobby.
+Used in the arena, on the title screen and in the lobby.
 """
 
 import math
@@ -26,12 +26,12 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
-HALF, ARM = 80, 13  # px: what a turned tank covers, and where the middle of that is
-TRIANGLE_BACK = 4  # px that player 2's turret sits further back
+HALF, ARM = 80, 13  # px: half the extent of a rotated tank, and the offset of its centre
+TRIANGLE_BACK = 4  # px by which player 2's turret sits further back
 
 
 def draw_tank(ink: GlowCanvas, player: int) -> GlowCanvas:
-    """A robot at the origin of `ink`, heading +x, radius 36 px, without its number."""
+    """Draw a robot at the origin of `ink`, heading +x, radius 36 px, without its number."""
     color = PLAYERS[player]
     ink.solid(regular_polygon(64, 37))
     hull = [(34 * math.cos(a / 20), 34 * math.sin(a / 20)) for a in range(-20, 21)]
@@ -51,7 +51,7 @@ def draw_tank(ink: GlowCanvas, player: int) -> GlowCanvas:
 
 
 def robot(ink: GlowCanvas, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> GlowCanvas:
-    """A tank of seat 0..3 at (x, y), heading `angle` rad, with its number upright."""
+    """Draw the robot of seat 0..3 at (x, y), heading `angle` rad, with its number upright."""
     draw_tank(ink.to(x, y, angle, scale), player)
     back, size = _back(player), _number_size(player)
     ink.to(x, y, 0, scale)
@@ -61,7 +61,7 @@ def robot(ink: GlowCanvas, player: int, x: float, y: float, angle: float, scale:
 
 @cached
 def tank(player: int, turn: int) -> Sprite:
-    """A tank at heading `turn` of HEADINGS, number upright. Premultiplied: it hides the ground and glows."""
+    """Robot at heading `turn` of HEADINGS, number upright. Premultiplied alpha: opaque with a glow."""
     image, dx, dy = turned(painted(_tank, (player,)), turn, HEADINGS, ARM)
     angle, back, face = turn * math.tau / HEADINGS, _back(player), font("hero", _number_size(player))
     number = face.render(str(player + 1), True, BLACK)
@@ -73,7 +73,7 @@ def tank(player: int, turn: int) -> Sprite:
 
 @cached
 def ghost(player: int) -> Sprite:
-    """A tank that blinks, in the moments in which it is not there: a dim ring and its number."""
+    """Off phase of a blinking robot: a dim ring and its number."""
     ink = GlowCanvas(112, 112).to(56, 56)
     ink.solid(regular_polygon(64, 36)).ring(0, 0, 34, dim(PLAYERS[player], 0.55), THIN)
     ink.text(str(player + 1), 34, 0, 0, dim(PLAYERS[player], 0.8), "hero", "c")
@@ -82,7 +82,7 @@ def ghost(player: int) -> Sprite:
 
 @cached
 def team_mark(team: int, turn: int) -> Sprite:
-    """What team mates wear behind them, at heading `turn` of 48: one bar for the first team, two for the second."""
+    """Team bars behind a robot at heading `turn` of 48: one for the first team, two for the second."""
     return turned(painted(_team_mark, (team,)), turn, 48, -46)
 
 
@@ -107,7 +107,7 @@ def _number_size(player: int) -> int:
 
 
 def seat_robot(player: int, angle: float, scale: float = 2.1) -> Sprite:
-    """A robot of seat 0..3, `scale` times as large as in an arena, heading `angle` rad. Blit it premultiplied (PRE)."""
+    """Robot of seat 0..3, scaled by `scale` relative to the arena, heading `angle` rad. Blit with PRE."""
     return _seat_robot(player, step(angle, HEADINGS), scale)
 
 

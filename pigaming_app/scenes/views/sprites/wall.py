@@ -1,4 +1,4 @@
-"""A wall: a lit cell is a bullet that it can still take. It cracks, gapes, is rubble at last, and then a stain."""
+"""Destructible wall: each lit cell stands for one more bullet. It cracks, gapes, turns to rubble, then to a stain."""
 
 import math
 import random
@@ -7,11 +7,11 @@ from pigaming_app.ui.draw import BLACK, HAIR, LINE, WALL, GlowCanvas, Point, cut
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 
-SOLID = -1  # health of a wall that takes any number
+SOLID = -1  # health of an indestructible wall
 
 
 def draw_wall(ink: GlowCanvas, length: float, thick: float, health: int, seed: int, whole: int = 5) -> GlowCanvas:
-    """A wall centred on the origin of `ink`, lying along x; `health` of `whole` bullets, or SOLID."""
+    """Draw a wall centred on the origin of `ink`, along x; `health` of `whole` bullets, or SOLID."""
     outline = cut_box(-length / 2, -thick / 2, length, thick, min(12, thick / 3))
     if health == SOLID:
         return _solid(ink, outline, length, thick)
@@ -31,7 +31,7 @@ def draw_wall(ink: GlowCanvas, length: float, thick: float, health: int, seed: i
 
 @cached
 def wall(length: float, thick: float, angle: float, health: int, seed: int, whole: int = 5) -> Sprite:
-    """The sprite of a wall that lies at `angle` rad. Premultiplied."""
+    """Wall at `angle` rad. Premultiplied alpha."""
     c, s = abs(math.cos(angle)), abs(math.sin(angle))
     w, h = int((length * c + thick * s) / 2 + 40), int((length * s + thick * c) / 2 + 40)
     ink = draw_wall(GlowCanvas(2 * w, 2 * h, 3).to(w, h, angle), length, thick, health, seed, whole)
@@ -48,7 +48,7 @@ def _solid(ink: GlowCanvas, outline: list[Point], length: float, thick: float) -
 
 
 class _Cells:
-    """The cells of one wall, their slanted joints, and the order in which they go out."""
+    """Cells of a wall, their slanted joints, and the order in which they are lost."""
 
     def __init__(self, ink: GlowCanvas, length: float, thick: float, whole: int, seed: int) -> None:
         self.ink, self.thick, self.half, self.whole = ink, thick, thick / 2, whole
@@ -60,7 +60,7 @@ class _Cells:
         self.slant = [0.0, *(self.rng.uniform(-9, 9) for _ in inner), 0.0]
 
     def cracked(self, health: int) -> None:
-        """Lit cells, and cracks where cells have gone out."""
+        """Lit cells, and cracks in place of lost ones."""
         lost = self.order[: self.whole - health]
         for i in range(self.whole):
             a, b, half = self.joints[i], self.joints[i + 1], self.half
@@ -73,7 +73,7 @@ class _Cells:
             self.ink.line([crack[2], (x - 15, half * 0.4)], WALL, 3)
 
     def rubble(self, health: int, all_dust: bool) -> None:
-        """Shards that have come apart; of the lost cells all are dust, or only the first."""
+        """Separated shards; either all lost cells are dust or only the first."""
         lost = self.order[: self.whole - health]
         for i in range(self.whole):
             if i in lost and (all_dust or i == lost[0]):
@@ -82,7 +82,7 @@ class _Cells:
                 self._shard(i, i in lost)
 
     def dust(self, i: int, bright: float, grains: int) -> None:
-        """What is left of one cell."""
+        """Dust in place of one cell."""
         a, b = self.joints[i], self.joints[i + 1]
         for _ in range(grains):
             x, y = self.rng.uniform(a + 6, b - 6), self.rng.uniform(-self.half, self.half)
