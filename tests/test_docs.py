@@ -264,7 +264,7 @@ def test_classic_loses_to_an_opponent_that_stands_still_and_fires(seed):
         def think(self, state, seat):
             own, other = state.robots[seat], state.robots[1 - seat]
             turn = angles.turn_to(atan2(other.y - own.y, other.x - own.x) - own.heading)
-            action.press(state.actions[seat], 0.0, 4.0 * turn, 1, 0)
+            action.set_action(state.actions[seat], 0.0, 4.0 * turn, 1, 0)
 
     match = match_of("pitanks", "classic")
     match.sit(seed % 2, Camper())
@@ -279,7 +279,7 @@ def test_classic_loses_to_an_opponent_that_stands_still_and_fires(seed):
 def test_turbo_starts_from_a_tenth_of_the_meter(game, charge, boosts):
     class Pressing:
         def think(self, state, seat):
-            action.press(state.actions[seat], 1.0, 0.0, 0, 1)
+            action.set_action(state.actions[seat], 1.0, 0.0, 0, 1)
 
     match = match_of(game)
     match.sit(0, Pressing())

@@ -83,7 +83,7 @@ def test_another_display_another_camera_and_none_are_refused(file: Path) -> None
         store.load(file, "2: 640 × 480")
     with refused(CalibrationError, "1920 x 1080 px, not 1280 x 720"):
         store.load(file, HERE, (1280, 720))
-    with refused(CalibrationError, "There is no calibration yet"):
+    with refused(CalibrationError, "Not calibrated yet"):
         store.load(file.parent / "calibration-emulated.toml")
 
 

@@ -63,7 +63,7 @@ def test_it_tells_batteries_and_who_is_seen(arcade: Arcade, mat: EmulatedSession
     assert heard.startswith("5.")
     assert "V" in heard
     assert seen == "seen"
-    assert page.lines[2][0] == "not heard"
+    assert page.lines[2][0] == "no signal"
     assert page.lines[3][2] == "not seen"
     mat.arena.faults.switch("robot_off", False, 2)
     mat.arena.faults.switch("marker_covered", False, 3)
