@@ -1,8 +1,8 @@
 """The pages under docs/ agree with the code: numbers, arena files, links.
 
-A table whose last column is headed `name` is compared row by row. The name is looked up in the code; the cell holds the
-value with its unit, and in brackets the same in other units. Columns headed by names in backticks are variants or
-strengths of AIs.
+Tables whose last column is headed `name` are compared row by row. The name is looked up in the code; the cell holds the
+value with its unit, and in brackets the same in other units. Columns headed by names in backticks are variants or AI
+levels.
 """
 
 import re
@@ -53,7 +53,7 @@ CONSTANTS = {  # by section of docs/games.md, the modules in which its constants
 }
 
 ROOT = Path(__file__).resolve().parent.parent
-GAMES_PAGE, THESIS_PAGE = ROOT / "docs" / "games.md", ROOT / "docs" / "thesis.md"
+GAMES_PAGE, OPPONENTS_PAGE, THESIS_PAGE = (ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "thesis"))
 PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
 PAGES += sorted((ROOT / "docs").glob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
@@ -251,11 +251,11 @@ def test_the_page_on_the_thesis_says_of_this_program_what_is_so():
     assert [text for text in quoted() if text not in page] == []
 
 
-def test_the_page_on_the_thesis_has_the_results_of_the_readme():
+def test_the_page_on_the_thesis_has_the_results_of_the_page_on_opponents():
     triple = re.compile(r"\d+ / \d+ / \d+")
-    page, readme = (triple.findall(path.read_text(encoding="utf-8")) for path in (THESIS_PAGE, ROOT / "README.md"))
-    assert page == readme
-    assert len(page) == 8
+    thesis, opponents = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, OPPONENTS_PAGE))
+    assert thesis == opponents
+    assert len(thesis) == 8
 
 
 @pytest.mark.parametrize("seed", range(4))
