@@ -114,7 +114,7 @@ def test_a_file_that_is_not_as_it_was_written_is_refused_in_one_sentence(old, ne
 
 
 def test_a_calibration_of_another_display_is_refused():
-    with refused(CalibrationError, "made on display 2: 1920 × 1080, not 1: 1280 × 720"):
+    with refused(CalibrationError, "for display 2: 1920 × 1080, not 1: 1280 × 720"):
         read(written(calibrated()), "1: 1280 × 720", SIZE)
 
 

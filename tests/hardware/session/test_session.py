@@ -35,7 +35,7 @@ def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
 def test_without_a_calibration_there_are_no_real_robots(home: Path) -> None:
     with pytest.raises(RobotsUnavailable) as refused:
         real_mat().open()
-    assert "no calibration" in sentence(refused.value)
+    assert "Not calibrated yet" in sentence(refused.value)
 
 
 def test_a_calibration_of_another_display_is_refused(home: Path) -> None:

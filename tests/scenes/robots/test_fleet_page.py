@@ -143,7 +143,7 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         assert "calibra" in page._state()
         arcade.wait(0.5)
         arcade.until(lambda: mat.trouble is not None, 5.0)
-        assert "Não há nenhuma porta /dev/nowhere" in str(page._trouble())
+        assert "A porta /dev/nowhere não existe" in str(page._trouble())
         arcade.press(Button.UP)
         arcade.press(Button.LEFT)
         assert settings.radio == "api2"
