@@ -64,7 +64,7 @@ AS_IN_CODE = {"", "px", "px/s", "rad", "rad/s", "mm", "min", "ticks", "hits"}  #
 
 @dataclass(frozen=True)
 class Row:
-    """A row of a table of numbers: where it stands, the column's heading, what the page says, what it is called."""
+    """One number of a table: its section, column heading, cell text and name in the code."""
 
     section: str
     first: str  # heading of the first column
@@ -74,7 +74,7 @@ class Row:
 
 
 def prose(page):
-    """The lines of a page that are no code."""
+    """The text of a page without code blocks."""
     return re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
 
 
@@ -105,7 +105,7 @@ def match_of(game, variant=None):
 
 
 def in_code(row):
-    """The value that the code has for a row. Raises KeyError for a name that it does not have."""
+    """The value of a row in the code. Raises KeyError for an unknown name."""
     root, _, path = row.name.partition(".")
     if root == "mind":
         return attrgetter(path)(make(GAME_OF[row.first], row.column, 1).mind)
@@ -120,7 +120,7 @@ def in_code(row):
 
 
 def converted(value, unit):
-    """A value of the code in a unit of the page; whole numbers shown in s are ticks. Raises KeyError for another."""
+    """A value of the code in a unit of the page; whole numbers shown in s are ticks. Raises KeyError if unknown."""
     ticks = isinstance(value, int)
     units = {
         "cm": lambda: value * drivetrain.MM / 10,
@@ -135,7 +135,7 @@ def converted(value, unit):
 
 
 def quantities(cell):
-    """The numbers of a cell, each list with its unit and the decimals shown; the first one is exact."""
+    """The numbers of a cell, each list with its unit and number of decimals; the first is exact."""
     if cell in WORDS:
         return [((Fraction(WORDS[cell]),), "", 0)]
     found = []
@@ -149,7 +149,7 @@ def quantities(cell):
 
 
 def agrees(cell, value):
-    """Whether a cell shows a value: its first quantity exactly, those in brackets as far as they are rounded."""
+    """True if a cell shows a value: the first quantity exactly, those in brackets within rounding."""
     found = quantities(cell)
     assert found, f"no number in {cell!r}"
     for i, (numbers, unit, decimals) in enumerate(found):
@@ -210,7 +210,7 @@ def test_a_cell_is_compared_in_its_units(cell, value, same):
 
 
 def quoted():
-    """What docs/thesis.md says of this program, as the code has it."""
+    """Statements of docs/thesis.md about this program, with the numbers of the code."""
     tanks, shop, track = (match_of(game).state.rules for game in ("pitanks", "factory", "race"))
     one, two, unknown = RECIPES[1], RECIPES[2], Parameters()
     yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
