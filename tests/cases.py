@@ -1,4 +1,4 @@
-"""Cases of a test that take long together: some of them are tried by `test`, the others by `test --long`."""
+"""Sampling of long parametrisations: a part runs in `test`, the rest in `test --long`."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -7,7 +7,7 @@ import pytest
 
 
 def one_in(count: int, cases: Iterable[Any]) -> list[Any]:
-    """Values for `parametrize`: one in `count`, from the first on, as it is; the others are marked `long`.
+    """Values for `parametrize`: every `count`-th, from the first, unmarked; the others marked `long`.
 
     A tuple holds the values of several arguments.
     """

@@ -1,4 +1,4 @@
-"""Tests touch no screen, no sound card and no file of the user but the cache of compiled code."""
+"""Fixtures. Tests use no display, no sound card and none of the user's files except the cache of compiled code."""
 
 import os
 import pickle
@@ -29,7 +29,7 @@ def _a_home_of_their_own() -> Iterator[None]:
 
 @pytest.fixture
 def controls() -> Iterator[Any]:
-    """The controls of an arcade whose window is open, and whose queue of events is empty."""
+    """Controls with an open window and an empty event queue."""
     import pygame
 
     from pigaming_app.ui.input.controls import Controls
@@ -43,14 +43,14 @@ def controls() -> Iterator[Any]:
 
 @pytest.fixture
 def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The user's folders of one test."""
+    """Temporary user folders for one test."""
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
     return tmp_path / "home"
 
 
 @pytest.fixture(autouse=True, scope="session")
 def _one_calibration(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Each emulated arena is calibrated once a session, and all workers share the result.
+    """Calibrate each emulated arena once per session; all workers share the result.
 
     The wizard does not take this way: it calibrates in every test.
     """

@@ -1,4 +1,4 @@
-"""Disks that fill up, without any privileges: a limit of the size of files, and system calls that fail in turn."""
+"""Simulated disk failures without privileges: a file size limit, and system calls that fail one by one."""
 
 import contextlib
 import errno
@@ -10,7 +10,7 @@ STEPS = ("open", "fsync", "chmod", "replace", "rename", "mkdir")
 
 @contextlib.contextmanager
 def room_for(size):
-    """No file can grow beyond so many bytes meanwhile, as on a disk that is full."""
+    """Context in which no file can grow beyond this size in bytes, as on a full disk."""
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
@@ -23,7 +23,7 @@ def room_for(size):
 
 @contextlib.contextmanager
 def failing_at(step):
-    """The system call number `step` (from 0) that changes a disk fails meanwhile; yields the names of those made."""
+    """Context in which the disk-changing system call number `step` (from 0) fails; yields the names of the calls."""
     made = []
 
     def failing(name, call):
@@ -44,5 +44,5 @@ def failing_at(step):
 
 
 def content(folder):
-    """The bytes of every file below a folder, by its path."""
+    """The bytes of every file below a folder, by path."""
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}

@@ -1,4 +1,4 @@
-"""Floors to try things on: walls and robots where a test wants them, without an arena file."""
+"""Test arenas: walls and robots at given places, without an arena file."""
 
 from collections.abc import Sequence
 
@@ -38,7 +38,7 @@ def pitanks(
     minutes: float = 1.0,
     half: float = 15.0,
 ) -> PiTanks:
-    """A match of PiTanks before its first tick, with as many robots as poses."""
+    """A match of PiTanks before its first tick, with one robot for each pose."""
     match = PiTanks()
     one, two, three, four = (Seat("random" if i < len(poses) else "off", teams[i]) for i in range(4))
     setup = Setup("pitanks", "test", (one, two, three, four), minutes, 1, variant)

@@ -1,4 +1,4 @@
-"""Golden digests: where a thousand ticks lead to in each game, on each arena, in each variant.
+"""Golden digests of a thousand ticks of each game, arena and variant.
 
 `tests/golden.json` holds them. A change of the engine that is meant to change how matches play out renews them with
 
@@ -25,7 +25,7 @@ SEED = 2018
 
 
 def main() -> int:
-    """Renew the file, or say what differs."""
+    """Update the file, or list the differences."""
     now = {key: played(key) for key in keys()}
     if "--write" in sys.argv[1:]:
         FILE.write_text(json.dumps(now, indent=1) + "\n", encoding="utf-8")
@@ -38,20 +38,20 @@ def main() -> int:
 
 
 def keys() -> list[str]:
-    """Every game/arena/variant there is."""
+    """Every game/arena/variant."""
     return [
         f"{game}/{arena}/{variant}" for game in games() for arena in arenas(game) for variant in games()[game].variants
     ]
 
 
 def golden() -> dict[str, str]:
-    """The digests that are kept."""
+    """The stored digests."""
     kept: dict[str, str] = json.loads(FILE.read_text(encoding="utf-8"))
     return kept
 
 
 def played(key: str) -> str:
-    """The digest of where TICKS ticks of random brains lead to now, and of what every seat then sees.
+    """The digest of the state after TICKS ticks of random brains, and of every seat's observation.
 
     Random brains, since the hand-written ones may be tuned without any change of the engine.
     """

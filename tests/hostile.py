@@ -1,4 +1,4 @@
-"""Values that nobody expects in a file or on a command line, and trees in which each value in turn is one of them."""
+"""Hostile values for files and command lines, and trees in which each value in turn is replaced by one."""
 
 import copy
 from math import inf, nan
@@ -13,7 +13,7 @@ VALUES = (
 
 
 def mutated(tree, values=VALUES):
-    """Copies of a tree of tables and lists: a value replaced, a key or entry taken away, doubled, or added."""
+    """Copies of a tree of tables and lists: a value replaced, a key or entry removed, duplicated or added."""
     for path in paths(tree):
         for value in values:
             yield changed(tree, path, lambda at, key, value=value: at.__setitem__(key, value))
@@ -26,7 +26,7 @@ def mutated(tree, values=VALUES):
 
 
 def paths(tree, above=()):
-    """The way to every value of a tree; of long lists only to the first and the last entries."""
+    """The path of every value of a tree; in long lists only of the first and last entries."""
     entries = list(tree.items() if isinstance(tree, dict) else enumerate(tree))
     for key, value in entries if len(entries) <= 40 else [*entries[:2], *entries[-2:]]:
         yield (*above, key)
@@ -45,7 +45,7 @@ def changed(tree, path, change):
 
 
 def toml(value):
-    """TOML of any tree, on one line for each entry; what TOML does not have becomes a text."""
+    """TOML of any tree, one line for each entry; values that TOML lacks become strings."""
     return "".join(f"{_key(key)} = {_toml(entry)}\n" for key, entry in value.items())
 
 

@@ -1,4 +1,4 @@
-"""The command line: jobs that work, and one clear line for what does not."""
+"""The command line: jobs succeed, errors take one clear line."""
 
 import json
 import os

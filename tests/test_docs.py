@@ -1,8 +1,8 @@
 """The pages under docs/ agree with the code: numbers, arena files, links.
 
-A table whose last column is headed `name` is compared row by row. The name is looked up in the code; the cell holds the
-value with its unit, and in brackets the same in other units. Columns headed by names in backticks are variants or
-strengths of AIs.
+Tables whose last column is headed `name` are compared row by row. The name is looked up in the code; the cell holds the
+value with its unit, and in brackets the same in other units. Columns headed by names in backticks are variants or AI
+levels.
 """
 
 import re
@@ -53,7 +53,7 @@ CONSTANTS = {  # by section of docs/games.md, the modules in which its constants
 }
 
 ROOT = Path(__file__).resolve().parent.parent
-GAMES_PAGE, THESIS_PAGE = ROOT / "docs" / "games.md", ROOT / "docs" / "thesis.md"
+GAMES_PAGE, OPPONENTS_PAGE, THESIS_PAGE = (ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "thesis"))
 PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
 PAGES += sorted((ROOT / "docs").glob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
@@ -64,7 +64,7 @@ AS_IN_CODE = {"", "px", "px/s", "rad", "rad/s", "mm", "min", "ticks", "hits"}  #
 
 @dataclass(frozen=True)
 class Row:
-    """A row of a table of numbers: where it stands, the column's heading, what the page says, what it is called."""
+    """One number of a table: its section, column heading, cell text and name in the code."""
 
     section: str
     first: str  # heading of the first column
@@ -74,7 +74,7 @@ class Row:
 
 
 def prose(page):
-    """The lines of a page that are no code."""
+    """The text of a page without code blocks."""
     return re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
 
 
@@ -105,7 +105,7 @@ def match_of(game, variant=None):
 
 
 def in_code(row):
-    """The value that the code has for a row. Raises KeyError for a name that it does not have."""
+    """The value of a row in the code. Raises KeyError for an unknown name."""
     root, _, path = row.name.partition(".")
     if root == "mind":
         return attrgetter(path)(make(GAME_OF[row.first], row.column, 1).mind)
@@ -120,7 +120,7 @@ def in_code(row):
 
 
 def converted(value, unit):
-    """A value of the code in a unit of the page; whole numbers shown in s are ticks. Raises KeyError for another."""
+    """A value of the code in a unit of the page; whole numbers shown in s are ticks. Raises KeyError if unknown."""
     ticks = isinstance(value, int)
     units = {
         "cm": lambda: value * drivetrain.MM / 10,
@@ -135,7 +135,7 @@ def converted(value, unit):
 
 
 def quantities(cell):
-    """The numbers of a cell, each list with its unit and the decimals shown; the first one is exact."""
+    """The numbers of a cell, each list with its unit and number of decimals; the first is exact."""
     if cell in WORDS:
         return [((Fraction(WORDS[cell]),), "", 0)]
     found = []
@@ -149,7 +149,7 @@ def quantities(cell):
 
 
 def agrees(cell, value):
-    """Whether a cell shows a value: its first quantity exactly, those in brackets as far as they are rounded."""
+    """True if a cell shows a value: the first quantity exactly, those in brackets within rounding."""
     found = quantities(cell)
     assert found, f"no number in {cell!r}"
     for i, (numbers, unit, decimals) in enumerate(found):
@@ -210,7 +210,7 @@ def test_a_cell_is_compared_in_its_units(cell, value, same):
 
 
 def quoted():
-    """What docs/thesis.md says of this program, as the code has it."""
+    """Statements of docs/thesis.md about this program, with the numbers of the code."""
     tanks, shop, track = (match_of(game).state.rules for game in ("pitanks", "factory", "race"))
     one, two, unknown = RECIPES[1], RECIPES[2], Parameters()
     yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
@@ -251,11 +251,11 @@ def test_the_page_on_the_thesis_says_of_this_program_what_is_so():
     assert [text for text in quoted() if text not in page] == []
 
 
-def test_the_page_on_the_thesis_has_the_results_of_the_readme():
+def test_the_page_on_the_thesis_has_the_results_of_the_page_on_opponents():
     triple = re.compile(r"\d+ / \d+ / \d+")
-    page, readme = (triple.findall(path.read_text(encoding="utf-8")) for path in (THESIS_PAGE, ROOT / "README.md"))
-    assert page == readme
-    assert len(page) == 8
+    thesis, opponents = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, OPPONENTS_PAGE))
+    assert thesis == opponents
+    assert len(thesis) == 8
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -264,7 +264,7 @@ def test_classic_loses_to_an_opponent_that_stands_still_and_fires(seed):
         def think(self, state, seat):
             own, other = state.robots[seat], state.robots[1 - seat]
             turn = angles.turn_to(atan2(other.y - own.y, other.x - own.x) - own.heading)
-            action.press(state.actions[seat], 0.0, 4.0 * turn, 1, 0)
+            action.set_action(state.actions[seat], 0.0, 4.0 * turn, 1, 0)
 
     match = match_of("pitanks", "classic")
     match.sit(seed % 2, Camper())
@@ -279,7 +279,7 @@ def test_classic_loses_to_an_opponent_that_stands_still_and_fires(seed):
 def test_turbo_starts_from_a_tenth_of_the_meter(game, charge, boosts):
     class Pressing:
         def think(self, state, seat):
-            action.press(state.actions[seat], 1.0, 0.0, 0, 1)
+            action.set_action(state.actions[seat], 1.0, 0.0, 0, 1)
 
     match = match_of(game)
     match.sit(0, Pressing())

@@ -1,4 +1,4 @@
-"""What must hold for every game, on every arena it has: a new game is tested by being in games()."""
+"""Properties of every game on each of its arenas; a game in games() is tested without further registration."""
 
 import os
 from math import isfinite
@@ -22,7 +22,7 @@ TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
 
 
 def setup(game, arena=None, seed=1, variant=None, minutes=0.2, teams=None):
-    """The longest way to the goal, so that time alone ends it."""
+    """A setup with the highest goal, so that only time ends the match."""
     rules = games()[game]
     one, two, three, four = (Seat("random", team) for team in teams or rules.teams)
     goal = max(rules.goals, default=0)
@@ -32,7 +32,7 @@ def setup(game, arena=None, seed=1, variant=None, minutes=0.2, teams=None):
 
 
 def companies():
-    """Every arena, in the teams that its game knows."""
+    """Every arena with each team assignment of its game."""
     for game, arena in EVERY_ARENA:
         yield game, arena, games()[game].teams
         if games()[game].team_mode != ALONE:
@@ -40,7 +40,7 @@ def companies():
 
 
 def company(game):
-    """Brains for the four seats: the strongest hand-written ones if there are, and random ones."""
+    """Brains for the four seats: the strongest hand-written ones, if any, and random ones."""
     kinds = BRAINS[game]
     return [kinds.get("hard", kinds["random"]), kinds["random"], kinds.get("fsm", kinds["random"]), kinds["random"]]
 

@@ -1,4 +1,4 @@
-"""Matches play out as they always have. How to renew the digests: see tests/golden.py."""
+"""Matches still lead to the stored digests. tests/golden.py updates them."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Readers of files: whatever stands in one, it is used, or refused in one line; nothing else ever happens."""
+"""File readers accept any content or reject it with a one-line error; nothing else happens."""
 
 import json
 import os
@@ -45,7 +45,7 @@ BYTES = (
 
 
 def refused_or_used(read, errors):
-    """Whether a file was used; otherwise it was refused with one of these errors, in one line."""
+    """True if a file was accepted; otherwise it was rejected with one of these errors, in one line."""
     try:
         read()
     except errors as error:
@@ -95,7 +95,7 @@ def test_calibrations(tmp_path):
 
 
 def run_lines(count):
-    """A run in which one robot is told and seen so many times."""
+    """A run with this many commands to one robot and sightings of it."""
     lines = [{"kind": "head", "format": runs.FORMAT, "mm": 1.3, "emulated": True}]
     chance = random.Random(3)
     for i in range(count):
@@ -186,7 +186,7 @@ def packed_replay(path):
 
 
 def forged(head, packed):
-    """A replay that was edited by somebody who knows the check."""
+    """An edited replay with a valid checksum."""
     head = json.loads(json.dumps(head))
     known = dict(head, check=replay._check(head, packed)) if isinstance(head, dict) else head
     return json.dumps(known).encode() + b"\n" + packed

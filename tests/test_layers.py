@@ -1,4 +1,4 @@
-"""Imports go one way, and the arcade starts without numba."""
+"""Imports between rooms go one way, and the arcade starts without numba."""
 
 import ast
 import subprocess
@@ -33,7 +33,7 @@ FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 
 def imported(path):
-    """The modules that a file imports, and whether at once (not inside a function): `pigaming_app.sim`, `os.path`."""
+    """The modules that a file imports, each with True if at module level: `pigaming_app.sim`, `os.path`."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     inside = {id(node) for f in ast.walk(tree) if isinstance(f, ast.FunctionDef) for node in ast.walk(f)}
     for node in ast.walk(tree):
@@ -94,14 +94,14 @@ def name_of(path):
 
 
 def circles(arrows):
-    """The groups of nodes that reach each other."""
+    """Groups of nodes that reach each other."""
     reached = {node: reach(arrows, node) for node in arrows}
     groups = {tuple(sorted(one for one in reached[node] if node in reached[one])) for node in arrows}
     return {group for group in groups if len(group) > 1}
 
 
 def reach(arrows, node):
-    """The nodes to which a path of at least one arrow leads."""
+    """Nodes reachable by a path of at least one edge."""
     found, ways = set(), [node]
     while ways:
         for after in arrows[ways.pop()] - found:

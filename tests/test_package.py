@@ -1,4 +1,4 @@
-"""The package as its users get it: built, installed without extras, and played from a folder that is not the clone."""
+"""The package: built, installed without extras, and run from a folder outside the clone."""
 
 import json
 import os
@@ -23,7 +23,7 @@ SHEET = ("calibrate", "--sheet", "a.pdf")
 
 
 def built(kind, tree, folder):
-    """The sdist or wheel that the build backend makes of a folder with the project."""
+    """The sdist or wheel that the build backend creates from a project folder."""
     command = [sys.executable, "-c", BUILD, kind, str(folder)]
     said = subprocess.run(command, cwd=tree, capture_output=True, text=True, check=True).stdout
     return folder / said.split()[-1]
@@ -81,7 +81,7 @@ def surroundings(folder, **extra):
 
 @pytest.fixture
 def run(folder, environment, tmp_path):
-    """Runs a program of the environment elsewhere; afterwards no environment of our own has been made anywhere."""
+    """Run a program of the environment in another folder; afterwards no `.venv` has been created."""
 
     def ended(program, *arguments, **extra):
         command = [python_of(environment).with_name(program), *arguments]

@@ -71,7 +71,7 @@ def test_a_scene_that_fails_gives_way_to_the_title_and_one_sentence(
     monkeypatch.setattr(App, "_frame", watched)
     assert run(Options(headless=True, first=Broken, frames=4, step=STEP)) == 0
     assert tops == [Title, Title, Title]
-    assert set(said) == {"Something broke. Let us start again from here."}
+    assert set(said) == {"Something went wrong. Back to the title."}
     assert "on purpose" in (home / "data" / "pigaming.log").read_text()
     assert "Traceback" not in capsys.readouterr().err
 
@@ -123,7 +123,7 @@ def test_settings_that_cannot_be_read_are_told_of_on_the_screen_and_in_full_besi
 
     monkeypatch.setattr(App, "_frame", watched)
     run(Options(headless=True, frames=1, step=STEP))
-    assert said == ["Não foi possível ler algumas opções. Usam-se as habituais."]
+    assert said == ["Não foi possível ler algumas opções. Usam-se as iniciais."]
     assert "music = 99 is not between 0 and 10" in capsys.readouterr().err
 
 

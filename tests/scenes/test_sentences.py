@@ -154,7 +154,7 @@ SENTENCES = {
     "results.high_score": ("New record!", "Novo recorde!"),
     "results.hits": ("Hits", "Acertos"),
     "results.taken": ("Taken", "Sofridos"),
-    "match.back_in": ("An AI drives. FIRE takes the seat back", "O computador conduz. FOGO retoma o lugar"),
+    "match.back_in": ("An AI is driving. Press FIRE to return", "O computador conduz. FOGO retoma o lugar"),
     "lobby.hint_add": ("Add AI", "Pôr computador"),
     "pause.hint_ai": ("Let an AI drive", "Pôr computador"),
 }

@@ -1,4 +1,4 @@
-"""What the arcade says: both languages say the same things."""
+"""Screen texts: both languages have the same keys and placeholders."""
 
 import ast
 import re

@@ -97,10 +97,10 @@ def test_a_calibration_survives_its_file():
     ("old", "new", "reason"),
     [
         ("version = 1", "version = 7", "version 7"),
-        ("height = 2500.0", "height = 2400.0", "changed by hand"),
-        ("k1 = -0.45", "k1 = -0.4", "changed by hand"),
+        ("height = 2500.0", "height = 2400.0", "edited or damaged"),
+        ("k1 = -0.45", "k1 = -0.4", "edited or damaged"),
         ("[lens]", "[lens", "cannot be used"),
-        ("check =", "cheque =", "changed by hand"),
+        ("check =", "cheque =", "edited or damaged"),
         ("version = 1\n", "", "version None"),
     ],
 )
@@ -114,7 +114,7 @@ def test_a_file_that_is_not_as_it_was_written_is_refused_in_one_sentence(old, ne
 
 
 def test_a_calibration_of_another_display_is_refused():
-    with refused(CalibrationError, "made on display 2: 1920 × 1080, not 1: 1280 × 720"):
+    with refused(CalibrationError, "for display 2: 1920 × 1080, not 1: 1280 × 720"):
         read(written(calibrated()), "1: 1280 × 720", SIZE)
 
 

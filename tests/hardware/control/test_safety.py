@@ -125,8 +125,8 @@ def test_a_fault_is_a_plain_sentence():
     safety.judge([GOOD, GOOD._replace(battery=3.9)], 1.0)
     texts = [Words("en")(f"faults.{fault.name}", robot=fault.robot + 1) for fault in safety.faults]
     assert texts == [
-        "The battery of robot 2 is empty: the motors stay off below 4.4 V. Please change it.",
-        "The battery of robot 2 will soon be empty.",
+        "The battery of robot 2 is empty: change it. Motors need 4.4 V to restart.",
+        "The battery of robot 2 is low: change it soon.",
     ]
 
 

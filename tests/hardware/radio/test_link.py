@@ -153,9 +153,7 @@ def test_a_radio_that_never_answers_is_named(time):
     run(link, time, 0.9)
     assert link.trouble is None
     run(link, time, 0.2)
-    assert sentence(link.trouble) == (
-        "COM3 opens, but what should be there does not answer; is it the right port and the right baud rate?"
-    )
+    assert sentence(link.trouble) == ("No radio answers at COM3: check the port and the baud rate.")
 
 
 @pytest.mark.parametrize("mode", XBeeMode)
@@ -181,7 +179,7 @@ def test_a_radio_of_the_other_api_mode_is_named(time):
     radio = Radio(time, escaped=True, ap=1)
     link = Link(lambda: radio, time, name="COM3")
     run(link, time, 0.1)
-    assert sentence(link.trouble) == "The radio at COM3 is set to AP=1, but the link is not; set both to the same."
+    assert sentence(link.trouble) == "The radio at COM3 uses AP=1, this program does not: set both the same."
 
 
 def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
@@ -192,7 +190,7 @@ def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
     radio.say(ReceivedPacket(1, -40, 0, report_packet(RobotReport(1, 0, packets.DEADMAN, 5000))))
     link.pump()
     assert 0 in link.telemetry
-    assert sentence(link.trouble) == "The radio at COM3 is set to AP=1 or 2, but the link is not; set both to the same."
+    assert sentence(link.trouble) == "The radio at COM3 uses AP=1 or 2, this program does not: set both the same."
 
 
 def test_a_quiet_transparent_line_is_no_trouble(time):
@@ -226,7 +224,7 @@ def test_a_fault_of_the_program_stops_the_robots_and_is_told():
     link.start()
     link._thread.join(timeout=5.0)
     assert crews(radio) == [STOPPED] * 5
-    assert sentence(link.trouble) == "COM3 failed: the program has a fault; its log has more."
+    assert sentence(link.trouble) == "COM3 failed because of a program error: see the log."
     link.close()
 
 

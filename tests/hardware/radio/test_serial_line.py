@@ -45,9 +45,9 @@ def test_why_a_port_does_not_open_is_one_sentence(error, reason):
 @pytest.mark.parametrize(
     ("device", "told"),
     [
-        ("/dev/pigaming", "There is no port /dev/pigaming; is the radio plugged in, and is this its port?"),
-        ("/dev/null", "/dev/null is not a serial port; choose the one the radio is plugged into."),
-        ("/", "/ is not a serial port; choose the one the radio is plugged into."),
+        ("/dev/pigaming", "Port /dev/pigaming does not exist: plug in the radio or choose another port."),
+        ("/dev/null", "/dev/null is not a serial port: choose the radio's port."),
+        ("/", "/ is not a serial port: choose the radio's port."),
     ],
 )
 def test_ports_that_are_none(device, told):
@@ -79,7 +79,7 @@ def test_bytes_go_both_ways_over_a_terminal_and_its_end_is_noticed(stop_bits):
         line.read()
         if not line.is_open:
             break
-    assert sentence(line.trouble) == f"The radio at {device} is gone; plug it in again."
+    assert sentence(line.trouble) == f"The radio at {device} was unplugged: plug it in again."
 
 
 @POSIX
@@ -90,7 +90,7 @@ def test_a_port_that_another_program_holds_is_busy():
     first, second = (SerialLine(serial_port(device), Time(), device) for _ in range(2))
     assert first.open()
     assert not second.open()
-    assert sentence(second.trouble) == f"{device} is in use by another program; close that first."
+    assert sentence(second.trouble) == f"{device} is in use by another program: close that program."
     first.close()
     os.close(near)
     os.close(far)
@@ -101,7 +101,7 @@ def test_without_pyserial_the_sentence_says_so(monkeypatch):
     monkeypatch.setitem(sys.modules, "serial.tools", None)
     line = SerialLine(serial_port("COM3"), Time(), "COM3")
     assert not line.open()
-    assert sentence(line.trouble) == "The package pyserial is missing, so no radio can be used."
+    assert sentence(line.trouble) == "The Python package pyserial is missing: install it to use a radio."
     assert ports() == []
 
 
@@ -159,7 +159,7 @@ def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stay
         wire.time.now += 0.02
     wire.time.now += 0.03
     line.write(b"x")
-    assert sentence(line.trouble) == "COM3 takes no more bytes; unplug the radio and plug it in again."
+    assert sentence(line.trouble) == "COM3 accepts no more data: unplug the radio and plug it in again."
     assert line.is_open
     wire.cut = None
     line.write(b"x")

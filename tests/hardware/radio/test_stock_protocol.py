@@ -90,7 +90,7 @@ def test_something_else_at_the_line_is_named(time):
     robot = Robot(time, b"v2.041")
     link = Link(lambda: robot, time, StockProtocol(), name="COM3")
     run(link, time, 0.1)
-    assert sentence(link.trouble) == "What answers at COM3 is no 3pi with the stock program: it sends 'v2.041'."
+    assert sentence(link.trouble) == "No 3pi with the stock program at COM3, which sends 'v2.041': choose another port."
 
 
 def test_nobody_at_the_line_is_named(time):

@@ -28,7 +28,7 @@ def test_pictures_of_another_size_are_withheld_with_a_sentence_until_the_right_o
     eye = SizedCamera(Eye((640, 480), (1280, 720), (640, 480)), nominal((1280, 720)))
     assert eye.newest() is None
     assert sentence(eye.trouble) == (
-        "The calibration was made with a camera of 1280 x 720 px, not 640 x 480: calibrate again."
+        "The calibration is for camera images of 1280 x 720 px, not 640 x 480: calibrate again."
     )
     frame = eye.newest()
     assert frame is not None

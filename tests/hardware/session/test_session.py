@@ -35,7 +35,7 @@ def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
 def test_without_a_calibration_there_are_no_real_robots(home: Path) -> None:
     with pytest.raises(RobotsUnavailable) as refused:
         real_mat().open()
-    assert "no calibration" in sentence(refused.value)
+    assert "Not calibrated yet" in sentence(refused.value)
 
 
 def test_a_calibration_of_another_display_is_refused(home: Path) -> None:
@@ -74,7 +74,7 @@ def test_a_computer_without_pyserial_says_so_and_without_a_camera_too(
         link = mat.listen()
         assert link is not None
         assert soon(lambda: link.trouble is not None)
-        assert sentence(mat.trouble) == "The package pyserial is missing, so no radio can be used."
+        assert sentence(mat.trouble) == "The Python package pyserial is missing: install it to use a radio."
         mat.close()
         mat.open()
         assert soon(lambda: mat.trouble is not None and "camera 63" in sentence(mat.trouble))

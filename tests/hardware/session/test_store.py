@@ -79,11 +79,11 @@ def test_what_is_kept_is_read_again_and_the_one_before_stays(file: Path) -> None
 
 
 def test_another_display_another_camera_and_none_are_refused(file: Path) -> None:
-    with refused(CalibrationError, "made on display 1: 1024 × 768, not 2: 640 × 480"):
+    with refused(CalibrationError, "for display 1: 1024 × 768, not 2: 640 × 480"):
         store.load(file, "2: 640 × 480")
     with refused(CalibrationError, "1920 x 1080 px, not 1280 x 720"):
         store.load(file, HERE, (1280, 720))
-    with refused(CalibrationError, "There is no calibration yet"):
+    with refused(CalibrationError, "Not calibrated yet"):
         store.load(file.parent / "calibration-emulated.toml")
 
 

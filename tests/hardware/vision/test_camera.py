@@ -185,7 +185,7 @@ def test_cameras_are_listed_by_number_without_their_data_nodes(system):
 
 
 def test_no_such_camera_names_those_that_are_there(system):
-    assert sentence(cameras.why_not(5)) == "There is no camera 5; there are 0 (HD Webcam), 10 (Overhead)."
+    assert sentence(cameras.why_not(5)) == "There is no camera 5: choose one of 0 (HD Webcam), 10 (Overhead)."
 
 
 def test_no_camera_at_all(tmp_path, system, monkeypatch):
@@ -201,7 +201,7 @@ def test_no_permission_says_what_to_do(system, monkeypatch):
 
 def test_a_busy_camera_is_said_to_be_busy(system):
     (system / "dev" / "video0").write_text("")
-    assert "another program uses it" in sentence(cameras.why_not(0))
+    assert "close other camera programs" in sentence(cameras.why_not(0))
 
 
 def test_other_systems_get_one_sentence_too(monkeypatch):

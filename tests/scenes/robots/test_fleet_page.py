@@ -63,7 +63,7 @@ def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSes
     assert heard.startswith("5.")
     assert "V" in heard
     assert seen == "seen"
-    assert page.lines[2][0] == "not heard"
+    assert page.lines[2][0] == "no signal"
     assert page.lines[3][2] == "not seen"
     mat.arena.faults.switch("robot_off", False, 2)
     mat.arena.faults.switch("marker_covered", False, 3)
@@ -143,7 +143,7 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         assert "calibra" in page._state()
         arcade.wait(0.5)
         arcade.until(lambda: mat.trouble is not None, 5.0)
-        assert "Não há nenhuma porta /dev/nowhere" in str(page._fault())
+        assert "A porta /dev/nowhere não existe" in str(page._fault())
         arcade.press(Button.UP)
         arcade.press(Button.LEFT)
         assert settings.radio == "api2"

@@ -234,7 +234,7 @@ def test_a_battery_that_runs_low_is_only_said(
     mat.arena.robots[1].battery = before
     assert arcade.shown(RealMatch) is match
     assert match.match.state.tick > ticks + 50
-    assert "The battery of robot 2 will soon be empty." in caplog.text
+    assert "The battery of robot 2 is low: change it soon." in caplog.text
 
 
 @pytest.mark.long
