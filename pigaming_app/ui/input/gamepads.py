@@ -1,7 +1,7 @@
-"""Gamepads that come and go: those SDL knows by its game-controller mappings, and any other as a plain joystick.
+"""Gamepads, hot-pluggable: mapped ones via SDL's game-controller database, others as plain joysticks.
 
-A pad is known by SDL's instance id, which no other pad gets until the arcade ends; a pad that was pulled out is
-forgotten at once and never read again.
+A pad is identified by SDL's instance id, which is not reused while the arcade runs; an unplugged pad is dropped at once
+and never read again.
 """
 
 from collections.abc import Iterator
@@ -30,7 +30,7 @@ _SHOULDERS = (pygame.CONTROLLER_BUTTON_LEFTSHOULDER, pygame.CONTROLLER_BUTTON_RI
 _PLAIN_SHOULDERS = (4, 5)
 _PLAIN = (Button.FIRE, Button.BACK, Button.X, Button.Y)  # the first four buttons of a plain joystick
 _DIRECTIONS = {Button.UP: "↑", Button.DOWN: "↓", Button.LEFT: "←", Button.RIGHT: "→"}
-_SHARED = {Button.LEAVE_SEAT: Button.BACK, Button.BRAIN: Button.Y}  # one button for both; BRAIN only in a pause
+_SHARED = {Button.LEAVE_SEAT: Button.BACK, Button.BRAIN: Button.Y}  # shared buttons; BRAIN only in a pause
 _PRINTED = {
     "Xbox": {Button.FIRE: "A", Button.BACK: "B", Button.X: "X", Button.Y: "Y", Button.START: "START"},
     "PlayStation": {
@@ -50,24 +50,24 @@ _MAKERS = {
 
 
 class Pad(Protocol):
-    """A pad that is plugged in. `kind` is one of Xbox, PlayStation, Nintendo and Joystick."""
+    """A connected pad. `kind` is one of Xbox, PlayStation, Nintendo and Joystick."""
 
     kind: str
 
     def changes(self, event: pygame.Event) -> Iterator[ButtonChange]:
-        """What an event of this pad means."""
+        """Button changes in an event of this pad."""
 
     def drive(self) -> StickState:
-        """How the pad is held now."""
+        """The current state."""
 
     def attached(self) -> bool:
-        """Whether its cable is still in, as far as the system knows."""
+        """False if the system reports it unplugged."""
 
 
 class MappedPad:
-    """A pad SDL has a mapping for; every such pad has the buttons of an Xbox pad in the same places.
+    """A pad with an SDL mapping; all such pads have the button layout of an Xbox pad.
 
-    Changes are read off the events alone: in a long frame a button or stick may be back before anybody looks at it.
+    Changes come from events alone: in a long frame a button or stick may be back before it could be polled.
     """
 
     def __init__(self, index: int) -> None:
@@ -119,7 +119,7 @@ class MappedPad:
 
 
 class PlainPad:
-    """A pad without a mapping: axes 0 and 1, hat 0 and the buttons in the order most makers number them."""
+    """A pad without a mapping: axes 0 and 1, hat 0 and the buttons in the most common order."""
 
     kind = "Joystick"
 
@@ -131,7 +131,7 @@ class PlainPad:
         self._axes = joystick.get_numaxes() >= 2
         self._at = [joystick.get_axis(0), joystick.get_axis(1)] if self._axes else [0.0, 0.0]
         count = joystick.get_numbuttons()
-        self._shoulders_too = count >= 12  # then 6 and 7 are the lower shoulder buttons, and start comes behind them
+        self._shoulders_too = count >= 12  # then 6 and 7 are the lower shoulder buttons, and start has a higher number
         start = 9 if self._shoulders_too else min(7, count - 1)
         self._buttons = dict(enumerate(_PLAIN)) | ({start: Button.START} if start >= len(_PLAIN) else {})
 
@@ -157,7 +157,7 @@ class PlainPad:
         )
 
     def attached(self) -> bool:
-        return True  # a plain joystick that is gone reads as one at rest
+        return True  # an unplugged plain joystick reads as neutral
 
     def _button(self, button: int, down: bool) -> Iterator[ButtonChange]:
         if button in self._buttons:
@@ -181,7 +181,7 @@ class PlainPad:
 
 
 class Pads:
-    """The pads that are plugged in, by instance id."""
+    """The connected pads by instance id."""
 
     def __init__(self) -> None:
         self.plugged: dict[int, Pad] = {}
@@ -189,11 +189,11 @@ class Pads:
             controller.init()
             pygame.joystick.init()
         except pygame.error:
-            return  # a system without a joystick service: keys and mouse still play
+            return  # no joystick service: keys and mouse still work
         self.look()
 
     def look(self) -> list[int]:
-        """Open every pad that is not open yet; the instance ids of those."""
+        """Open all new pads; returns their instance ids."""
         found = []
         for index in range(pygame.joystick.get_count()):
             try:
@@ -204,21 +204,21 @@ class Pads:
                     self.plugged[number] = MappedPad(index) if known else PlainPad(joystick)
                     found.append(number)
             except pygame.error:
-                continue  # pulled out again between the event and now
+                continue  # unplugged again since the event
         return found
 
     def forget(self, number: int) -> bool:
-        """A pad was pulled out; true if it was known."""
+        """Drop an unplugged pad; true if it was open."""
         return self.plugged.pop(number, None) is not None
 
 
 def label(kind: str, act: Button) -> str:
-    """What is printed on the button of a kind of pad that means `act`; empty if none does."""
+    """The label printed on a button of this kind of pad; empty if it has none."""
     return _DIRECTIONS.get(act) or _PRINTED[kind].get(_SHARED.get(act, act), "")
 
 
 def _both(held: set[int], button: int, down: bool, pair: tuple[int, int]) -> Iterator[ButtonChange]:
-    """The all-stop, when the second button of a pair goes down or the first of both comes up."""
+    """STOP, down when both buttons of a pair are down, up when the first is released."""
     together = held.issuperset(pair)
     (held.add if down else held.discard)(button)
     if together or held.issuperset(pair):

@@ -1,7 +1,7 @@
-"""One keyboard as four devices: clusters of keys by their place (scancode), so that every layout plays alike.
+"""One keyboard as four devices: clusters of keys by scancode, so that every layout works.
 
-Enter, Escape and the like are shared by all clusters; they count as pressed by the one that was used last, and where
-only seated devices act, by the seated one that was used last.
+Enter, Escape and similar keys are shared: they count as pressed by the most recently used cluster or, where only seated
+devices act, by the most recently used seated one.
 """
 
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from pigaming_app.ui.input.filters import ButtonChange
 
 @dataclass(frozen=True)
 class Cluster:
-    """The scancodes of one cluster, and what is printed on its keys."""
+    """The scancodes of one cluster and the labels of its keys."""
 
     up: tuple[int, ...]
     left: tuple[int, ...]
@@ -48,7 +48,7 @@ CLUSTERS = (
         (pygame.KSCAN_LEFT,),
         (pygame.KSCAN_DOWN,),
         (pygame.KSCAN_RIGHT,),
-        (pygame.KSCAN_RCTRL, pygame.KSCAN_SLASH),  # many a laptop has no right Ctrl
+        (pygame.KSCAN_RCTRL, pygame.KSCAN_SLASH),  # many laptops have no right Ctrl
         (pygame.KSCAN_RSHIFT,),
         "← ↑ ↓ →",
         _printed("↑", "←", "↓", "→", "R CTRL", "R SHIFT"),
@@ -94,7 +94,7 @@ _SHARED_PRINTED = {
     Button.BRAIN: "F4",
     Button.STOP: "F1",
 }
-_SYSTEM = pygame.KMOD_LALT | pygame.KMOD_GUI  # held with another key, these speak to the window manager
+_SYSTEM = pygame.KMOD_LALT | pygame.KMOD_GUI  # modifiers of window-manager shortcuts
 
 
 def _own_keys() -> dict[int, tuple[Device, Button]]:
@@ -116,14 +116,14 @@ _OWN = _own_keys()
 
 
 class Keyboard:
-    """Which keys are down, as the events told."""
+    """Key states, tracked from events."""
 
     def __init__(self) -> None:
         self._down: set[int] = set()
-        self.latest = tuple(Device("keys", number) for number in range(len(CLUSTERS)))  # the last used first
+        self.latest = tuple(Device("keys", number) for number in range(len(CLUSTERS)))  # most recently used first
 
     def changes(self, event: pygame.Event) -> Iterator[tuple[Device, ButtonChange]]:
-        """What a KEYDOWN or KEYUP event means, and for which cluster."""
+        """The change caused by a KEYDOWN or KEYUP event, and its cluster."""
         code = event.scancode
         down = event.type == pygame.KEYDOWN
         if down == (code in self._down) or (down and event.mod & _SYSTEM):
@@ -138,11 +138,11 @@ class Keyboard:
             yield self.latest[0], ButtonChange(_SHARED[code], down, str(code))
 
     def release(self) -> None:
-        """Let go of every key: the window lost the focus, and nobody will say when they come up."""
+        """Release all keys: the window lost the focus, so their KEYUP events will not arrive."""
         self._down.clear()
 
     def drive(self, number: int) -> StickState:
-        """How a cluster is held now."""
+        """The current state of a cluster."""
         cluster, down = CLUSTERS[number], self._down
         return StickState(
             float(any(key in down for key in cluster.up) - any(key in down for key in cluster.down)),
@@ -153,5 +153,5 @@ class Keyboard:
 
 
 def label(number: int, button: Button) -> str:
-    """What is printed on the key of a cluster that means `act`; empty if no key does."""
+    """The label of a cluster's key for a button; empty if there is none."""
     return CLUSTERS[number].printed.get(button) or _SHARED_PRINTED.get(button, "")

@@ -1,4 +1,4 @@
-"""What is painted over any scene: a sentence that stays for a while, and the numbers that F3 shows."""
+"""Overlays on any scene: timed notices and the frame meter (F3)."""
 
 from collections import deque
 
@@ -9,25 +9,25 @@ from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.caption import caption
 
 STAY = 5.0  # seconds
-Y = 1040  # px, below the row of hints
+Y = 1040  # px, below the row of prompts
 ROOM = 1640  # px
-EVERY = 0.25  # seconds between two readings of the gauge
+EVERY = 0.25  # seconds between two readings of the frame meter
 
 
 class Notices:
-    """One sentence after the other."""
+    """A queue of sentences, shown one at a time."""
 
     def __init__(self) -> None:
         self.waiting: deque[str] = deque()
         self.age = 0.0
 
     def say(self, sentence: str) -> None:
-        """Show a sentence, after those that wait already; the same one waits only once."""
+        """Queue a sentence, unless it is queued already."""
         if sentence not in self.waiting:
             self.waiting.append(sentence)
 
     def draw(self, screen: pygame.Surface, seconds: float) -> None:
-        """Paint the sentence of the moment, `seconds` after the frame before."""
+        """Draw the current sentence, `seconds` after the previous frame."""
         if not self.waiting:
             return
         said = self.waiting[0]
@@ -39,7 +39,7 @@ class Notices:
 
 
 class FrameMeter:
-    """Frames a second, and the longest that scenes took to move and to paint since the last reading, ms."""
+    """Frame rate, and the longest update and draw times since the last reading."""
 
     def __init__(self) -> None:
         self.shown, self.fps = False, 0.0
@@ -47,7 +47,7 @@ class FrameMeter:
         self._text: pygame.Surface | None = None
 
     def note(self, seconds: float, moved: float, painted: float) -> None:
-        """Take down one frame; all in seconds."""
+        """Record one frame; all times in seconds."""
         self._age += seconds
         self._moved, self._painted = max(self._moved, moved), max(self._painted, painted)
         if self._age >= EVERY:
@@ -56,6 +56,6 @@ class FrameMeter:
             self._age = self._moved = self._painted = 0.0
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the last reading, if it is wished for."""
+        """Draw the last reading, if enabled."""
         if self.shown and self._text:
             screen.blit(self._text, (12, 1046))

@@ -1,6 +1,6 @@
-"""The card of a player, in the lobby and where initials are chosen: its size, and the bar at its foot.
+"""Layout of a player's card, in the lobby and in the choice of initials, and the bar at its foot.
 
-A card is W x H px, its upper left at (0, 0) of its own.
+A card is W x H px, with its upper left corner at (0, 0).
 """
 
 from pigaming_app.ui.draw import (
@@ -31,7 +31,7 @@ BAR = (24, 500, W - 48, 76)
 
 @cached
 def ready_bar(player: int, said: str) -> LitImage:
-    """The bar of somebody who is ready."""
+    """The bar of a player who is ready."""
     layer, color = Layer(*BAR), PLAYERS[player]
     layer.glow.fill(cut_box(*BAR, 14), dim(color, 0.28)).line(cut_box(*BAR, 14), color, THIN, True)
     size = fit_size(said, LABEL, W - 150)
@@ -42,7 +42,7 @@ def ready_bar(player: int, said: str) -> LitImage:
 
 @cached
 def ask_bar(label: str, said: str, level: int) -> LitImage:
-    """The bar of somebody who has to press a button to be ready."""
+    """The bar that asks a player to press a button when ready."""
     if level < LEVELS:
         return dimmed(ask_bar(label, said, LEVELS), level / LEVELS)
     wide = button_width(label)

@@ -1,4 +1,4 @@
-"""Rows of settings, one in focus: toggles, meters, values between arrows, deeds; and the panel that explains them."""
+"""Setting rows, one focused: toggles, meters, values between arrows, actions; and the panel that describes them."""
 
 import math
 from collections.abc import Sequence
@@ -42,7 +42,7 @@ TOP, PITCH, HIGH = 246, 88, 64  # px: the middle of the first row, from row to r
 
 @dataclass(frozen=True)
 class SettingValue:
-    """What a row shows: options of which one is lit, a number of ten, a text between arrows, or a thing to do."""
+    """The content of a row: options of a toggle, a meter of ten cells, a text between arrows, or an action."""
 
     kind: str  # toggle, meter, arrows, deed
     options: tuple[str, ...]
@@ -50,13 +50,13 @@ class SettingValue:
 
 
 def spots(names: Sequence[str]) -> list[FocusSpot]:
-    """Where rows with these names are."""
+    """The spots of rows with these names."""
     x, w = span(0, 8)
     return [FocusSpot(name, pygame.Rect(x, TOP - HIGH // 2 + PITCH * i, w, HIGH)) for i, name in enumerate(names)]
 
 
 def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values: dict[str, SettingValue]) -> None:
-    """Paint the rows of a page whose texts are in `table`."""
+    """Draw the rows of a page whose texts are in `table`."""
     glow_bar(screen, focus.box)
     for i, spot in enumerate(focus.spots):
         box, shown, hot = spot.rect, values[spot.name], spot.name == focus.name
@@ -68,7 +68,7 @@ def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values:
 
 
 def step_of(event: InputEvent, focus: Focus, value: SettingValue) -> int:
-    """By how much a press changes the row in focus: 1, -1, or 0; a click does what it hits."""
+    """The step of the focused row by an event: 1, -1 or 0; for a click on a toggle, the offset to the option hit."""
     if event.button in (Button.LEFT, Button.RIGHT):
         return 1 if event.button is Button.RIGHT else -1
     if event.button is Button.CLICK and event.at and focus.under(event) == focus.name and value.kind != "deed":
@@ -87,13 +87,13 @@ def label(said: str, hot: bool) -> LitImage:
 
 @cached
 def separator(w: int) -> LitImage:
-    """The hair line between two rows."""
+    """The thin line between two rows."""
     return LitImage(GlowCanvas(w, 4).line([(24, 2), (w - 24, 2)], dim(STEEL, 0.6), HAIR).plain(), (0, -2))
 
 
 @cached
 def value(kind: str, options: tuple[str, ...], chosen: int, hot: bool) -> LitImage:
-    """What is set, its middle at y = 0: a toggle, a meter, a text between arrows, or a deed."""
+    """The value of a row, its middle at y = 0: a toggle, a meter, a text between arrows, or an action."""
     layer = Layer(AT, -36, ROOM, 72)
     if kind == "toggle":
         for said, (x, w), on in zip(options, chips(options), range(len(options)), strict=True):
@@ -128,7 +128,7 @@ def _meter(layer: Layer, chosen: int, hot: bool) -> None:
 
 
 def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
-    """x and width of the options of a toggle, px from the row's left edge."""
+    """x and width of a toggle's options, px from the row's left edge."""
     places: list[tuple[int, int]] = []
     x = AT
     for said in options:
@@ -139,7 +139,7 @@ def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
 
 
 def value_at(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | None:
-    """The value that a click means, x px from the row's left edge; None: it hits nothing."""
+    """The value selected by a click x px from the row's left edge; None if it hits nothing."""
     if kind == "toggle":
         return next((i for i, (left, w) in enumerate(chips(options)) if left <= x < left + w), None)
     if kind == "meter":
@@ -152,13 +152,13 @@ def value_at(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int 
 
 
 def describe(screen: pygame.Surface, said: str, line: str) -> None:
-    """What a row is called and does, in the panel."""
+    """Draw the name and description of a row in the panel."""
     for i, lit in enumerate(description(said, line)):
         lit.draw(screen, PANEL.x + 40, PANEL.y + 400 + (14 + 58 * i if i else 0))
 
 
 @cached
 def description(said: str, line: str) -> tuple[LitImage, ...]:
-    """A title, and a sentence in lines that fit into the panel."""
+    """A title and its description, wrapped to the panel."""
     room = PANEL.w - 80
     return (text(said, LABEL, ICE, "head", "l", room), *paragraph(line, room, 3, MIST))
