@@ -332,7 +332,7 @@ class App:
         """F3 shows numbers; F11 and F12 change the window and take a picture, but not in a kiosk."""
         context = self.context
         if key == pygame.K_F3:
-            self.gauge.shown = not self.gauge.shown
+            self.gauge.visible = not self.gauge.visible
         elif key == pygame.K_F11 and not context.kiosk:
             context.settings.fullscreen = context.canvas.toggle_fullscreen()
         elif key == pygame.K_F12 and not context.kiosk:

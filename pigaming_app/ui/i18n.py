@@ -36,7 +36,7 @@ class Words:
 
     def __call__(self, key: str, **values: object) -> str:
         """The text of a key, `table.name`, with values filled in. Raises KeyError for an unknown key."""
-        return self._texts[key].format(**{name: self._written(value) for name, value in values.items()})
+        return self._texts[key].format(**{name: self._localised(value) for name, value in values.items()})
 
     def sentence(self, message: Message) -> str:
         """The short on-screen sentence of a hardware message."""
@@ -65,7 +65,7 @@ class Words:
         """The local name of the button labelled `label`: the space bar, for example, is translated."""
         return self._texts.get(f"keys.{label}", label)
 
-    def _written(self, value: object) -> object:
+    def _localised(self, value: object) -> object:
         """A format value: numbers in local notation, everything else unchanged."""
         number = isinstance(value, float) or (isinstance(value, str) and DECIMAL.fullmatch(value))
         return self.decimal(str(value)) if number else value
@@ -89,7 +89,7 @@ def texts(language: str) -> dict[str, str]:
 
 
 def _flat(table: dict[str, Any], path: str) -> list[tuple[str, str]]:
-    found = []
+    flat = []
     for name, value in table.items():
-        found += _flat(value, f"{path}{name}.") if isinstance(value, dict) else [(path + name, str(value))]
-    return found
+        flat += _flat(value, f"{path}{name}.") if isinstance(value, dict) else [(path + name, str(value))]
+    return flat

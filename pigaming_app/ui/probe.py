@@ -14,7 +14,7 @@ from pygame._sdl2 import controller
 from pigaming_app.ui.draw.theme import font
 from pigaming_app.ui.sounds import Sounds
 
-_UNSEEN = ("dummy", "offscreen")  # SDL drivers that render into memory only
+_MEMORY_DRIVERS = ("dummy", "offscreen")  # SDL drivers that render into memory only
 
 
 def displays() -> tuple[str, str]:
@@ -24,9 +24,9 @@ def displays() -> tuple[str, str]:
     except pygame.error as error:
         return "", str(error)
     driver = pygame.display.get_driver()
-    if driver in _UNSEEN:
-        asked = "SDL_VIDEODRIVER" in os.environ
-        return "", f"SDL_VIDEODRIVER asks for {driver}" if asked else "no screen is connected to this session"
+    if driver in _MEMORY_DRIVERS:
+        configured = "SDL_VIDEODRIVER" in os.environ
+        return "", f"SDL_VIDEODRIVER asks for {driver}" if configured else "no screen is connected to this session"
     sizes, rates = pygame.display.get_desktop_sizes(), pygame.display.get_desktop_refresh_rates()
     each = (f"{w} × {h} at {rate} Hz" for (w, h), rate in zip(sizes, rates, strict=True))
     return f"{', '.join(each)} (by {driver})", ""
@@ -35,9 +35,9 @@ def displays() -> tuple[str, str]:
 def sound() -> tuple[str, str]:
     """The availability of a sound device, or the reason for having none."""
     sounds = Sounds()
-    there = sounds.wait()
+    available = sounds.wait()
     sounds.close()
-    return ("there is a sound device", "") if there else ("", sounds.trouble)
+    return ("there is a sound device", "") if available else ("", sounds.trouble)
 
 
 def pads() -> tuple[str, str]:
@@ -45,8 +45,8 @@ def pads() -> tuple[str, str]:
     pygame.joystick.init()
     controller.init()
     names = {index: pygame.joystick.Joystick(index).get_name() for index in range(pygame.joystick.get_count())}
-    plain = [name for index, name in names.items() if not controller.is_controller(index)]
-    return ", ".join(names.values()), f"not known to SDL: {', '.join(plain)}" if plain else ""
+    unmapped = [name for index, name in names.items() if not controller.is_controller(index)]
+    return ", ".join(names.values()), f"not known to SDL: {', '.join(unmapped)}" if unmapped else ""
 
 
 def fonts() -> tuple[str, str]:
@@ -59,18 +59,18 @@ def fonts() -> tuple[str, str]:
     return ("all there", "") if whole else ("", "letters are missing")
 
 
-LOOKS: dict[str, Callable[[], tuple[str, str]]] = {"displays": displays, "sound": sound, "pads": pads, "fonts": fonts}
+CHECKS: dict[str, Callable[[], tuple[str, str]]] = {"displays": displays, "sound": sound, "pads": pads, "fonts": fonts}
 
 
 def main() -> None:
     """Run all checks; one that fails prints a line too."""
     print(json.dumps(["pygame", f"pygame-ce {pygame.ver}, SDL {'.'.join(map(str, pygame.get_sdl_version()))}", ""]))
-    for name, look in LOOKS.items():
+    for name, check in CHECKS.items():
         try:
-            found, wrong = look()
+            result, problem = check()
         except Exception as error:  # run the other checks whatever a driver raises
-            found, wrong = "", str(error)
-        print(json.dumps([name, found, wrong]), flush=True)
+            result, problem = "", str(error)
+        print(json.dumps([name, result, problem]), flush=True)
 
 
 if __name__ == "__main__":

@@ -15,8 +15,8 @@ import pygame
 from pigaming_app import ASSETS
 
 FOLDER = ASSETS / "sounds"
-_VOICES = 24  # simultaneous sounds; more are dropped
-_GAP = 0.05  # seconds before the same sound may restart: four players mash their buttons
+_MAX_VOICES = 24  # simultaneous sounds; more are dropped
+_MIN_REPEAT = 0.05  # seconds before the same sound may restart: four players mash their buttons
 _log = logging.getLogger(__name__)
 
 
@@ -58,10 +58,10 @@ class Sounds:
         """Play a sound, in the pitch of a player (seat 0..3) if it has one, panned from -1 (left) to 1 (right)."""
         if not self._ready:
             return
-        own = f"{name}{(player or 0) + 1}"  # sounds with a variant per player have no other
-        key = own if own in self._sounds else name
+        variant = f"{name}{(player or 0) + 1}"  # sounds with a variant per player have no other
+        key = variant if variant in self._sounds else name
         sound, now = self._sounds.get(key), time.monotonic()
-        if sound is None or now - self._started.get(key, 0.0) < _GAP:
+        if sound is None or now - self._started.get(key, 0.0) < _MIN_REPEAT:
             return
         channel = pygame.mixer.find_channel()
         if channel is None:
@@ -84,12 +84,12 @@ class Sounds:
 
     def _open(self) -> None:
         try:
-            if _no_card():
+            if _no_sound_device():
                 raise pygame.error("no sound device was found")
             pygame.mixer.init(44100, -16, 2, 512, allowedchanges=0)
-            pygame.mixer.set_num_channels(_VOICES)
-        except (pygame.error, NotImplementedError) as reason:
-            self.trouble = f"There is no sound: {reason}."
+            pygame.mixer.set_num_channels(_MAX_VOICES)
+        except (pygame.error, NotImplementedError) as error:
+            self.trouble = f"There is no sound: {error}."
             _log.info(self.trouble)
             return
         for path in sorted(self._folder.glob("*.ogg")):
@@ -102,11 +102,11 @@ class Sounds:
     def _load(self, path: Path) -> None:
         try:
             self._sounds[path.stem] = pygame.mixer.Sound(str(path))
-        except (pygame.error, OSError) as reason:
-            _log.warning("%s: %s", path, reason)
+        except (pygame.error, OSError) as error:
+            _log.warning("%s: %s", path, error)
 
     def _set_volumes(self) -> None:
-        music, sounds = (_loudness(volume) for volume in self._volumes)
+        music, sounds = (_amplitude(volume) for volume in self._volumes)
         pygame.mixer.music.set_volume(music)
         for sound in self._sounds.values():
             sound.set_volume(sounds)
@@ -121,8 +121,8 @@ class Sounds:
             elif self._music_playing and not self._music_on:
                 pygame.mixer.music.fadeout(800)
                 self._music_playing = False
-        except (pygame.error, OSError) as reason:
-            _log.warning("%s: %s", path, reason)
+        except (pygame.error, OSError) as error:
+            _log.warning("%s: %s", path, error)
 
 
 def stereo(pan: float) -> tuple[float, float]:
@@ -131,7 +131,7 @@ def stereo(pan: float) -> tuple[float, float]:
     return (min(1.0, 1.0 - side), min(1.0, 1.0 + side))
 
 
-def _no_card() -> bool:
+def _no_sound_device() -> bool:
     """True if a Linux system certainly has no sound. Probing it would fill the terminal with ALSA errors."""
     if not sys.platform.startswith("linux") or os.environ.keys() & {"SDL_AUDIODRIVER", "AUDIODEV", "PULSE_SERVER"}:
         return False
@@ -139,6 +139,6 @@ def _no_card() -> bool:
     return not any(place.exists() for place in (Path("/dev/snd"), servers / "pulse" / "native", servers / "pipewire-0"))
 
 
-def _loudness(volume: int) -> float:
+def _amplitude(volume: int) -> float:
     """Perceived loudness is logarithmic: volume 5 of 10 is a quarter of the amplitude."""
     return (max(0, min(10, volume)) / 10.0) ** 2

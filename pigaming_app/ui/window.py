@@ -19,7 +19,7 @@ from pigaming_app.ui.png import png_of
 
 SIZE = (1920, 1080)
 CURSOR_SECONDS = 3.0  # seconds without motion until the mouse pointer hides
-_UNSEEN = ("dummy", "offscreen")  # SDL drivers that render into memory only
+_MEMORY_DRIVERS = ("dummy", "offscreen")  # SDL drivers that render into memory only
 
 
 class NoDisplay(Exception):
@@ -84,21 +84,21 @@ class Canvas:
 
         Call it before `pygame.init`, because SDL reads some hints only once.
         """
-        _tell_sdl(headless)
-        wanted = os.environ.get("SDL_VIDEODRIVER")
-        if not wanted and sys.platform.startswith("linux") and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
+        _set_sdl_hints(headless)
+        requested = os.environ.get("SDL_VIDEODRIVER")
+        if not requested and sys.platform.startswith("linux") and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
             raise NoDisplay(_no_display("none was found"))  # else SDL would print an error of its own
         try:
             pygame.display.init()
             driver = pygame.display.get_driver()
-            if not wanted and driver in _UNSEEN:
+            if not requested and driver in _MEMORY_DRIVERS:
                 raise NoDisplay(_no_display("none was found"))
             if driver == "x11":  # shared memory: 2 ms a frame, against 11 ms in software OpenGL
                 os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
             return cls(
                 settings.display if display is None else display,
                 settings.fullscreen if fullscreen is None else fullscreen,
-                headless or driver in _UNSEEN,
+                headless or driver in _MEMORY_DRIVERS,
             )
         except pygame.error as reason:
             pygame.display.quit()
@@ -120,7 +120,7 @@ class Canvas:
         if window is None:
             return
         if picture is not window:
-            area = _fitted(window.get_size())
+            area = _fit_canvas(window.get_size())
             if area.w and area.h:
                 _paint_bars(window, area)
                 if self._warp is None:
@@ -151,7 +151,7 @@ class Canvas:
     def at(self, mouse: tuple[float, float]) -> tuple[float, float]:
         """Window coordinates as canvas coordinates, 1920 x 1080; outside of the canvas for a black bar."""
         window = pygame.display.get_surface()
-        area = _fitted(window.get_size()) if window else pygame.Rect((0, 0), SIZE)
+        area = _fit_canvas(window.get_size()) if window else pygame.Rect((0, 0), SIZE)
         if not area.w or not area.h:
             return (-1.0, -1.0)
         if self._warp is not None and self._warp.size == area.size:
@@ -180,10 +180,10 @@ class Canvas:
         return self.fullscreen
 
     def show(self, display: int, fullscreen: bool) -> None:
-        """Move to a display, windowed or full screen. On failure stay, else fall back to a window on the first display."""
+        """Move to a display, windowed or full screen. Falls back to the old mode, then to a window on display 1."""
         before = (self.display, self.fullscreen)
-        for place in ((display, fullscreen and not self.headless), before, (0, False)):
-            self.display, self.fullscreen = place
+        for mode in ((display, fullscreen and not self.headless), before, (0, False)):
+            self.display, self.fullscreen = mode
             try:
                 self._show()
                 return
@@ -231,12 +231,12 @@ class Canvas:
         now, pointer = time.monotonic(), pygame.mouse.get_pos()
         if pointer != self._pointer:
             self._pointer, self._pointer_moved = pointer, now
-        seen = now - self._pointer_moved < CURSOR_SECONDS
-        if seen != pygame.mouse.get_visible():
-            pygame.mouse.set_visible(seen)
+        visible = now - self._pointer_moved < CURSOR_SECONDS
+        if visible != pygame.mouse.get_visible():
+            pygame.mouse.set_visible(visible)
 
 
-def _tell_sdl(headless: bool) -> None:
+def _set_sdl_hints(headless: bool) -> None:
     hints = {
         "SDL_WINDOWS_DPI_AWARENESS": "permonitorv2",
         "SDL_VIDEO_MINIMIZE_ON_FOCUS_LOSS": "0",
@@ -245,7 +245,7 @@ def _tell_sdl(headless: bool) -> None:
     }
     for name, value in hints.items():
         os.environ.setdefault(name, value)
-    if headless and os.environ.get("SDL_VIDEODRIVER") not in _UNSEEN:
+    if headless and os.environ.get("SDL_VIDEODRIVER") not in _MEMORY_DRIVERS:
         os.environ["SDL_VIDEODRIVER"] = "dummy"
 
 
@@ -258,14 +258,14 @@ def _window_size(desktop: tuple[int, int]) -> tuple[int, int]:
     """The canvas size if the desktop is larger, else the largest of that shape that leaves a margin."""
     if desktop[0] > SIZE[0] and desktop[1] > SIZE[1]:
         return SIZE
-    return _fitted((int(desktop[0] * 0.85), int(desktop[1] * 0.85))).size
+    return _fit_canvas((int(desktop[0] * 0.85), int(desktop[1] * 0.85))).size
 
 
-def _fitted(room: tuple[int, int]) -> pygame.Rect:
+def _fit_canvas(area_size: tuple[int, int]) -> pygame.Rect:
     """The largest rectangle of the canvas's shape, centred in an area."""
-    factor = min(room[0] / SIZE[0], room[1] / SIZE[1])
+    factor = min(area_size[0] / SIZE[0], area_size[1] / SIZE[1])
     w, h = round(SIZE[0] * factor), round(SIZE[1] * factor)
-    return pygame.Rect((room[0] - w) // 2, (room[1] - h) // 2, w, h)
+    return pygame.Rect((area_size[0] - w) // 2, (area_size[1] - h) // 2, w, h)
 
 
 def _paint_bars(window: pygame.Surface, area: pygame.Rect) -> None:

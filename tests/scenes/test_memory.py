@@ -73,13 +73,13 @@ def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> Non
 @pytest.mark.parametrize("game", games())
 def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[tuple[int, Hashable]] = []
-    keep = SurfaceCache._keep
+    keep = SurfaceCache._insert
 
     def noted(cache: SurfaceCache, entry: Entry) -> None:
         made.append((id(entry.table), entry.key))
         keep(cache, entry)
 
-    monkeypatch.setattr(SurfaceCache, "_keep", noted)
+    monkeypatch.setattr(SurfaceCache, "_insert", noted)
     warmed(arcade, game)
     assert len(made) == len(set(made)) > 2000
     assert surfaces.bytes <= surface_cache.BUDGET

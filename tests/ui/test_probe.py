@@ -27,7 +27,7 @@ def test_a_look_that_fails_leaves_the_others(monkeypatch, capsys):
     def crash():
         raise RuntimeError("the driver is confused")
 
-    monkeypatch.setitem(probe.LOOKS, "sound", crash)
+    monkeypatch.setitem(probe.CHECKS, "sound", crash)
     probe.main()
     assert '["sound", "", "the driver is confused"]' in capsys.readouterr().out.splitlines()
 

@@ -16,7 +16,7 @@ from typing import ParamSpec, TypeVar
 
 # Thread time where its resolution allows: other processes then do not use up a frame's budget.
 clock = thread_time if get_clock_info("thread_time").resolution < 1e-4 else perf_counter
-PAUSED = 4  # interrupted generators kept per function
+MAX_PAUSED = 4  # interrupted generators kept per function
 
 Args = ParamSpec("Args")
 Result = TypeVar("Result")
@@ -33,13 +33,13 @@ class FrameBudget:
 
     def __init__(self) -> None:
         self._end = math.inf
-        self._made = self._in_frame = False
+        self._built = self._in_frame = False
         self.behind = False  # the frame is late: draw the picture only, prewarm nothing
 
     @contextmanager
     def frame(self, behind: bool) -> Iterator[None]:
         """Scope of one frame; `behind`: it is late."""
-        self._in_frame, self._made, self.behind = True, False, behind
+        self._in_frame, self._built, self.behind = True, False, behind
         try:
             yield
         finally:
@@ -50,7 +50,7 @@ class FrameBudget:
         """Start no new work after `end`, a time of `clock`."""
         before = self._end
         self._end = min(before, end)
-        self._made = self._made and self._in_frame
+        self._built = self._built and self._in_frame
         try:
             yield
         finally:
@@ -58,12 +58,12 @@ class FrameBudget:
 
     def claim(self) -> None:
         """Call before building a sprite. Raises Unfinished if the budget is spent."""
-        if self._made and clock() >= self._end:
+        if self._built and clock() >= self._end:
             raise Unfinished
 
     def note(self) -> None:
         """Record that a sprite was built."""
-        self._made = True
+        self._built = True
 
     def pause(self) -> None:
         """Call between two sprites. Raises Unfinished if the budget is spent."""
@@ -109,8 +109,8 @@ def run_to_end(steps: Steps[Result]) -> Result:
         try:
             next(steps)
         except StopIteration as end:
-            made: Result = end.value
-            return made
+            value: Result = end.value
+            return value
 
 
 def resumable(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
@@ -121,21 +121,21 @@ def resumable(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
     paused: OrderedDict[Hashable, Steps[Result]] = OrderedDict()
 
     @wraps(work)
-    def result(*args: Args.args, **named: Args.kwargs) -> Result:
+    def run(*args: Args.args, **named: Args.kwargs) -> Result:
         key: Hashable = (args, *named.items())
         steps = paused.pop(key, None) or work(*args, **named)
         while True:
             try:
                 next(steps)
             except StopIteration as end:
-                run_to_end: Result = end.value
-                return run_to_end
+                value: Result = end.value
+                return value
             try:
                 budget.pause()
             except Unfinished:
                 paused[key] = steps
-                while len(paused) > PAUSED:
+                while len(paused) > MAX_PAUSED:
                     paused.popitem(last=False)
                 raise
 
-    return result
+    return run

@@ -100,10 +100,10 @@ class GlowCanvas:
     def void(self, points: Points, width: float, keep: float = 0.0) -> Self:
         """A black line that neighbouring glow does not fill, except for the share `keep`."""
         self.line(points, BLACK, width)
-        real, self.sheet = self.sheet, self._knock()
+        canvas, self.sheet = self.sheet, self._knock()
         shade = round(255 * keep)
         self.line(points, (shade, shade, shade), width)
-        self.sheet = real
+        self.sheet = canvas
         return self
 
     def _knock(self) -> pygame.Surface:
@@ -225,20 +225,20 @@ class GlowCanvas:
 
 def runs(tiles: set[tuple[int, int]]) -> list[tuple[int, int, int]]:
     """Merge tiles (column, row) into horizontal runs (row, first column, length)."""
-    found: list[tuple[int, int, int]] = []
+    merged: list[tuple[int, int, int]] = []
     for column, row in sorted(tiles, key=lambda tile: (tile[1], tile[0])):
-        if found and found[-1][0] == row and found[-1][1] + found[-1][2] == column:
-            found[-1] = row, found[-1][1], found[-1][2] + 1
+        if merged and merged[-1][0] == row and merged[-1][1] + merged[-1][2] == column:
+            merged[-1] = row, merged[-1][1], merged[-1][2] + 1
         else:
-            found.append((row, column, 1))
-    return found
+            merged.append((row, column, 1))
+    return merged
 
 
 def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, float]]) -> Steps[None]:
     """Add the blurs of (light, halos, strength), all the size of `out`, where `out` is dark."""
     size = out.get_size()
-    least = min(shrink for _, halos, _ in sources for shrink, _, _ in halos)
-    soft = pygame.Surface((max(1, size[0] // least), max(1, size[1] // least)))
+    min_shrink = min(shrink for _, halos, _ in sources for shrink, _, _ in halos)
+    soft = pygame.Surface((max(1, size[0] // min_shrink), max(1, size[1] // min_shrink)))
     for light, halos, glow in sources:
         small = light
         for shrink, radius, k in halos:

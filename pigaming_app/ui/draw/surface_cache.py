@@ -46,7 +46,7 @@ class SurfaceCache:
     def __init__(self, budget: int) -> None:
         self.budget = budget
         self.bytes = 0
-        self._kept = 0  # insertion counter
+        self._insertions = 0  # insertion counter
         self._order: OrderedDict[Entry, None] = OrderedDict()  # least recently used first
         self._holders: dict[int, int] = {}  # entries that keep a surface alive, by id of the surface
         self._game: str | None = None  # game tag of new entries
@@ -60,21 +60,21 @@ class SurfaceCache:
         use = self._order.move_to_end
 
         @wraps(make)
-        def found_or_made(*args: Args.args, **named: Args.kwargs) -> Result:
+        def lookup(*args: Args.args, **named: Args.kwargs) -> Result:
             key: Hashable = (args, *named.items()) if named else args
             entry = table.get(key)
             if entry is not None:
-                if entry.used != self._kept:
-                    entry.used = self._kept
+                if entry.used != self._insertions:
+                    entry.used = self._insertions
                     use(entry)
                 return entry.value  # type: ignore[return-value]  # it was made by `make`
             budget.claim()
             value = make(*args, **named)
             budget.note()
-            self._keep(Entry(table, key, value, self._game))
+            self._insert(Entry(table, key, value, self._game))
             return value
 
-        return found_or_made
+        return lookup
 
     @contextmanager
     def made_for(self, game: str) -> Iterator[None]:
@@ -95,13 +95,13 @@ class SurfaceCache:
         for entry in list(self._order):
             self._drop(entry)
 
-    def _keep(self, entry: Entry) -> None:
+    def _insert(self, entry: Entry) -> None:
         if sum(map(pixel_bytes, entry.surfaces)) > self.budget:
             return
         if entry.key in entry.table:  # another thread was first
             self._drop(entry.table[entry.key])
-        self._kept += 1
-        entry.used = self._kept
+        self._insertions += 1
+        entry.used = self._insertions
         self._order[entry] = None
         entry.table[entry.key] = entry
         for surface in entry.surfaces:

@@ -41,10 +41,10 @@ def wrap_balanced(text: str, count: int, size: int = BODY, face: str = "body") -
 
 
 def fit_lines(
-    text: str, room: float, most: int, sizes: Sequence[int] = range(BODY, SMALLEST, -2)
+    text: str, room: float, max_lines: int, sizes: Sequence[int] = range(BODY, SMALLEST, -2)
 ) -> tuple[int, list[str]]:
     """The first of `sizes` (px) at which a text fits `max_lines` lines of `room` px, else SMALLEST; and those lines."""
-    size = next((size for size in sizes if len(wrap(text, size, room)) <= most), SMALLEST)
+    size = next((size for size in sizes if len(wrap(text, size, room)) <= max_lines), SMALLEST)
     return size, wrap(text, size, room)
 
 
@@ -64,26 +64,26 @@ def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0
 
 @cached
 def text(
-    said: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
+    line: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
 ) -> LitImage:
     """One line with its capitals centred on y = 0, shrunk to `room` px. Every face except "body" glows faintly."""
-    size = fit_size(said, size, room, face)
+    size = fit_size(line, size, room, face)
     edge = 4 if face == "body" else 32  # px of margin for the glow
-    w, h = round(text_width(said, size, face)) + 2 * edge, 2 * size + 2 * edge
-    ink = GlowCanvas(w, h).text(said, size, edge, h / 2, color, face)
+    w, h = round(text_width(line, size, face)) + 2 * edge, 2 * size + 2 * edge
+    ink = GlowCanvas(w, h).text(line, size, edge, h / 2, color, face)
     left = -edge - round((w - 2 * edge) * {"l": 0.0, "c": 0.5, "r": 1.0}[align])
     return LitImage(ink.plain() if face == "body" else ink.lit(0.45), (left, -h // 2))
 
 
-def paragraph(said: str, room: int, most: int = 4, color: Color = ICE, align: str = "l") -> list[LitImage]:
+def paragraph(sentence: str, room: int, max_lines: int = 4, color: Color = ICE, align: str = "l") -> list[LitImage]:
     """A sentence as at most `max_lines` lines of `room` px; longer ones are set smaller."""
-    size, lines = fit_lines(said, room, most)
+    size, lines = fit_lines(sentence, room, max_lines)
     return [text(line, size, color, "body", align, room) for line in lines]
 
 
-def write_lines(layer: Layer, said: str, x: float, y: float, room: float, color: Color) -> float:
+def write_lines(layer: Layer, sentence: str, x: float, y: float, room: float, color: Color) -> float:
     """Draw a sentence on a layer, smaller where it needs more than three lines. Returns the y of the next line, px."""
-    size, lines = fit_lines(said, room, 3, (BODY, 36, 32))
+    size, lines = fit_lines(sentence, room, 3, (BODY, 36, 32))
     for line in lines:
         layer.canvas.body(line, x, y, color, "l", size)
         y += 1.35 * size

@@ -14,7 +14,7 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.filters import DIRECTIONS, AutoRepeat, ButtonChange
 
 _MOUSE = Device("mouse")
-_NOBODYS = (Button.FOUND, Button.LOST, Button.BRAIN, Button.STOP)  # do not change `last`
+_NOT_PERSONAL = (Button.FOUND, Button.LOST, Button.BRAIN, Button.STOP)  # do not change `last`
 _TURBOS = (
     None,
     Button.BACK,
@@ -34,22 +34,22 @@ class Controls:
         self._at = at
         self._pads = pads.Pads()
         self._keyboard = keyboard.Keyboard()
-        self._held = AutoRepeat()
-        self._edges = TapQueue()
+        self._repeat = AutoRepeat()
+        self._taps = TapQueue()
         self._down: dict[tuple[Device, Button], frozenset[str]] = {}
-        self.last = self._any()
+        self.last = self._default()
 
     def presses(self, events: Iterable[pygame.Event]) -> list[InputEvent]:
         """The button events of this frame, in order. Call it once per frame with all pygame events."""
-        made = [press for event in events for press in self._heard(event)]
-        for press in made:
-            if press.device != _MOUSE and press.button not in _NOBODYS:
+        pressed = [press for event in events for press in self._translate(event)]
+        for press in pressed:
+            if press.device != _MOUSE and press.button not in _NOT_PERSONAL:
                 self.last = press.device
-        return made
+        return pressed
 
     def repeats(self, seconds: float) -> list[InputEvent]:
         """Auto-repeat events of held directions, after `seconds` more of real time."""
-        return list(self._held.repeats(seconds))
+        return list(self._repeat.repeats(seconds))
 
     def drive(self, device: Device) -> StickState:
         """The current state of a device, neutral if it is unplugged. Call it once per tick.
@@ -57,21 +57,21 @@ class Controls:
         Taps of fire and turbo since the last call are queued, one per tick, however short they were.
         """
         if device.kind == "keys":
-            held = self._keyboard.drive(device.number)
+            state = self._keyboard.drive(device.number)
         elif device.kind == "pad" and device.number in self._pads.plugged:
             pad = self._pads.plugged[device.number]
             if not pad.attached():
                 return StickState()
-            held = pad.drive()
+            state = pad.drive()
         else:
             return StickState()
-        fire = self._edges.read(device, Button.FIRE, held.fire)
-        turbo = self._edges.read(device, None, held.turbo)
-        return StickState(held.linear, held.angular, fire, turbo)
+        fire = self._taps.read(device, Button.FIRE, state.fire)
+        turbo = self._taps.read(device, None, state.turbo)
+        return StickState(state.linear, state.angular, fire, turbo)
 
     def forget_taps(self) -> None:
         """Discard queued taps: they were meant for a page or for a paused match."""
-        self._edges.clear()
+        self._taps.clear()
 
     def holds(self, device: Device, button: Button) -> bool:
         """True if the button is down on this device; for the mouse, its left button."""
@@ -83,7 +83,7 @@ class Controls:
 
     def touched(self, device: Device) -> bool:
         """True if any button, key or direction of a device is down."""
-        return any(parts and held == device for (held, _), parts in self._down.items())
+        return any(parts and owner == device for (owner, _), parts in self._down.items())
 
     def connected(self, device: Device) -> bool:
         return device.kind != "pad" or device.number in self._pads.plugged
@@ -114,12 +114,12 @@ class Controls:
             return keyboard.label(device.number, button)
         return pads.label(self.name(device), button) if device.kind == "pad" else ""
 
-    def _heard(self, event: pygame.Event) -> Iterator[InputEvent]:
+    def _translate(self, event: pygame.Event) -> Iterator[InputEvent]:
         if event.type in (pygame.KEYDOWN, pygame.KEYUP):
             for device, change in self._keyboard.changes(event):
-                yield from self._changed(device, change)
+                yield from self._press(device, change)
         elif event.type in _MAPPED or event.type in _PLAIN:
-            yield from self._heard_pad(event)
+            yield from self._translate_pad(event)
         elif event.type == pygame.JOYDEVICEADDED:
             yield from (InputEvent(Button.FOUND, Device("pad", number)) for number in self._pads.look())
         elif event.type == pygame.JOYDEVICEREMOVED:
@@ -130,54 +130,54 @@ class Controls:
         elif event.type == pygame.MOUSEMOTION:
             yield InputEvent(Button.POINT, _MOUSE, at=self._at(event.pos))
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            self._note(_MOUSE, ButtonChange(Button.CLICK, True))
+            self._track(_MOUSE, ButtonChange(Button.CLICK, True))
             yield InputEvent(Button.CLICK, _MOUSE, at=self._at(event.pos))
         elif event.type == pygame.MOUSEBUTTONUP and event.button == pygame.BUTTON_LEFT:
-            self._note(_MOUSE, ButtonChange(Button.CLICK, False))
+            self._track(_MOUSE, ButtonChange(Button.CLICK, False))
 
-    def _heard_pad(self, event: pygame.Event) -> Iterator[InputEvent]:
+    def _translate_pad(self, event: pygame.Event) -> Iterator[InputEvent]:
         """SDL reports a mapped pad both as a controller and as a joystick: use the former only."""
         pad = self._pads.plugged.get(event.instance_id)
         if pad is not None and isinstance(pad, pads.MappedPad) == (event.type in _MAPPED):
             for change in pad.changes(event):
-                yield from self._changed(Device("pad", event.instance_id), change)
+                yield from self._press(Device("pad", event.instance_id), change)
 
-    def _changed(self, device: Device, change: ButtonChange) -> Iterator[InputEvent]:
-        self._note(device, change)
+    def _press(self, device: Device, change: ButtonChange) -> Iterator[InputEvent]:
+        self._track(device, change)
         button = change.button
         if button in DIRECTIONS:
-            if self._held.take(device, change):
+            if self._repeat.take(device, change):
                 yield InputEvent(button, device)
         elif change.down and button:
             shared = device.kind == "keys" and button in keyboard.SHARED
             yield InputEvent(button, device, among=self._keyboard.latest if shared else ())
 
-    def _note(self, device: Device, change: ButtonChange) -> None:
+    def _track(self, device: Device, change: ButtonChange) -> None:
         """Update the set of pressed parts, and queue the tap for the next tick."""
         before = parts = self._down.get((device, change.button), frozenset()) if change.button else frozenset()
         if change.button:
             parts = before | {change.part} if change.down else before - {change.part}
             self._down[device, change.button] = parts
         if change.button is Button.FIRE and bool(before) != bool(parts):
-            self._edges.note(device, Button.FIRE, change.down)
+            self._taps.note(device, Button.FIRE, change.down)
         elif change.down and change.button in _TURBOS and not (device.kind == "keys" and change.button is Button.BACK):
-            self._edges.note(device, None, True)  # turbo has a duration only: queue presses, not releases
+            self._taps.note(device, None, True)  # turbo has a duration only: queue presses, not releases
 
     def _lost(self, device: Device) -> InputEvent:
-        self._held.drop(device)
-        self._edges.clear(device=device)
+        self._repeat.drop(device)
+        self._taps.clear(device=device)
         self._down = {key: parts for key, parts in self._down.items() if key[0] != device}
         if self.last == device:
-            self.last = self._any()
+            self.last = self._default()
         return InputEvent(Button.LOST, device)
 
-    def _any(self) -> Device:
+    def _default(self) -> Device:
         """The device whose labels are shown before the first input."""
         return self.players()[0]
 
     def _release_keys(self) -> None:
         self._keyboard.release()
-        self._edges.clear("keys")
+        self._taps.clear("keys")
         self._down = {key: parts for key, parts in self._down.items() if key[0].kind == "pad"}
         for number in range(len(keyboard.CLUSTERS)):
-            self._held.drop(Device("keys", number))
+            self._repeat.drop(Device("keys", number))

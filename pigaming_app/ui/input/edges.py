@@ -4,7 +4,7 @@ from collections import deque
 
 from pigaming_app.ui.input.events import Button, Device
 
-MOST = 8  # queued edges per button: four taps
+MAX_EDGES = 8  # queued edges per button: four taps
 
 
 class TapQueue:
@@ -16,7 +16,7 @@ class TapQueue:
     def note(self, device: Device, button: Button | None, down: bool) -> None:
         """Queue an edge; it is dropped if the queue is full."""
         queue = self._queues.setdefault((device, button), deque())
-        if len(queue) < MOST:
+        if len(queue) < MAX_EDGES:
             queue.append(down)
 
     def read(self, device: Device, button: Button | None, held: bool) -> bool:

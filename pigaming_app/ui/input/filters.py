@@ -68,7 +68,7 @@ class StickDirection:
         if self._button and reach[self._button] < OFF:
             yield ButtonChange(self._button, False, "stick")
             self._button = None
-        furthest = max(reach, key=lambda act: reach[act])
+        furthest = max(reach, key=lambda button: reach[button])
         if self._button is None and reach[furthest] > ON:
             yield ButtonChange(furthest, True, "stick")
             self._button = furthest
@@ -77,8 +77,8 @@ class StickDirection:
 class Trigger:
     """An analogue trigger as a button, with hysteresis."""
 
-    def __init__(self, act: Button | None = Button.FIRE) -> None:
-        self.button, self.down = act, False
+    def __init__(self, button: Button | None = Button.FIRE) -> None:
+        self.button, self.down = button, False
 
     def moved(self, value: float) -> Iterator[ButtonChange]:
         """The changes caused by moving the trigger to `value` in [0, 1]."""

@@ -17,11 +17,11 @@ class HoldTimers:
     def update(self, seconds: float) -> list[InputEvent]:
         """Advance all timers; returns the events held long enough. Released buttons are dropped."""
         done = []
-        for device, (event, since) in list(self._held.items()):
-            self._held[device] = (event, since + seconds)
+        for device, (event, elapsed) in list(self._held.items()):
+            self._held[device] = (event, elapsed + seconds)
             if not self.controls.holds(device, event.button):
                 del self._held[device]
-            elif since + seconds >= self.needed:
+            elif elapsed + seconds >= self.needed:
                 del self._held[device]
                 done.append(event)
         return done
@@ -32,7 +32,7 @@ class HoldTimers:
     @property
     def shares(self) -> dict[Device, float]:
         """Elapsed share of the time for each device that holds a button, 0..1."""
-        return {device: min(1.0, since / self.needed) for device, (_, since) in self._held.items()}
+        return {device: min(1.0, elapsed / self.needed) for device, (_, elapsed) in self._held.items()}
 
     @property
     def share(self) -> float:

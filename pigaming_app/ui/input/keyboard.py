@@ -27,9 +27,9 @@ class Cluster:
     printed: dict[Button, str]
 
 
-def _printed(up: str, left: str, down: str, right: str, fire: str, turbo: str) -> dict[Button, str]:
-    acts = (Button.UP, Button.LEFT, Button.DOWN, Button.RIGHT, Button.FIRE, Button.LEAVE_SEAT)
-    return dict(zip(acts, (up, left, down, right, fire, turbo), strict=True))
+def _labels(up: str, left: str, down: str, right: str, fire: str, turbo: str) -> dict[Button, str]:
+    buttons = (Button.UP, Button.LEFT, Button.DOWN, Button.RIGHT, Button.FIRE, Button.LEAVE_SEAT)
+    return dict(zip(buttons, (up, left, down, right, fire, turbo), strict=True))
 
 
 CLUSTERS = (
@@ -41,7 +41,7 @@ CLUSTERS = (
         (pygame.KSCAN_SPACE,),
         (pygame.KSCAN_LSHIFT,),
         "WASD",
-        _printed("W", "A", "S", "D", "SPACE", "SHIFT"),
+        _labels("W", "A", "S", "D", "SPACE", "SHIFT"),
     ),
     Cluster(
         (pygame.KSCAN_UP,),
@@ -51,7 +51,7 @@ CLUSTERS = (
         (pygame.KSCAN_RCTRL, pygame.KSCAN_SLASH),  # many laptops have no right Ctrl
         (pygame.KSCAN_RSHIFT,),
         "← ↑ ↓ →",
-        _printed("↑", "←", "↓", "→", "R CTRL", "R SHIFT"),
+        _labels("↑", "←", "↓", "→", "R CTRL", "R SHIFT"),
     ),
     Cluster(
         (pygame.KSCAN_I,),
@@ -61,7 +61,7 @@ CLUSTERS = (
         (pygame.KSCAN_U,),
         (pygame.KSCAN_O,),
         "IJKL",
-        _printed("I", "J", "K", "L", "U", "O"),
+        _labels("I", "J", "K", "L", "U", "O"),
     ),
     Cluster(
         (pygame.KSCAN_KP8,),
@@ -71,7 +71,7 @@ CLUSTERS = (
         (pygame.KSCAN_KP0, pygame.KSCAN_KP_ENTER),
         (pygame.KSCAN_KP_PLUS,),
         "8456",
-        _printed("8", "4", "5", "6", "0", "+"),
+        _labels("8", "4", "5", "6", "0", "+"),
     ),
 )
 
@@ -86,7 +86,7 @@ _SHARED = {
     pygame.KSCAN_F1: Button.STOP,
 }
 SHARED = frozenset(_SHARED.values())
-_SHARED_PRINTED = {
+_SHARED_LABELS = {
     Button.START: "ENTER",
     Button.BACK: "ESC",
     Button.Y: "TAB",
@@ -94,7 +94,7 @@ _SHARED_PRINTED = {
     Button.BRAIN: "F4",
     Button.STOP: "F1",
 }
-_SYSTEM = pygame.KMOD_LALT | pygame.KMOD_GUI  # modifiers of window-manager shortcuts
+_SYSTEM_MODIFIERS = pygame.KMOD_LALT | pygame.KMOD_GUI  # modifiers of window-manager shortcuts
 
 
 def _own_keys() -> dict[int, tuple[Device, Button]]:
@@ -126,7 +126,7 @@ class Keyboard:
         """The change caused by a KEYDOWN or KEYUP event, and its cluster."""
         code = event.scancode
         down = event.type == pygame.KEYDOWN
-        if down == (code in self._down) or (down and event.mod & _SYSTEM):
+        if down == (code in self._down) or (down and event.mod & _SYSTEM_MODIFIERS):
             return
         (self._down.add if down else self._down.discard)(code)
         if code in _OWN:
@@ -154,4 +154,4 @@ class Keyboard:
 
 def label(number: int, button: Button) -> str:
     """The label of a cluster's key for a button; empty if there is none."""
-    return CLUSTERS[number].printed.get(button) or _SHARED_PRINTED.get(button, "")
+    return CLUSTERS[number].printed.get(button) or _SHARED_LABELS.get(button, "")

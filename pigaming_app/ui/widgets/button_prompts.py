@@ -50,20 +50,22 @@ class ButtonPrompts:
     def said(self) -> tuple[tuple[str, str], ...]:
         """The current (label, text) pairs; buttons the device lacks are left out."""
         words = self.words
-        return tuple((words.printed(self._label(act)), words(key)) for act, key in self.items if self._label(act))
+        return tuple(
+            (words.printed(self._label(action)), words(key)) for action, key in self.items if self._label(action)
+        )
 
     @property
     def buttons(self) -> list[Button]:
         """The buttons of the visible prompts."""
-        return [act for act, _ in self.items if self._label(act)]
+        return [action for action, _ in self.items if self._label(action)]
 
     def as_button(self, event: InputEvent) -> InputEvent:
         """A click on a prompt as a press of its button; any other event unchanged."""
         if event.button is not Button.CLICK or event.at is None or abs(event.at[1] - self.y) > HIGH:
             return event
-        for act, (left, right) in zip(self.buttons, places(self.said, self.room), strict=True):
+        for action, (left, right) in zip(self.buttons, places(self.said, self.room), strict=True):
             if left <= event.at[0] <= right:
-                return replace(event, button=act)
+                return replace(event, button=action)
         return event
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -74,28 +76,28 @@ class ButtonPrompts:
             pygame.draw.polygon(screen, STEEL, outline, THIN)
         row(self.said, self.y, self.room).draw(screen)
 
-    def _label(self, act: Button) -> str:
+    def _label(self, button: Button) -> str:
         """The button's label; "<>" for RIGHT, which stands for left and right."""
-        return "<>" if act is Button.RIGHT else self.controls.label(self.voice() if self.voice else None, act)
+        return "<>" if button is Button.RIGHT else self.controls.label(self.voice() if self.voice else None, button)
 
 
-def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
+def places(prompts: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
     """Left and right end of each prompt, px."""
-    widths = [button_width(label) + 18 + text_width(text, BODY, "body") for label, text in said]
+    widths = [button_width(label) + 18 + text_width(text, BODY, "body") for label, text in prompts]
     fitting = [gap for gap in GAPS if sum(widths) + gap * (len(widths) - 1) <= room]
     gap = fitting[0] if fitting else GAPS[-1]
-    x, out = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
+    x, ends = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
     for width in widths:
-        out.append((x, x + width))
+        ends.append((x, x + width))
         x += width + gap
-    return out
+    return ends
 
 
 @cached
-def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
+def row(prompts: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
     """The rendered row."""
-    ends = places(said, room)
+    ends = places(prompts, room)
     layer = Layer(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
-    for (label, text), (left, _) in zip(said, ends, strict=True):
+    for (label, text), (left, _) in zip(prompts, ends, strict=True):
         layer.canvas.body(text, left + button(layer.canvas, left, y, label) + 18, y, MIST)
     return layer.done()

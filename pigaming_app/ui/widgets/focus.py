@@ -16,7 +16,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Button, InputEvent
 
 GLIDE = 0.12  # seconds from one spot to the next
-ACROSS = 3.0  # cost of a pixel off the line, in pixels along it
+OFF_AXIS_COST = 3.0  # cost of a pixel off the line, in pixels along it
 SMALL = 150  # px; spots less high have small corners
 REACH = 84  # px of a corner's image on each side
 
@@ -98,8 +98,8 @@ class Focus:
 
     def draw(self, screen: pygame.Surface, color: Color = FOCUS) -> None:
         """Draw the four corners."""
-        breath = round(2.0 + 2.0 * math.sin(math.tau * self._clock))
-        box = self.box.inflate(2 * breath, 2 * breath)
+        pulse = round(2.0 + 2.0 * math.sin(math.tau * self._clock))
+        box = self.box.inflate(2 * pulse, 2 * pulse)
         small = self.spot.rect.h < SMALL
         for across, x in ((1, box.left), (-1, box.right)):
             for down, y in ((1, box.top), (-1, box.bottom)):
@@ -110,12 +110,12 @@ class Focus:
 
     def _next(self, event: InputEvent) -> str:
         """The nearest spot in a direction; past the last, wrap round unless the key repeats."""
-        way, here = WAYS[event.button], self.spot.rect
-        ahead = [spot for spot in self.spots if _beyond(here, spot.rect, way)]
+        direction, here = WAYS[event.button], self.spot.rect
+        ahead = [spot for spot in self.spots if _beyond(here, spot.rect, direction)]
         if ahead:
-            return min(ahead, key=lambda spot: _distance(here, spot.rect, way)).name
-        row = [spot for spot in self.spots if _gap(here, spot.rect, way) == 0]
-        return self.name if event.repeat else min(row, key=lambda spot: _along(here, spot.rect, way)).name
+            return min(ahead, key=lambda spot: _distance(here, spot.rect, direction)).name
+        row = [spot for spot in self.spots if _gap(here, spot.rect, direction) == 0]
+        return self.name if event.repeat else min(row, key=lambda spot: _along(here, spot.rect, direction)).name
 
 
 @cached
@@ -127,24 +127,24 @@ def corner(across: int, down: int, small: bool, color: Color) -> LitImage:
     return LitImage(ink.neon(points, color, width).lit(1.0), (-REACH, -REACH))
 
 
-def _beyond(here: pygame.Rect, there: pygame.Rect, way: tuple[int, int]) -> bool:
+def _beyond(here: pygame.Rect, there: pygame.Rect, direction: tuple[int, int]) -> bool:
     """True if a spot lies beyond this one's edge in a direction, not merely further that way."""
     edges = {(1, 0): there.left - here.right, (-1, 0): here.left - there.right, (0, 1): there.top - here.bottom}
-    return edges.get(way, here.top - there.bottom) >= -1
+    return edges.get(direction, here.top - there.bottom) >= -1
 
 
-def _along(here: pygame.Rect, there: pygame.Rect, way: tuple[int, int]) -> int:
+def _along(here: pygame.Rect, there: pygame.Rect, direction: tuple[int, int]) -> int:
     """Distance between the centres along the direction, px."""
-    return (there.centerx - here.centerx) * way[0] + (there.centery - here.centery) * way[1]
+    return (there.centerx - here.centerx) * direction[0] + (there.centery - here.centery) * direction[1]
 
 
-def _distance(here: pygame.Rect, there: pygame.Rect, way: tuple[int, int]) -> float:
-    aside = abs(there.centerx - here.centerx) if way[1] else abs(there.centery - here.centery)
-    return _along(here, there, way) + ACROSS * _gap(here, there, way) + 0.01 * aside
+def _distance(here: pygame.Rect, there: pygame.Rect, direction: tuple[int, int]) -> float:
+    aside = abs(there.centerx - here.centerx) if direction[1] else abs(there.centery - here.centery)
+    return _along(here, there, direction) + OFF_AXIS_COST * _gap(here, there, direction) + 0.01 * aside
 
 
-def _gap(here: pygame.Rect, there: pygame.Rect, way: tuple[int, int]) -> int:
+def _gap(here: pygame.Rect, there: pygame.Rect, direction: tuple[int, int]) -> int:
     """Gap between two spots across the direction, px; 0 if they overlap."""
-    if way[1]:
+    if direction[1]:
         return max(0, there.left - here.right, here.left - there.right)
     return max(0, there.top - here.bottom, here.top - there.bottom)

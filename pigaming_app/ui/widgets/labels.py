@@ -83,41 +83,41 @@ def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> LitI
 
 
 @cached
-def call_to_action(said: str, label: str, size: int, level: int = LEVELS) -> LitImage:
+def call_to_action(sentence: str, label: str, size: int, level: int = LEVELS) -> LitImage:
     """A yellow prompt centred on (0, 0); "{button}" in the text is replaced by the drawn button."""
     if level < LEVELS:
-        return dimmed(call_to_action(said, label, size), level / LEVELS)
-    before, hole, after = said.partition("{button}")
-    wide = button_width(label) + 36 if hole else 0
+        return dimmed(call_to_action(sentence, label, size), level / LEVELS)
+    before, placeholder, after = sentence.partition("{button}")
+    wide = button_width(label) + 36 if placeholder else 0
     size = fit_size(before.strip() + after.strip(), size, 1500 - wide)
     ends = [text_width(part.strip(), size) for part in (before, after)]
     x = -(sum(ends) + wide) / 2
     layer = Layer(x, -size, -2 * x, 2 * size)
     layer.canvas.text(before.strip(), size, x, 0, FOCUS)
-    if hole:
+    if placeholder:
         button(layer.canvas, x + ends[0] + 18, 0, label, FOCUS)
     layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, FOCUS)
     return layer.done()
 
 
-def call_to_action_width(said: str, label: str, size: int) -> float:
+def call_to_action_width(sentence: str, label: str, size: int) -> float:
     """Width of the call to action, px."""
-    return call_to_action(said, label, size).image.get_width() - 96
+    return call_to_action(sentence, label, size).image.get_width() - 96
 
 
-def chip_width(said: str) -> int:
+def chip_width(word: str) -> int:
     """Width of a chip, px."""
-    return round(text_width(said, BODY)) + 48
+    return round(text_width(word, BODY)) + 48
 
 
 @cached
-def chip(said: str, w: int, state: str = "off", high: int = 64) -> LitImage:
+def chip(word: str, w: int, state: str = "off", high: int = 64) -> LitImage:
     """A box with a word, upper left corner at (0, 0). `state`: off, on, focus (on and focused), ready (highlighted)."""
     edge = {"off": STEEL, "on": ICE, "focus": FOCUS, "ready": FOCUS}[state]
     layer = Layer(0, 0, w, high)
     layer.glow.line(cut_box(0, 0, w, high, 12), edge, THIN, True)
     color = {"off": MIST, "ready": FOCUS}.get(state, ICE)
-    layer.canvas.crisp.text(said, fit_size(said, BODY, w - 24), w / 2, high / 2, color, "head", "c")
+    layer.canvas.crisp.text(word, fit_size(word, BODY, w - 24), w / 2, high / 2, color, "head", "c")
     return layer.done()
 
 

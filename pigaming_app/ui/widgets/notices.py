@@ -10,8 +10,8 @@ from pigaming_app.ui.widgets.caption import caption
 
 STAY = 5.0  # seconds
 Y = 1040  # px, below the row of prompts
-ROOM = 1640  # px
-EVERY = 0.25  # seconds between two readings of the frame meter
+MAX_WIDTH = 1640  # px
+READING_PERIOD = 0.25  # seconds between two readings of the frame meter
 
 
 class Notices:
@@ -30,8 +30,8 @@ class Notices:
         """Draw the current sentence, `seconds` after the previous frame."""
         if not self.waiting:
             return
-        said = self.waiting[0]
-        caption(said, FOCUS, ICE, fit_size(said, BODY, ROOM, "body")).draw(screen, 960, Y)
+        sentence = self.waiting[0]
+        caption(sentence, FOCUS, ICE, fit_size(sentence, BODY, MAX_WIDTH, "body")).draw(screen, 960, Y)
         self.age += seconds
         if self.age > STAY:
             self.waiting.popleft()
@@ -42,20 +42,20 @@ class FrameMeter:
     """Frame rate, and the longest update and draw times since the last reading."""
 
     def __init__(self) -> None:
-        self.shown, self.fps = False, 0.0
-        self._age = self._moved = self._painted = 0.0
+        self.visible, self.fps = False, 0.0
+        self._age = self._update = self._draw = 0.0
         self._text: pygame.Surface | None = None
 
-    def note(self, seconds: float, moved: float, painted: float) -> None:
+    def note(self, seconds: float, update: float, draw: float) -> None:
         """Record one frame; all times in seconds."""
         self._age += seconds
-        self._moved, self._painted = max(self._moved, moved), max(self._painted, painted)
-        if self._age >= EVERY:
-            said = f"{self.fps:3.0f} fps   move {1e3 * self._moved:4.1f} ms   paint {1e3 * self._painted:4.1f} ms"
-            self._text = font("head", 28).render(said, True, ICE, (0, 0, 0)) if self.shown else None
-            self._age = self._moved = self._painted = 0.0
+        self._update, self._draw = max(self._update, update), max(self._draw, draw)
+        if self._age >= READING_PERIOD:
+            line = f"{self.fps:3.0f} fps   move {1e3 * self._update:4.1f} ms   paint {1e3 * self._draw:4.1f} ms"
+            self._text = font("head", 28).render(line, True, ICE, (0, 0, 0)) if self.visible else None
+            self._age = self._update = self._draw = 0.0
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the last reading, if enabled."""
-        if self.shown and self._text:
+        if self.visible and self._text:
             screen.blit(self._text, (12, 1046))
