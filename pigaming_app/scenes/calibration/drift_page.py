@@ -1,4 +1,4 @@
-"""Does the calibration still hold? The corner markers are shown, and by how much they are not where they should be."""
+"""Drift check: compares the corner markers seen by the camera with the calibration."""
 
 from functools import partial
 
@@ -23,9 +23,9 @@ from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 
 BAR = pygame.Rect(560, 640, 800, 40)
-ROOM = 1040  # px between the spot for a robot and as much on the other side
+ROOM = 1040  # px, width of the text between the robot spot and its mirror image
 MOST = 20.0  # mm at the right end of the bar
-IDLE = 300.0  # seconds without a press until the title
+IDLE = 300.0  # seconds without input until the title
 
 
 class DriftPage:
@@ -41,13 +41,13 @@ class DriftPage:
         self.prompts = context.prompts([(Button.BACK, "calibrate.hint_back")])
 
     def entered(self) -> None:
-        """Look."""
+        """Start the check."""
         if self.context.session is not None:
             self.context.session.close()
         self.work.begin()
 
     def left(self) -> None:
-        """Let go of the camera."""
+        """Release the camera."""
         self.work.close()
 
     def on(self, event: InputEvent) -> Turn:
@@ -59,14 +59,12 @@ class DriftPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Look on."""
         self.clock += seconds
         self.site.advance(seconds)
         self.work.pump()
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the markers, and between them what is known."""
         words, work = self.context.words, self.work
         screen.fill((0, 0, 0))
         text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
@@ -85,7 +83,7 @@ class DriftPage:
         self.prompts.draw(screen)
 
     def _draw_spot(self, screen: pygame.Surface) -> None:
-        """A robot here shows by its marker whether the width of the mat was measured well."""
+        """Show the size of a robot's marker here, a check of the measured mat width."""
         words, work = self.context.words, self.work
         x, y = LEFT + SPOT[0], TOP + SPOT[1]
         pygame.draw.circle(screen, GREY, (x, y), DISC)
@@ -109,7 +107,7 @@ class DriftPage:
 
 @cached
 def bar() -> LitImage:
-    """The empty bar, with marks where it warns and where a match pauses."""
+    """The empty bar, with marks at the warning and pause limits."""
     layer = Layer(BAR.x, BAR.y - 20, BAR.w, 120)
     layer.glow.line(cut_box(BAR.x, BAR.y, BAR.w, BAR.h, 8), STEEL, 4, True)
     marks: tuple[tuple[float, Color], ...] = ((WARN, FOCUS), (PAUSE, ALARM))

@@ -1,4 +1,4 @@
-"""The picture of what a calibration gets wrong: an arrow at every corner of the held-out board, much enlarged."""
+"""The residual plot: magnified error arrows at every corner of the held-out board."""
 
 import pygame
 
@@ -7,15 +7,15 @@ from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEE
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 
-AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the picture
+AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the plot
 SIDE = pygame.Rect(span(8, 4)[0] + 24, 226, span(8, 4)[1] - 24, 600)  # of the numbers beside it
-SCALE = 0.47  # px of the picture for a px of the canvas
-LONGEST = 40.0  # px, of the longest arrow
+SCALE = 0.47  # plot px per canvas px
+LONGEST = 40.0  # px, length of the longest arrow
 TIMES = (2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
 def arrows(residuals: Residuals) -> tuple[LitImage, int]:
-    """The picture, and how many times as large as on the mat the arrows are. Made once, not in a steady frame."""
+    """The plot and its magnification. Built once, not in a steady frame."""
     lengths = (residuals.misses**2).sum(axis=1) ** 0.5
     longest = max(float(lengths.max()) * SCALE, 1e-6)
     times = max((one for one in TIMES if one * longest <= LONGEST), default=1)
@@ -36,13 +36,13 @@ def arrows(residuals: Residuals) -> tuple[LitImage, int]:
 
 
 def _at(x: float, y: float) -> tuple[float, float]:
-    """A place of the arena, px, on the page; the canvas lies round it."""
+    """Arena px as px on the page; the canvas extends beyond the arena."""
     return AREA.centerx + (x + 160 - 960) * SCALE, AREA.y + 12 + (y + 140) * SCALE
 
 
 @cached
 def figure(name: str, told: str, share: float, need: str) -> LitImage:
-    """One error as a number, and as a bar, full at twice the limit; `share` of the limit. Upper left at (0, 0)."""
+    """One error as a number and a bar, full at twice the limit; `share` of the limit. Upper left corner at (0, 0)."""
     layer = Layer(0, -20, SIDE.w, 190)
     color: Color = ICE if share <= 1.0 else ALARM
     layer.canvas.body(name, 0, 20, MIST)

@@ -1,4 +1,4 @@
-"""The first page of the calibration: which display, which camera, what was measured; beside it what the camera sees."""
+"""The calibration setup: display, camera and measurements, with a live camera preview."""
 
 import logging
 
@@ -29,26 +29,26 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
-HASTE = ((40, 100), (14, 10), (0, 1))  # after so many presses of a held direction, steps of so many mm
-USUAL = 2500  # mm, a height to begin with
-IDLE = 600.0  # seconds without a press until the title
-EVERY = 2.0  # s between two looks for cameras that were plugged in
-SAID = 5.0  # seconds for which a sentence stays
+HASTE = ((40, 100), (14, 10), (0, 1))  # step in mm after this many auto-repeats
+USUAL = 2500  # mm, initial height
+IDLE = 600.0  # seconds without input until the title
+EVERY = 2.0  # s between two scans for cameras
+SAID = 5.0  # seconds for which a sentence is shown
 PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
 
 log = logging.getLogger("pigaming")
 
 
 def site_of(context: Context) -> CalibrationSite:
-    """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
+    """The calibration site: of the emulated arena, if the arcade has one, else the real one."""
     try:
         return context.session.site if context.session is not None else RealCalibrationSite()
     except RobotsUnavailable:
-        return RealCalibrationSite()  # without OpenCV there is nothing; the page says so
+        return RealCalibrationSite()  # without OpenCV there is none; the page shows the reason
 
 
 class CalibrationPage:
-    """The page. `camera`: one to begin with, else the one of the settings."""
+    """The page. `camera`: the initial one, else that of the settings."""
 
     def __init__(self, context: Context, site: CalibrationSite | None = None, camera: int | None = None) -> None:
         self.context, self.site = context, site or site_of(context)
@@ -58,7 +58,7 @@ class CalibrationPage:
         self.known = self.site.cameras()
         self.state = ""
         self._state_of: tuple[int, int] = (0, 0)
-        self.asked = 0.0  # s since it was asked which cameras there are
+        self.asked = 0.0  # s since the last scan for cameras
         self.held = 0
         self._small: object = None
         self._picture: pygame.Surface | None = None
@@ -68,19 +68,19 @@ class CalibrationPage:
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
-        """Look through the camera, also after a calibration."""
+        """Open the camera, also when a calibration returns here."""
         self.known = self.site.cameras()
         if self.site.name == "real" and self.known and self.number not in [one.number for one in self.known]:
             self.number = self.known[0].number
         self._look()
 
     def left(self) -> None:
-        """Let go of the camera."""
+        """Release the camera."""
         if self.preview is not None:
             self.preview.close()
 
     def on(self, event: InputEvent) -> Turn:
-        """Up and down choose a row, left and right change it; the last row begins."""
+        """Up and down select a row, left and right change it; the last row starts the calibration."""
         event = self.navigation.prompts.as_button(event)
         if turn := self.navigation.on(event):
             return turn
@@ -95,7 +95,6 @@ class CalibrationPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Look; leave when nobody is there."""
         self.asked += seconds
         if self.asked > EVERY:
             self.asked, self.known = 0.0, self.site.cameras()
@@ -107,7 +106,6 @@ class CalibrationPage:
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("calibrate.title"), self.state).draw(screen)
@@ -127,10 +125,10 @@ class CalibrationPage:
             call_to_action(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
         self.navigation.prompts.draw(screen)
 
-    # ---- what is seen
+    # ---- drawing
 
     def _draw_camera(self, screen: pygame.Surface) -> None:
-        """The camera's picture, or why there is none."""
+        """The camera picture, or the reason for its absence."""
         preview, words = self.preview, self.context.words
         if preview is None:
             return
@@ -151,7 +149,7 @@ class CalibrationPage:
         text(said, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below)
 
     def _look_up(self, size: tuple[int, int]) -> None:
-        """Whether there is a calibration for this camera and display."""
+        """Show the state of the calibration for this camera and display."""
         self._state_of, words = size, self.context.words
         try:
             file = store.calibration_file(self.site.name)
@@ -161,7 +159,7 @@ class CalibrationPage:
             log.warning("%s", english().explained(trouble.message))
             self.state = words.sentence(trouble.message)
 
-    # ---- what the rows are
+    # ---- rows
 
     def _rows(self) -> tuple[str, ...]:
         return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
@@ -196,7 +194,7 @@ class CalibrationPage:
         return None
 
     def _change(self, name: str, by: int, around: bool = False) -> None:
-        """The next value of a row, or the one before it."""
+        """Step a row's value."""
         measures, canvas = self.measures, self.context.canvas
         self.context.sounds.play("move")
         match name:
@@ -217,7 +215,7 @@ class CalibrationPage:
         self._keep()
 
     def _measure(self, name: str, by: int) -> None:
-        """More or less of a length; faster, the longer the direction is held."""
+        """Step a length; faster, the longer the direction is held."""
         low, high = LIMITS[name]
         step = next(step for held, step in HASTE if self.held >= held)
         values = {"width": self.measures.width, "lid": self.measures.lid, "height": self.measures.height}
@@ -225,7 +223,7 @@ class CalibrationPage:
         self.measures = Measurements(values["width"], values["height"], values["lid"])
 
     def _show(self, display: int, fullscreen: bool) -> None:
-        """Move the picture; a calibration belongs to where it is."""
+        """Move the picture; the calibration depends on the display."""
         canvas, settings = self.context.canvas, self.context.settings
         canvas.show(display, fullscreen)
         settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
@@ -238,10 +236,10 @@ class CalibrationPage:
         self.number = numbers[(here + by) % len(numbers)]
         self._look()
 
-    # ---- what happens
+    # ---- actions
 
     def _look(self) -> None:
-        """Look through the camera that is chosen, once the one before is free."""
+        """Open the selected camera, after closing the previous one."""
         self._state_of = (0, 0)
         if self.context.session is not None:
             self.context.session.close()
@@ -250,7 +248,7 @@ class CalibrationPage:
         self.preview.begin()
 
     def _begin(self) -> Turn:
-        """Show the boards on the whole display."""
+        """Start the calibration, full screen."""
         self.context.sounds.play("accept")
         self.left()
         canvas = self.context.canvas
@@ -266,7 +264,7 @@ class CalibrationPage:
         return Measurements(settings.arena_mm, settings.camera_mm, settings.lid_mm)
 
     def _keep(self) -> None:
-        """Remember what is chosen; an emulated arena is not worth it."""
+        """Save the choices, except for an emulated arena."""
         settings, measures = self.context.settings, self.measures
         if self.site.name != "real":
             return

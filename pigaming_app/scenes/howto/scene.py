@@ -1,4 +1,4 @@
-"""How to play, in four moving pictures a game: one idea each, a few words under it, keys of the device used last."""
+"""How to play: four animated pictures per game with captions, and the buttons of the device used last."""
 
 from collections.abc import Sequence
 
@@ -30,23 +30,23 @@ from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_w
 
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
-IDLE = 90.0  # seconds without a press until the title
+IDLE = 90.0  # seconds without input until the title
 LEAVE = (Button.FIRE, Button.BACK, Button.START, Button.CLICK)
 
 
 class HowTo:
-    """The page of one game; left and right, or a click on a name, show another's, almost any other press leaves."""
+    """The page of one game; left and right, or a click on a name, switch games, most other buttons leave."""
 
     def __init__(self, context: Context, game: str = "pitanks") -> None:
         self.context, self.game = context, game
         self.clock = 0.0
 
     def entered(self) -> None:
-        """Begin all pictures."""
+        """Restart the animations."""
         self.clock = 0.0
 
     def on(self, event: InputEvent) -> Turn:
-        """Show another game, or leave."""
+        """Switch games, or leave."""
         named = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
         if event.button in (Button.LEFT, Button.RIGHT):
             games = list(LESSONS)
@@ -59,12 +59,10 @@ class HowTo:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the pictures move."""
         self.clock += seconds
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint panels, pictures and keys."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("title.howto")).draw(screen)
@@ -91,7 +89,7 @@ class HowTo:
             self.game, self.clock = game, 0.0
 
     def _names(self) -> list[tuple[str, pygame.Rect]]:
-        """The games by name and where these stand, at the right end of the heading."""
+        """The games and the rectangles of their names, at the right end of the heading."""
         boxes, right = [], RIGHT
         for game in reversed(LESSONS):
             w = chip_width(self.context.words(f"games.{game}"))
@@ -100,7 +98,7 @@ class HowTo:
         return boxes[::-1]
 
     def _keys(self) -> tuple[tuple[str, str], ...]:
-        """What is printed on the device used last, and what it does; the last one stands at the right end."""
+        """(label, action) pairs for the device used last; the last pair is right-aligned."""
         words, controls = self.context.words, self.context.controls
         device = controls.last
         turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
@@ -117,7 +115,7 @@ class HowTo:
 @cached
 @resumable
 def frame(number: int, w: int) -> Steps[LitImage]:
-    """An empty panel with its number; upper left at (0, 0)."""
+    """An empty panel with its number; upper left corner at (0, 0)."""
     layer = Layer(0, 0, w, HIGH)
     panel(layer.glow, 0, 0, w, HIGH, STEEL)
     layer.glow.fill(regular_polygon(40, 32, 0, w / 2, 0), ICE)
@@ -128,7 +126,7 @@ def frame(number: int, w: int) -> Steps[LitImage]:
 
 @cached
 def caption(said: str, room: int) -> LitImage:
-    """A few words in lines of about the same length, their middle at (0, 0)."""
+    """A caption in lines of similar length, centred on (0, 0)."""
     lines = wrap_balanced(said, len(wrap(said, BODY, room)))
     layer = Layer(-room / 2, -70, room, 140)
     for i, line in enumerate(lines):
@@ -140,7 +138,7 @@ def caption(said: str, room: int) -> LitImage:
 @cached
 @resumable
 def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
-    """The row at the foot: all but the last from the left, the last at the right end."""
+    """The row at the foot: left-aligned, except for the last item at the right end."""
     layer = Layer(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
     for i, (label, what) in enumerate(items):

@@ -1,6 +1,6 @@
-"""Pads and keys as the test of the controls draws them: still pictures, and the lights that go on over them.
+"""Drawings of pads and keys for the controls test: static images and highlights.
 
-A card is W x H px, its upper left at (0, 0).
+A card is W x H px, with its upper left corner at (0, 0).
 """
 
 import pygame
@@ -29,7 +29,7 @@ from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button
 
 W, H = span(0, 3)[1], 340
-STICK, REACH = (112, 188), 58  # the middle of a stick, and how far its knob goes, px
+STICK, REACH = (112, 188), 58  # px: centre of the stick, and reach of its knob
 KEY = 70
 KEYS = {
     Button.UP: pygame.Rect(104, 28, KEY, KEY),
@@ -47,7 +47,7 @@ START_LINE = cut_box(START.x, START.y, START.w, START.h, 10)
 
 @cached
 def no_pad(said: str, line: str) -> LitImage:
-    """A place where a pad could be."""
+    """The placeholder of a pad."""
     layer = Layer(0, 0, W, H)
     layer.glow.dashes(cut_box(0, 0, W, H, 20), STEEL, THIN, 22, 16)
     icon(layer.glow, "pad", W / 2, 118, 62, STEEL, THIN)
@@ -58,7 +58,7 @@ def no_pad(said: str, line: str) -> LitImage:
 
 @cached
 def pad(name: str, labels: tuple[str, ...]) -> LitImage:
-    """A pad of that name; `labels` of fire, back, extra, alt and start."""
+    """A pad with its name and the labels of FIRE, BACK, X, Y and START."""
     layer = Layer(0, 0, W, H)
     panel(layer.glow, 0, 0, W, H, STEEL)
     icon(layer.glow, "pad", 62, 56, 34, MIST, THIN)
@@ -76,7 +76,7 @@ def pad(name: str, labels: tuple[str, ...]) -> LitImage:
 
 @cached
 def pad_light(button: Button, label: str) -> LitImage:
-    """A pressed button of a pad, over its card."""
+    """The highlight of a pressed pad button, to draw over its card."""
     if button is Button.START:
         layer = Layer(*START)
         layer.glow.fill(START_LINE, dim(FOCUS, 0.35)).line(START_LINE, FOCUS, THIN, True)
@@ -90,13 +90,13 @@ def pad_light(button: Button, label: str) -> LitImage:
 
 @cached
 def knob() -> LitImage:
-    """The head of a stick, round (0, 0)."""
+    """The knob of a stick, centred on (0, 0)."""
     return LitImage(GlowCanvas(96, 96).disc(48, 48, 20, FOCUS).lit(1.0), (-48, -48))
 
 
 @cached
 def cap(label: str, w: int, h: int, down: bool) -> LitImage:
-    """A key, held down or not."""
+    """A key, pressed or not."""
     layer = Layer(0, 0, w, h)
     edge = FOCUS if down else STEEL
     if down:
@@ -111,7 +111,7 @@ def cap(label: str, w: int, h: int, down: bool) -> LitImage:
 
 
 def _printed(ink: GlowCanvas, label: str, x: float, y: float, color: Color) -> None:
-    """A letter, or the shape that stands for one."""
+    """A letter, or the icon for its label."""
     if label in SIGNS:
         icon(ink, SIGNS[label], x, y, 17, color, THIN)
     else:

@@ -1,6 +1,6 @@
-"""The options: what they change is changed at once, and kept on disk at once.
+"""Options page: changes apply and are saved immediately.
 
-In a kiosk the page offers only what children may touch; the operator's page offers everything.
+In a kiosk the page offers only what children may change; the operator's page offers everything.
 """
 
 import logging
@@ -27,10 +27,10 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-IDLE = 90.0  # seconds without a press until the title
-SAID = 3.0  # seconds for which a sentence stays
-CLEAR = 2.0  # seconds for which a button is held to empty the tables
-AHEAD = 2.0  # ms of a frame for pieces that a move of the focus will need
+IDLE = 90.0  # seconds without input until the title
+SAID = 3.0  # seconds for which a sentence is shown
+CLEAR = 2.0  # seconds for which a button is held to clear the high scores
+AHEAD = 2.0  # ms per frame for prewarming
 FLASHES = ("off", "soft", "full")
 ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "robots", "reset")
 FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
@@ -39,7 +39,7 @@ log = logging.getLogger("pigaming")
 
 
 class OptionsPage:
-    """The options; `operator`: everything, also in a kiosk."""
+    """The options; `operator`: all rows, also in a kiosk."""
 
     def __init__(self, context: Context, operator: bool = False) -> None:
         self.context, self.operator = context, operator
@@ -59,10 +59,10 @@ class OptionsPage:
         self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
 
     def entered(self) -> None:
-        """Shown, or come back to from the test of the controls."""
+        pass
 
     def on(self, event: InputEvent) -> Turn:
-        """Up and down choose a row, left and right change it, fire changes it too or does what it says."""
+        """Up and down select a row, left and right change it, FIRE changes or activates it."""
         event = self.navigation.prompts.as_button(event)
         match event.button:
             case Button.LEFT | Button.RIGHT:
@@ -80,7 +80,6 @@ class OptionsPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let sentences fade; leave when nobody is there."""
         self.clock += seconds
         if self.clearing.update(seconds):
             self._clear()
@@ -88,7 +87,6 @@ class OptionsPage:
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words, focus = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("options.operator" if self.operator else "options.title")).draw(screen)
@@ -104,17 +102,17 @@ class OptionsPage:
             call_to_action(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
         self.navigation.prompts.draw(screen)
 
-    # ---- what is seen
+    # ---- drawing
 
     def _box(self, i: int) -> pygame.Rect:
-        """Where the i-th row is."""
+        """The rectangle of row `i`."""
         x, w = span(0, 8)
         pitch = min(96.0, (BOTTOM - TOP - HIGH) / max(1, len(self.rows) - 1))
-        high = min(HIGH, int(pitch))  # rows that overlap could not be told apart by the focus
+        high = min(HIGH, int(pitch))  # overlapping rows would be ambiguous for the focus
         return pygame.Rect(x, round(TOP + pitch * i) - high // 2, w, high)
 
     def _ahead(self) -> Iterator[Callable[[], object]]:
-        """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""
+        """Jobs for the widgets that the next focus move needs, so that it need not wait for them."""
         words = self.context.words
         for name in self.rows:
             yield partial(dials.label, words(f"options.{name}"), True)
@@ -126,7 +124,7 @@ class OptionsPage:
         value = self._value(name)
         return dials.value(value.kind, value.options, value.chosen, True)
 
-    # ---- what the rows are
+    # ---- rows
 
     def _value(self, name: str) -> SettingValue:
         settings, words, canvas = self.context.settings, self.context.words, self.context.canvas
@@ -151,13 +149,13 @@ class OptionsPage:
         return SettingValue("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
 
     def _change(self, name: str, by: int) -> None:
-        """The next value of a row, or the one before it."""
+        """Step a row's value."""
         value = self._value(name)
         most = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
         self._take(name, max(0, min(most, value.chosen + by)))
 
     def _do(self, name: str, event: InputEvent) -> Turn:
-        """Fire: the next value, round and round; or the deed."""
+        """FIRE: the next value, cyclically, or the action."""
         value = self._value(name)
         if value.kind != "deed":
             count = 11 if value.kind == "meter" else len(value.options)
@@ -191,7 +189,7 @@ class OptionsPage:
         return None
 
     def _take(self, name: str, chosen: int) -> None:
-        """Make a value so, at once."""
+        """Set a value and apply it."""
         if chosen == self._value(name).chosen:
             return
         context, settings, canvas = self.context, self.context.settings, self.context.canvas
@@ -214,7 +212,7 @@ class OptionsPage:
         self._keep()
 
     def _clear(self) -> None:
-        """Empty the tables of scores."""
+        """Clear the high scores and ghosts."""
         self.context.scores.reset()
         self.cleared = True
         self.context.sounds.play("accept")
@@ -225,7 +223,7 @@ class OptionsPage:
             log.warning("%s", trouble)
 
     def _keep(self, scores: bool = False) -> None:
-        """Save, or say in one sentence that it could not be saved."""
+        """Save settings or scores; on failure, show a sentence."""
         try:
             if scores:
                 self.context.scores.save(folders().data)

@@ -1,6 +1,6 @@
-"""A running match on the screen: real time goes in, ticks, pictures and sounds come out.
+"""Runs a match on the screen: real time in, ticks, pictures and sounds out.
 
-What a match, a demonstration and a replay have in common; who drives and what may be pressed is up to the scene.
+Shared by matches, demonstrations and replays; input and drivers belong to the scene.
 """
 
 from collections.abc import Sequence
@@ -21,17 +21,17 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import Caption, caption
 
-BEHIND = 72  # of 255: how bright a match is behind a page
-LAST = 10  # seconds before the end in which each second is heard
-BESIDE = 104  # px from a robot to what is said about it
+BEHIND = 72  # of 255: brightness of a match behind a page
+LAST = 10  # seconds at the end with a tick sound each
+BESIDE = 104  # px from a robot to its caption
 
 
 class MatchRunner:
-    """A match and its view. `loud`: its sounds are heard."""
+    """A match and its view. `loud`: play its sounds."""
 
     def __init__(self, context: Context, match: Match, loud: bool = True) -> None:
         self.context, self.match, self.loud = context, match, loud
-        self.players = [seat.brain for seat in match.setup.seats]  # who drives; may be changed
+        self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
         kind = VIEWS[match.setup.game]
         with self._making():
             self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
@@ -41,12 +41,12 @@ class MatchRunner:
         self.second = LAST + 1
 
     def warm(self, milliseconds: float) -> bool:
-        """Build sprites for so long; true when all are there."""
+        """Prewarm sprites for up to `milliseconds`; true when done."""
         with self._making():
             return bool(self.view.warm(milliseconds))
 
     def advance(self, seconds: float, speed: float = 1.0) -> None:
-        """Let the match run on for `seconds` of real time."""
+        """Advance the match by `seconds` of real time."""
         self.unseen += seconds
         for _ in range(self.timestep.due(seconds, speed)):
             if self.match.over:
@@ -60,11 +60,11 @@ class MatchRunner:
         self._count_down()
 
     def wait(self, seconds: float) -> None:
-        """Let real time pass in which the match stands still; its sparks and lights move on."""
+        """Advance only the effects of the view: the match is halted."""
         self.unseen += seconds
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the match, between its last two ticks."""
+        """Draw the match, interpolated between its last two ticks."""
         blend = 1.0 if self.match.over else self.timestep.blend
         unseen, self.unseen = self.unseen, 0.0
         with self._making():
@@ -72,25 +72,25 @@ class MatchRunner:
             self.brain.draw(screen, blend, unseen)
 
     def picture(self) -> pygame.Surface:
-        """The match as it stands, as dark as it lies behind a page."""
+        """The current match, darkened, as drawn behind a page."""
         canvas = pygame.Surface((1920, 1080))
         self.draw(canvas)
         canvas.fill((BEHIND, BEHIND, BEHIND), special_flags=pygame.BLEND_RGB_MULT)
         return canvas
 
     def robots(self) -> list[tuple[float, float]]:
-        """Where the robots stand on the canvas."""
+        """Positions of the robots on the canvas."""
         return [(LEFT + robot.x, TOP + robot.y) for robot in self.match.state.robots if robot.present]
 
     def captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
-        """Who drives with what, beside each robot."""
+        """Draw the driver's caption beside each robot."""
         for seat, robot in enumerate(self.match.state.robots):
             if robot.present:
                 name, sign = self.driver(seat, devices[seat])
                 self.beside(screen, seat, caption(name, PLAYERS[seat], sign=sign))
 
     def beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
-        """Paint something beside a robot, on the side where the arena has more room."""
+        """Draw a caption above or below a robot, where the arena has more room."""
         robot = self.match.state.robots[seat]
         margin = LEFT + 24 + sheet.width / 2
         x = min(max(LEFT + robot.x, margin), 1920 - margin)
@@ -98,7 +98,7 @@ class MatchRunner:
         sheet.draw(screen, x, TOP + robot.y + (beside if robot.y < HEIGHT / 2 else -beside))
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
-        """What drives a seat, in words, and the icon for it."""
+        """Name and icon of a seat's driver."""
         words = self.context.words
         if device and device.kind == "pad":
             return words(f"devices.{self.context.controls.name(device)}"), "pad"
@@ -112,7 +112,7 @@ class MatchRunner:
         return (words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else brain.upper()), "ai"
 
     def _making(self) -> AbstractContextManager[None]:
-        """Sprites that are made within are released once the game is over and the title is back."""
+        """Tag new sprites with the game, to release them when the title returns."""
         return surfaces.made_for(self.match.setup.game)
 
     def _count_down(self) -> None:

@@ -1,8 +1,8 @@
-"""A scripted walk through every screen of the arcade, which measures the CPU time of each frame.
+"""A scripted walk through every screen of the arcade, measuring the CPU time of each frame.
 
-A frame is events, update and draw, without the flip, which may wait for the display; only the thread of the frames
-counts. The walk is the cold case: a fresh process with empty folders, in which nothing is cached but what the arcade
-itself has prepared. Time is made up, and keys are real events.
+A frame is events, update and draw, without the flip, which may wait for the display; only the frame thread counts. The
+walk is the cold case: a new process with empty folders and only the arcade's own prewarming. Time is simulated; keys
+are real events.
 """
 
 import json
@@ -17,16 +17,16 @@ from pigaming_app.scenes.walk.tour import tour
 
 FPS = 30
 TAP = 2  # frames for which a key is held
-PATIENCE = 60.0  # s to wait for a screen
-WARM = 2.0  # s on the title before anything is pressed
+PATIENCE = 60.0  # s, timeout for a screen to appear
+WARM = 2.0  # s on the title before the first input
 
 
 class ScreenMissing(Exception):
-    """A screen did not come."""
+    """A screen did not appear in time."""
 
 
 class Walker:
-    """Somebody at the keyboard of an arcade; `worst`: ms of the longest frame, by the name given to each screen."""
+    """A simulated keyboard user; `worst`: ms of the longest frame by screen."""
 
     def __init__(self, app: App) -> None:
         self.app, self.context = app, app.context
@@ -35,19 +35,19 @@ class Walker:
 
     @property
     def top(self) -> Any:
-        """The scene that is shown."""
+        """The current scene."""
         return self.app.stack.top
 
     def on(self, kind: str) -> bool:
-        """Whether a scene of that class is shown."""
+        """True if the current scene is of this class."""
         return type(self.top).__name__ == kind
 
     def at(self, screen: str) -> None:
-        """Count what follows as frames of that screen."""
+        """Attribute the following frames to a screen."""
         self.screen = f"{screen} ({self.context.words.language})"
 
     def frame(self) -> None:
-        """One frame."""
+        """Run and measure one frame."""
         began = thread_time()
         painted = self.app.compose(1 / FPS)
         spent = 1000.0 * (thread_time() - began)
@@ -56,12 +56,12 @@ class Walker:
             self.context.canvas.flip()
 
     def wait(self, seconds: float) -> None:
-        """Let time pass."""
+        """Run frames for `seconds`."""
         for _ in range(round(seconds * FPS)):
             self.frame()
 
     def until(self, true: Callable[[], bool]) -> None:
-        """Let time pass until something is so. Raises Lost."""
+        """Run frames until `true()`. Raises ScreenMissing."""
         for _ in range(round(PATIENCE * FPS)):
             if true():
                 return
@@ -69,7 +69,7 @@ class Walker:
         raise ScreenMissing(f"{self.screen}: {type(self.top).__name__} is still shown")
 
     def press(self, *keys: str, pause: float = 0.1) -> None:
-        """Tap keys one after the other."""
+        """Tap keys in turn."""
         for key in keys:
             scancode = getattr(pygame, f"KSCAN_{key.upper()}")
             for kind in (pygame.KEYDOWN, pygame.KEYUP):
@@ -81,7 +81,7 @@ class Walker:
 
 
 def walk() -> dict[str, float]:
-    """Walk in this process; the first picture of all, for which nothing is shown yet, does not count."""
+    """Run the tour in this process. The very first picture is not measured."""
     with opened(Options(headless=True)) as app:
         walker = Walker(app)
         walker.frame()
