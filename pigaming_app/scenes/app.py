@@ -41,12 +41,12 @@ from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.notices import FrameMeter, Notices
 from pigaming_app.ui.window import Canvas
 
-FRAMES = 60  # frames per second
-SLOWEST = 0.1  # s; longer gaps (a dragged window, a suspended machine) are cut to this
-PAINTING = 0.012  # s into a frame after which no more missing sprites are built
-LATEST = 240  # frames after which a picture is completed without a budget
-SETTLING = 1.0  # s after the start during which pointer motion does not move the focus
-TROUBLES, QUIET = 5, 10.0  # give up after this many failures, each within this many s of the last
+FPS = 60  # frames per second
+MAX_FRAME_GAP = 0.1  # s; longer gaps (a dragged window, a suspended machine) are cut to this
+PREWARM_UNTIL = 0.012  # s into a frame after which no more missing sprites are built
+MAX_UNFINISHED = 240  # frames after which a picture is completed without a budget
+POINTER_IGNORED = 1.0  # s after the start during which pointer motion does not move the focus
+MAX_FAILURES, FAILURE_WINDOW = 5, 10.0  # give up after this many failures, each within this many s of the last
 
 log = logging.getLogger("pigaming")
 
@@ -82,34 +82,34 @@ def run(options: Options) -> int:
 def opened(options: Options) -> "Iterator[App]":
     """The arcade with window and devices; closes all and saves the settings on exit. Raises NoDisplay."""
     heap.return_large_blocks()
-    where = folders()
-    settings, said = Settings.load(where.config)
-    scores, more = Scores.load(where.data)
+    data_folders = folders()
+    settings, damaged = Settings.load(data_folders.config)
+    scores, damaged_scores = Scores.load(data_folders.data)
     for name, value in options.chosen.items():
         settings.choose(name, value)
     windowed = options.headless or options.emulate is not None  # next to the emulated camera's window
     canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
-    crash_file = _keep_log(where.data)
+    crash_file = _open_log(data_folders.data)
     pygame.font.init()
     context = Context(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)
     context.sounds.volume(settings.music, settings.sounds)
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
     context.preloader.then = context.compiler.start
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
+    old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
     try:
-        yield App(options, context, [*said, *more])
+        yield App(options, context, [*damaged, *damaged_scores])
     finally:
-        signal.signal(signal.SIGTERM, before)
+        signal.signal(signal.SIGTERM, old_handler)
         context.stop_all_robots()
         context.preloader.end()
         context.compiler.end()
         gc.unfreeze()
         session.end()
         context.sounds.close()
-        _keep(settings, where.config)
+        _save(settings, data_folders.config)
         if scores.unsaved:
-            _keep(scores, where.data)
+            _save(scores, data_folders.data)
         canvas.close()
         _close_log(crash_file)
 
@@ -119,7 +119,7 @@ class App:
 
     def __init__(self, options: Options, context: Context, troubles: list[str]) -> None:
         self.options, self.context = options, context
-        self.notices, self.gauge = Notices(), FrameMeter()
+        self.notices, self.meter = Notices(), FrameMeter()
         session = context.session
         self.window = CameraWindow(session) if isinstance(session, EmulatedSession) and session.live else None
         for line in troubles:
@@ -129,22 +129,22 @@ class App:
             self.notices.say(context.words("app.settings"))
         self._pin()
         self.frames, self.seconds = 0, 0.0
-        self.exempt = False  # whether loaded objects are exempt from garbage collection
+        self.frozen = False  # whether loaded objects are exempt from garbage collection
         self.shown, self.unfinished = False, 0  # whether a picture was shown yet; frames since the last one
-        self.failures, self.failed_at = 0, -QUIET
+        self.failures, self.failed_at = 0, -FAILURE_WINDOW
         self.code = 0
-        self.stack = self._begin()
-        self.lying = self._lying()  # ids of the scenes on the stack in the last frame
-        self.left = False  # a removed scene is still to be freed
+        self.stack = self._first_stack()
+        self.previous_ids = self._scene_ids()  # ids of the scenes on the stack in the last frame
+        self.to_free = False  # a removed scene is still to be freed
 
     def loop(self) -> int:
         """The main loop, until the stack is empty. Returns the exit code."""
         ticker, last = pygame.time.Clock(), perf_counter()
         while self.stack.scenes:
             now = perf_counter()
-            seconds = self.options.step or min(now - last, SLOWEST)
+            seconds = self.options.step or min(now - last, MAX_FRAME_GAP)
             last = now
-            if self._failed(seconds) and not self._recovered():
+            if self._frame_failed(seconds) and not self._recover():
                 return 1
             self.frames += 1
             self.seconds += seconds
@@ -153,11 +153,11 @@ class App:
             if self.frames == self.options.frames:
                 break
             if self.options.step is None:
-                ticker.tick(FRAMES)
-                self.gauge.fps = ticker.get_fps()
+                ticker.tick(FPS)
+                self.meter.fps = ticker.get_fps()
         return self.code
 
-    def _begin(self) -> Stack:
+    def _first_stack(self) -> Stack:
         if self.options.first and self.options.alone:
             return Stack(self.options.first(self.context))
         stack = Stack(_title(self.context))
@@ -179,7 +179,7 @@ class App:
             log.warning("%s", english().explained(trouble.message))
             self.notices.say(self.context.words("app.pin"))
 
-    def _failed(self, seconds: float) -> bool:
+    def _frame_failed(self, seconds: float) -> bool:
         """Run one frame; true if a scene failed, which is logged."""
         try:
             self._frame(seconds)
@@ -190,10 +190,10 @@ class App:
 
     def compose(self, seconds: float) -> bool:
         """Handle events, advance by `seconds` and draw the next picture; false if there is no new one to show."""
-        began, started = clock(), perf_counter()
+        cpu_start, start = clock(), perf_counter()
         freed = self._free_scenes()
         events = pygame.event.get()
-        if any(self._closes(event) for event in events) and not self.context.kiosk:
+        if any(self._is_close_event(event) for event in events) and not self.context.kiosk:
             self.stack.clear()
             return False
         for event in events:
@@ -201,23 +201,23 @@ class App:
                 self._function_key(event.key)
         first = not self.shown
         with budget.frame(self.unfinished > 0 or freed):
-            self._play(events, seconds)
-            played = perf_counter()
-            if not self.stack.scenes or not self._paint(began):
+            self._dispatch(events, seconds)
+            updated = perf_counter()
+            if not self.stack.scenes or not self._paint(cpu_start):
                 return False
-        self._say(self.context.canvas.screen, seconds)
+        self._draw_notices(self.context.canvas.screen, seconds)
         if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
-            self._prepare()
-        self.gauge.note(seconds, played - started, perf_counter() - played)
+            self._preload()
+        self.meter.note(seconds, updated - start, perf_counter() - updated)
         return True
 
-    def _paint(self, began: float) -> bool:
+    def _paint(self, cpu_start: float) -> bool:
         """Draw the top scene in the rest of a frame that started at `began`; false if it is incomplete."""
         screen = self.context.canvas.screen
-        limited = self.options.step is None and self.shown and self.unfinished < LATEST
+        limited = self.options.step is None and self.shown and self.unfinished < MAX_UNFINISHED
         try:
-            with budget.until(began + PAINTING if limited else math.inf):
-                if not self.unfinished and clock() >= began + PAINTING:
+            with budget.until(cpu_start + PREWARM_UNTIL if limited else math.inf):
+                if not self.unfinished and clock() >= cpu_start + PREWARM_UNTIL:
                     budget.note()  # the update took the whole frame: build missing sprites in the next one
                 self.stack.top.draw(screen)
         except Unfinished:
@@ -227,7 +227,7 @@ class App:
         self.shown, self.unfinished = True, 0
         return True
 
-    def _prepare(self) -> None:
+    def _preload(self) -> None:
         """While only the title is shown: start the preloader, then exempt all present objects from garbage collection.
 
         They stay alive, and traversing them would take 15 ms whenever a scene is freed.
@@ -235,8 +235,8 @@ class App:
         preloader = self.context.preloader
         if not preloader.begun:
             preloader.start()
-        elif not preloader.busy and not self.exempt:
-            self.exempt = True
+        elif not preloader.busy and not self.frozen:
+            self.frozen = True
             gc.collect()
             gc.freeze()
 
@@ -246,14 +246,14 @@ class App:
         Most are in reference cycles, and their canvases of 8 MB each would pile up: Python triggers the collection of
         cycles by the number of objects.
         """
-        before, self.lying = self.lying, self._lying()
-        self.left = self.left or bool(before - self.lying)
-        if not self.left or not heap.collect():
+        before, self.previous_ids = self.previous_ids, self._scene_ids()
+        self.to_free = self.to_free or bool(before - self.previous_ids)
+        if not self.to_free or not heap.collect():
             return False
-        self.left = False
+        self.to_free = False
         return True
 
-    def _lying(self) -> frozenset[int]:
+    def _scene_ids(self) -> frozenset[int]:
         return frozenset(map(id, self.stack.scenes))
 
     def _frame(self, seconds: float) -> None:
@@ -262,7 +262,7 @@ class App:
         if not self.stack.scenes:
             return
         if painted and self.options.shot and self.options.shot_due():
-            self.code = self._shoot(self.options.shot)
+            self.code = self._save_screenshot(self.options.shot)
             self.stack.clear()
             return
         if painted:
@@ -272,7 +272,7 @@ class App:
         if self.options.over():
             self.stack.clear()
 
-    def _shoot(self, path: Path) -> int:
+    def _save_screenshot(self, path: Path) -> int:
         """Save the screenshot. Returns the exit code."""
         try:
             self.context.canvas.screenshot(path)
@@ -282,7 +282,7 @@ class App:
             return 2
         return 0
 
-    def _closes(self, event: pygame.Event) -> bool:
+    def _is_close_event(self, event: pygame.Event) -> bool:
         """True if an event closes the arcade: with two windows open, SDL sends no QUIT for the first."""
         if event.type == pygame.QUIT:
             return True
@@ -290,11 +290,11 @@ class App:
             return False
         return event.type == pygame.WINDOWCLOSE
 
-    def _play(self, events: list[pygame.Event], seconds: float) -> None:
+    def _dispatch(self, events: list[pygame.Event], seconds: float) -> None:
         """Dispatch input to the top scene and update it."""
         controls, stack = self.context.controls, self.stack
         presses = [*controls.presses(events), *controls.repeats(seconds)]
-        if self.seconds < SETTLING:
+        if self.seconds < POINTER_IGNORED:
             presses = [press for press in presses if press.button is not Button.POINT]
         self.context.idle = 0.0 if presses else self.context.idle + seconds
         before = stack.scenes[-1:]
@@ -305,18 +305,18 @@ class App:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
             stack.turn(stack.top.update(seconds))
 
-    def _recovered(self) -> bool:
+    def _recover(self) -> bool:
         """After a scene has failed: clean up and restart at the title; false if that is impossible."""
         self.context.stop_all_robots()
-        self.failures = self.failures + 1 if self.seconds - self.failed_at < QUIET else 1
+        self.failures = self.failures + 1 if self.seconds - self.failed_at < FAILURE_WINDOW else 1
         self.failed_at = self.seconds
-        if self.failures >= TROUBLES or self.options.alone or not self.stack.scenes or not self._begun_again():
+        if self.failures >= MAX_FAILURES or self.options.alone or not self.stack.scenes or not self._restart():
             print(f"PiGaming: it cannot go on; {folders().data / 'pigaming.log'} says why.", file=sys.stderr)
             return False
         self.notices.say(self.context.words("app.error"))
         return True
 
-    def _begun_again(self) -> bool:
+    def _restart(self) -> bool:
         """Reset the canvas and show a new title; false if the title fails, too."""
         try:
             self.stack.clear()
@@ -336,7 +336,7 @@ class App:
         """F3 toggles the frame meter; F11 (full screen) and F12 (screenshot) are disabled in a kiosk."""
         context = self.context
         if key == pygame.K_F3:
-            self.gauge.visible = not self.gauge.visible
+            self.meter.visible = not self.meter.visible
         elif key == pygame.K_F11 and not context.kiosk:
             context.settings.fullscreen = context.canvas.toggle_fullscreen()
         elif key == pygame.K_F12 and not context.kiosk:
@@ -348,7 +348,7 @@ class App:
                 log.warning("%s", trouble)
                 self.notices.say(context.words("app.unsaved"))
 
-    def _say(self, screen: pygame.Surface, seconds: float) -> None:
+    def _draw_notices(self, screen: pygame.Surface, seconds: float) -> None:
         """Draw notices and the frame meter over the scene."""
         if self.context.canvas.notices:
             for line in self.context.canvas.notices:
@@ -356,7 +356,7 @@ class App:
             self.context.canvas.notices.clear()
             self.notices.say(self.context.words("app.display"))
         self.notices.draw(screen, seconds)
-        self.gauge.draw(screen)
+        self.meter.draw(screen)
 
 
 def _session(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSession | RealSession:
@@ -388,15 +388,15 @@ def _title(context: Context) -> Scene:
     return Title(context)
 
 
-def _keep(kept: Settings | Scores, folder: Path) -> None:
+def _save(record: Settings | Scores, folder: Path) -> None:
     try:
-        kept.save(folder)
+        record.save(folder)
     except NotSaved as trouble:
         log.warning("%s", trouble)
         print(f"PiGaming: {trouble}", file=sys.stderr)
 
 
-def _keep_log(data: Path) -> "IO[Any] | None":
+def _open_log(data: Path) -> "IO[Any] | None":
     """Open the log file and the crash log of the interpreter. Returns the latter, None on failure."""
     try:
         log.handlers[:] = [log_file(data)]

@@ -9,7 +9,7 @@ import pygame
 from pigaming_app.hardware.session.emulated import EmulatedSession
 
 SIZE = (960, 540)
-EVERY = 1.0 / 15.0  # s between two pictures
+PERIOD = 1.0 / 15.0  # s between two pictures
 
 log = logging.getLogger("pigaming")
 
@@ -37,7 +37,7 @@ class CameraWindow:
         """Show the newest picture, if it is new and due."""
         self._age += seconds
         frame = self.session.newest
-        if self.window is None or self._age < EVERY or frame is None or frame.number == self._shown:
+        if self.window is None or self._age < PERIOD or frame is None or frame.number == self._shown:
             return
         from pigaming_app.ui.draw.pixels import grey_surface
 

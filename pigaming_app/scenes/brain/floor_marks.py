@@ -54,7 +54,7 @@ COLORS: dict[str, Color] = {
     BULLET: ALARM,
     PRIZE: FOCUS,
 }
-KEEP = 58.0  # px kept free round the middle of another robot
+CLEARANCE = 58.0  # px kept free round the middle of another robot
 GOAL_R = 30  # px: outer ring of the destination
 SMALL, LARGE = 4.0, 6.0  # px: radius of the dots to percepts and on the path
 
@@ -109,11 +109,11 @@ class FloorMarks:
             self._put(sprite, a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part)
             at += PITCH
 
-    def _turned(self, sprite: Callable[..., Sprite], what: object, k: int) -> None:
+    def _turned(self, sprite: Callable[..., Sprite], value: object, k: int) -> None:
         """Draw part `k` of the rose."""
         angle = self.heading + math.tau * k / PETALS
         if self._free(self.x + ARM * math.cos(angle), self.y + ARM * math.sin(angle)):
-            put(self.light, sprite(what, step(angle, HEADINGS)), self.x, self.y)
+            put(self.light, sprite(value, step(angle, HEADINGS)), self.x, self.y)
 
     def _put(self, sprite: Sprite, x: float, y: float) -> None:
         if self._free(x, y):
@@ -121,7 +121,7 @@ class FloorMarks:
 
     def _free(self, x: float, y: float) -> bool:
         """True if no other robot is there."""
-        return all(math.hypot(x - other[0], y - other[1]) > KEEP for other in self.others)
+        return all(math.hypot(x - other[0], y - other[1]) > CLEARANCE for other in self.others)
 
 
 def blocked(state: Any, x: float, y: float, to_x: float, to_y: float) -> float:

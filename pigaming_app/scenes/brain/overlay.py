@@ -20,7 +20,7 @@ from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PLAYERS
 
-EVERY = 5  # ticks between two queries
+QUERY_PERIOD = 5  # ticks between two queries
 EASE = 10.0  # 1/s, smoothing rate of bars and petals
 GLOW = 6  # px of the panels' glow beside the clock
 TILTED = 0.35  # deflection above which a stick counts as held
@@ -33,7 +33,7 @@ class BrainOverlay:
         self.match, self.view, self.words = match, view, words
         self.seat: int | None = None
         self.thoughts = Thoughts("starts")
-        self.asked = -EVERY  # tick of the last query
+        self.queried = -QUERY_PERIOD  # tick of the last query
         self.rose = [0.0] * PETALS
         self.wishes: dict[str, float] = {}
         self.clock = 0.0
@@ -47,7 +47,7 @@ class BrainOverlay:
         """Show the first AI, then the next; after the last, none."""
         after = [seat for seat in self.seats if self.seat is None or seat > self.seat]
         self.seat = after[0] if after else None
-        self.asked, self.rose, self.wishes = -EVERY, [0.0] * PETALS, {}
+        self.queried, self.rose, self.wishes = -QUERY_PERIOD, [0.0] * PETALS, {}
 
     def draw(self, screen: pygame.Surface, blend: float, seconds: float) -> None:
         """Draw it over the match, `seconds` after the previous picture."""
@@ -56,8 +56,8 @@ class BrainOverlay:
             self.seat = None
             return
         state = self.match.state
-        if not self.asked <= state.tick < self.asked + EVERY:
-            self.asked = state.tick
+        if not self.queried <= state.tick < self.queried + QUERY_PERIOD:
+            self.queried = state.tick
             self.thoughts = brain.explain(state, self.seat) or Thoughts("starts")
         self._ease(seconds)
         self._floor(screen, state, self.seat, blend)

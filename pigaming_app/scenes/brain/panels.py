@@ -114,11 +114,11 @@ def draw_moves(
 
 def lines(screen: pygame.Surface, x: float, room: float, title: str, text: str) -> None:
     """A title and a smaller line below it, starting at x."""
-    for said, size, face, color, y in ((title, LABEL, "head", WHITE, 34), (text, BODY, "body", MIST, 80)):
-        if said:
-            size = fit_size(said, size, room, face)
-            lit = word(said, size, color, face, 0.35 if face == "head" else 0.0)
-            lit.draw(screen, x + text_width(said, size, face) / 2, Y + y)
+    for line, size, face, color, y in ((title, LABEL, "head", WHITE, 34), (text, BODY, "body", MIST, 80)):
+        if line:
+            size = fit_size(line, size, room, face)
+            lit = word(line, size, color, face, 0.35 if face == "head" else 0.0)
+            lit.draw(screen, x + text_width(line, size, face) / 2, Y + y)
 
 
 def stick(

@@ -44,10 +44,10 @@ from pigaming_app.ui.widgets.focus import WAYS
 STEPS = (10, 1)  # px
 CORNERS = ((0, 0), (1920, 0), (1920, 1080), (0, 1080))
 BOX = pygame.Rect(460, 316, 1000, 420)  # the black box in the middle
-SAID = 5.0  # seconds for which a sentence is shown
+SENTENCE_SECONDS = 5.0  # seconds for which a sentence is shown
 IDLE = 600.0  # seconds without input until the title, unsaved
 CELL = 120  # px, grid spacing
-FARTHEST = 800  # px, limit of a corner's displacement
+MAX_OFFSET = 800  # px, limit of a corner's displacement
 
 log = logging.getLogger("pigaming")
 
@@ -60,7 +60,7 @@ class CornerPinPage:
         self.before = context.canvas.corners
         self.corners = [round(value) for value in self.before or STRAIGHT]
         self.chosen = self.step = 0
-        self.sentence, self.said = "", 0.0
+        self.sentence, self.sentence_left = "", 0.0
         self.prompts = context.prompts(
             [
                 (Button.FIRE, "pin.hint_next"),
@@ -102,13 +102,13 @@ class CornerPinPage:
                 self.context.sounds.play("accept")
                 self._pin()
             case Button.CLICK if event.at:
-                self._take(event.at)
+                self._select(event.at)
             case button if button in WAYS:
                 self._move(*WAYS[button])
         return None
 
     def update(self, seconds: float) -> Turn:
-        self.said -= seconds
+        self.sentence_left -= seconds
         if self.context.idle > IDLE:
             self._restore()
             return Home()
@@ -125,21 +125,21 @@ class CornerPinPage:
             screen, x, y + 252
         )
         text(words("pin.step", step=STEPS[self.step]), LABEL, MIST, "head").draw(screen, x, y + 340)
-        if self.said > 0.0:
+        if self.sentence_left > 0.0:
             caption(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
         self.prompts.draw(screen)
 
     def _move(self, across: int, down: int) -> None:
         """Move the corner, unless the pin would become invalid."""
-        kept, step = list(self.corners), STEPS[self.step]
-        for i, by in ((0, across * step), (1, down * step)):
-            own = CORNERS[self.chosen][i]
-            moved = self.corners[2 * self.chosen + i] + by
-            self.corners[2 * self.chosen + i] = min(own + FARTHEST, max(own - FARTHEST, moved))
+        previous, step = list(self.corners), STEPS[self.step]
+        for i, delta in ((0, across * step), (1, down * step)):
+            corner = CORNERS[self.chosen][i]
+            moved = self.corners[2 * self.chosen + i] + delta
+            self.corners[2 * self.chosen + i] = min(corner + MAX_OFFSET, max(corner - MAX_OFFSET, moved))
         if not self._pin():
-            self.corners = kept
+            self.corners = previous
 
-    def _take(self, at: tuple[float, float]) -> None:
+    def _select(self, at: tuple[float, float]) -> None:
         """Select the corner of the clicked quadrant."""
         right, low = at[0] > 960, at[1] > 540
         self.chosen = (2 if right else 3) if low else int(right)
@@ -177,7 +177,7 @@ class CornerPinPage:
         return Pop()
 
     def _say(self, sentence: str) -> None:
-        self.sentence, self.said = sentence, SAID
+        self.sentence, self.sentence_left = sentence, SENTENCE_SECONDS
         self.context.sounds.play("back")
 
 

@@ -11,7 +11,7 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
-from pigaming_app.scenes.calibration.result_page import OFF
+from pigaming_app.scenes.calibration.result_page import MAX_SIZE_ERROR
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
@@ -24,7 +24,7 @@ from pigaming_app.ui.input.events import Button, InputEvent
 
 BAR = pygame.Rect(560, 640, 800, 40)
 ROOM = 1040  # px, width of the text between the robot spot and its mirror image
-MOST = 20.0  # mm at the right end of the bar
+BAR_MM = 20.0  # mm at the right end of the bar
 IDLE = 300.0  # seconds without input until the title
 
 
@@ -87,20 +87,20 @@ class DriftPage:
         words, work = self.context.words, self.work
         x, y = LEFT + SPOT[0], TOP + SPOT[1]
         pygame.draw.circle(screen, GREY, (x, y), DISC)
-        said, color = words("calibrate.put"), MIST
+        sentence, color = words("calibrate.put"), MIST
         if work.marker_mm is not None and work.drift is not None:
-            true = work.drift.ground.marker
-            off = abs(work.marker_mm / true - 1.0) > OFF
-            key, color = ("marker_off", ALARM) if off else ("marker", ICE)
-            said = words(f"calibrate.{key}", mm=f"{work.marker_mm:.1f}", true=f"{true:.0f}")
-        for i, line in enumerate(paragraph(said, 330, 4, color, "c")):
+            marker_size = work.drift.ground.marker
+            wrong = abs(work.marker_mm / marker_size - 1.0) > MAX_SIZE_ERROR
+            key, color = ("marker_off", ALARM) if wrong else ("marker", ICE)
+            sentence = words(f"calibrate.{key}", mm=f"{work.marker_mm:.1f}", true=f"{marker_size:.0f}")
+        for i, line in enumerate(paragraph(sentence, 330, 4, color, "c")):
             line.draw(screen, x, y + 120 + 48 * i)
 
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
         text(self.context.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
         bar().draw(screen)
-        share = min(1.0, mm / MOST)
+        share = min(1.0, mm / BAR_MM)
         pygame.draw.rect(screen, color, (BAR.x + 6, BAR.y + 6, max(8, round((BAR.w - 12) * share)), BAR.h - 12))
         text(self.context.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
 
@@ -112,7 +112,7 @@ def bar() -> LitImage:
     layer.glow.line(cut_box(BAR.x, BAR.y, BAR.w, BAR.h, 8), STEEL, 4, True)
     marks: tuple[tuple[float, Color], ...] = ((WARN, FOCUS), (PAUSE, ALARM))
     for mm, color in marks:
-        x = BAR.x + BAR.w * mm / MOST
+        x = BAR.x + BAR.w * mm / BAR_MM
         layer.glow.line([(x, BAR.y - 12), (x, BAR.bottom + 12)], color, LINE)
         layer.canvas.crisp.text(f"{mm:.0f} mm", BODY, x, BAR.bottom + 44, color, "body", "c")
     return layer.done()

@@ -29,7 +29,7 @@ class HeightPage:
         self.context, self.finding, self.again = context, finding, again
         self.work = HeightProcedure(finding.site, finding.number, finding.ground)
         self.work.begin()
-        self.known = 0
+        self.seen_count = 0
         self.prompts = context.prompts([(Button.BACK, "calibrate.hint_stop")], 1040)
 
     def entered(self) -> None:
@@ -52,15 +52,17 @@ class HeightPage:
         work = self.work
         self.finding.site.advance(seconds)
         work.pump()
-        if len(work.seen) != self.known:
-            self.known = len(work.seen)
+        if len(work.seen) != self.seen_count:
+            self.seen_count = len(work.seen)
             self.context.sounds.play("accept")
         if work.place is not None:
             return None
         self.left()
         ground = work.found or self.finding.ground
-        found = replace(self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small)
-        return Swap(ResultPage(self.context, found, self.again))
+        result = replace(
+            self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small
+        )
+        return Swap(ResultPage(self.context, result, self.again))
 
     def draw(self, screen: pygame.Surface) -> None:
         place, words = self.work.place, self.context.words

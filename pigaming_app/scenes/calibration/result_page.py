@@ -31,8 +31,8 @@ from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
 HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
-OFF = 0.04  # tolerated relative error of a marker's size
-SAID = 6.0  # seconds for which a sentence is shown
+MAX_SIZE_ERROR = 0.04  # tolerated relative error of a marker's size
+SENTENCE_SECONDS = 6.0  # seconds for which a sentence is shown
 IDLE = 600.0  # seconds without input until the title
 
 log = logging.getLogger("pigaming")
@@ -66,7 +66,7 @@ class ResultPage:
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
         self.arrows: tuple[LitImage, int] | None = None
         hints = [(Button.FIRE, "calibrate.hint_ok"), (Button.BACK, "calibrate.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
@@ -122,9 +122,9 @@ class ResultPage:
         )
         y = SIDE.y
         for key, value, limit in (("mean", residuals.mean_mm, MEAN_MM), ("most", residuals.max_mm, MAX_MM)):
-            need = words("calibrate.limit", mm=f"{limit:g}")
-            told = words("calibrate.mm", mm=f"{value:.1f}")
-            figure(words(f"calibrate.{key}"), told, value / limit, need).draw(screen, SIDE.x, y)
+            limit_text = words("calibrate.limit", mm=f"{limit:g}")
+            value_text = words("calibrate.mm", mm=f"{value:.1f}")
+            figure(words(f"calibrate.{key}"), value_text, value / limit, limit_text).draw(screen, SIDE.x, y)
             y += 214
         if not finding.good:
             lines = paragraph(words.sentence(residuals.verdict), SIDE.w, 5)
@@ -142,11 +142,11 @@ class ResultPage:
         finding, words = self.finding, self.context.words
         if not finding.marker_mm or finding.ground is None:
             return []
-        true = finding.ground.marker
-        off = abs(finding.marker_mm / true - 1.0) > OFF
-        key = "marker_off" if off else "marker"
-        said = words(f"calibrate.{key}", mm=f"{finding.marker_mm:.1f}", true=f"{true:.0f}")
-        return [*paragraph(said, SIDE.w, 3, ALARM if off else ICE)]
+        marker_size = finding.ground.marker
+        wrong = abs(finding.marker_mm / marker_size - 1.0) > MAX_SIZE_ERROR
+        key = "marker_off" if wrong else "marker"
+        sentence = words(f"calibrate.{key}", mm=f"{finding.marker_mm:.1f}", true=f"{marker_size:.0f}")
+        return [*paragraph(sentence, SIDE.w, 3, ALARM if wrong else ICE)]
 
     def _draw_failure(self, screen: pygame.Surface) -> None:
         words, trouble = self.context.words, self.finding.trouble
@@ -159,8 +159,8 @@ class ResultPage:
         if self.picture is not None:
             w, h = self.picture.get_size()
             scale = min(room.w / w, room.h / h)
-            grown = pygame.transform.smoothscale(self.picture, (round(w * scale), round(h * scale)))
-            screen.blit(grown, grown.get_rect(center=room.center))
+            scaled = pygame.transform.smoothscale(self.picture, (round(w * scale), round(h * scale)))
+            screen.blit(scaled, scaled.get_rect(center=room.center))
         pygame.draw.rect(screen, STEEL, room, 2)
 
     # ---- actions

@@ -50,6 +50,8 @@ def last_choice(context: Context, game: str) -> Choice:
 
 def choice_summary(context: Context, game: str) -> str:
     """Game, minutes or goal, and arena in one line."""
-    words, now = context.words, last_choice(context, game)
-    where = arena_title(load_cached(game, now.arena), words.language)
-    return "  ·  ".join((words(f"games.{game}"), match_length(words, games()[game], now.minutes, now.goal), where))
+    words, choice = context.words, last_choice(context, game)
+    arena = arena_title(load_cached(game, choice.arena), words.language)
+    return "  ·  ".join(
+        (words(f"games.{game}"), match_length(words, games()[game], choice.minutes, choice.goal), arena)
+    )

@@ -53,14 +53,14 @@ def match_length(words: Words, game: Game, minutes: float, goal: int) -> str:
 def rule_numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
     """The rule numbers by their placeholder names, in minutes or seconds."""
     make, set_rules = RULES[game]
-    rules, nobody = make(), Seat("off", 0)
-    seats = nobody, nobody, nobody, nobody
+    rules, empty = make(), Seat("off", 0)
+    seats = empty, empty, empty, empty
     set_rules(rules, Setup(game, "", seats, minutes, 1, variant, games()[game].default_goal))
-    found = {
+    numbers = {
         "minutes": rules.ticks * DT / 60.0,
         "protection": getattr(rules, "protection", 0) * DT,
         "patience": getattr(rules, "patience", 0) * DT,
         "turbo": 1.0 / (rules.turbo_drain * HZ),
         "refill": 1.0 / (rules.turbo_refill * HZ),
     }
-    return {name: f"{round(4 * value) / 4:g}" for name, value in found.items()}  # rounded to 0.25
+    return {name: f"{round(4 * value) / 4:g}" for name, value in numbers.items()}  # rounded to 0.25

@@ -22,16 +22,16 @@ class Navigation:
     ) -> None:
         self.context, self.focus, self.idle, self.stay = context, focus, idle, stay
         self.prompts = context.prompts(hints, voice=voice)
-        self._sentence, self._left = "", 0.0
+        self._sentence, self._remaining = "", 0.0
 
     @property
     def sentence(self) -> str:
         """The visible sentence; empty if there is none."""
-        return self._sentence if self._left > 0.0 else ""
+        return self._sentence if self._remaining > 0.0 else ""
 
     def say(self, sentence: str) -> None:
         """Show a sentence for a while."""
-        self._sentence, self._left = sentence, self.stay
+        self._sentence, self._remaining = sentence, self.stay
 
     def on(self, event: InputEvent) -> Turn:
         """BACK leaves the page; directions and the mouse move the focus."""
@@ -45,5 +45,5 @@ class Navigation:
     def update(self, seconds: float) -> Turn:
         """Animate; return to the title after a while without input."""
         self.focus.update(seconds)
-        self._left -= seconds
+        self._remaining -= seconds
         return Home() if self.context.idle > self.idle else None

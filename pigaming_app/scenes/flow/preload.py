@@ -30,7 +30,7 @@ MODULES = (
     "pigaming_app.scenes.calibration.corner_pin_page",
     "pigaming_app.scenes.robots.fleet_page",
 )
-SWITCH = 0.001  # s, interpreter switch interval while the thread runs
+SWITCH_INTERVAL = 0.001  # s, interpreter switch interval while the thread runs
 
 log = logging.getLogger("pigaming")
 
@@ -71,28 +71,28 @@ class Preloader:
         return (game, arena) in self._ready or not self.busy
 
     def _work(self) -> None:
-        before = sys.getswitchinterval()
-        sys.setswitchinterval(SWITCH)
+        old_interval = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH_INTERVAL)
         try:
             self._do()
         except Exception:
             log.exception("what a match needs could not be prepared in the background")
         finally:
-            sys.setswitchinterval(before)
+            sys.setswitchinterval(old_interval)
 
     def _do(self) -> None:
         """All steps, in the order in which they are likely to be needed."""
         arena_jobs = import_module("pigaming_app.scenes.flow.arena_preload")  # late: the title does not wait for it
-        there = arena_jobs.every_arena()
-        for one in there:
+        all_arenas = arena_jobs.every_arena()
+        for arena in all_arenas:
             if not self._ended:
-                arena_jobs.read(*one)
+                arena_jobs.read(*arena)
         for module in MODULES:
             if not self._ended:
                 import_module(module)
-        for one in there:
+        for arena in all_arenas:
             if not self._ended:
-                arena_jobs.prepare(*one)
-                self._ready.add(one)
+                arena_jobs.prepare(*arena)
+                self._ready.add(arena)
         if not self._ended:
             self.then()

@@ -8,26 +8,26 @@ import math
 
 from pigaming_app.sim.world import DT
 
-MOST = 4  # ticks per frame at normal speed: full speed down to 12.5 frames a second
+MAX_TICKS = 4  # ticks per frame at normal speed: full speed down to 12.5 frames a second
 
 
 class FixedTimestep:
     """Accumulates real time into ticks; `blend` interpolates between the last two."""
 
     def __init__(self) -> None:
-        self.owed = 0.0  # seconds not yet simulated
+        self.pending = 0.0  # seconds not yet simulated
 
     def due(self, seconds: float, speed: float = 1.0) -> int:
         """The number of ticks due after `seconds` of real time, at `speed` times the simulation rate."""
-        self.owed += seconds * speed
-        most = math.ceil(MOST * max(1.0, speed))
-        ticks = int(self.owed / DT + 1e-9)
-        if ticks > most:
-            ticks, self.owed = most, most * DT
-        self.owed = max(0.0, self.owed - ticks * DT)
+        self.pending += seconds * speed
+        max_ticks = math.ceil(MAX_TICKS * max(1.0, speed))
+        ticks = int(self.pending / DT + 1e-9)
+        if ticks > max_ticks:
+            ticks, self.pending = max_ticks, max_ticks * DT
+        self.pending = max(0.0, self.pending - ticks * DT)
         return ticks
 
     @property
     def blend(self) -> float:
         """Interpolation between the last two ticks, 0..1."""
-        return min(1.0, self.owed / DT)
+        return min(1.0, self.pending / DT)

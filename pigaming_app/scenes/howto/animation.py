@@ -53,11 +53,11 @@ class Loop:
 
     def outline(self, out: float, points: int = 120) -> list[Point]:
         """The path offset outwards by `out` px, as `points` points."""
-        found = []
+        outline_points = []
         for i in range(points):
             x, y, heading, _ = self.at(i * self.length / points)
-            found.append((x + out * math.sin(heading), y - out * math.cos(heading)))
-        return found
+            outline_points.append((x + out * math.sin(heading), y - out * math.cos(heading)))
+        return outline_points
 
 
 def add(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:

@@ -47,12 +47,12 @@ class HowTo:
 
     def on(self, event: InputEvent) -> Turn:
         """Switch games, or leave."""
-        named = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
+        clicked = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
         if event.button in (Button.LEFT, Button.RIGHT):
             games = list(LESSONS)
             self._show(games[(games.index(self.game) + (1 if event.button is Button.RIGHT else -1)) % len(games)])
-        elif event.button is Button.CLICK and named:
-            self._show(named)
+        elif event.button is Button.CLICK and clicked:
+            self._show(clicked)
         elif event.button in LEAVE:
             self.context.sounds.play("back")
             return Pop()
@@ -73,14 +73,14 @@ class HowTo:
         black_out(screen, *boxes)
         for i, (box, (name, picture)) in enumerate(zip(boxes, LESSONS[self.game].items(), strict=True)):
             screen.set_clip(box.inflate(-8, -8))
-            said = picture(screen, box.centerx, TOP + 268, self.clock)
+            key = picture(screen, box.centerx, TOP + 268, self.clock)
             screen.set_clip(None)
             frame(i + 1, box.w).draw(screen, *box.topleft)
-            if said:
-                text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
+            if key:
+                text(words(key), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
-        said = limits_line(words, self.game, last_minutes(self.context.settings, self.game))
-        text(said, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
+        limits = limits_line(words, self.game, last_minutes(self.context.settings, self.game))
+        text(limits, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
         keys(self._keys()).draw(screen)
 
     def _show(self, game: str) -> None:
@@ -102,14 +102,14 @@ class HowTo:
         words, controls = self.context.words, self.context.controls
         device = controls.last
         turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
-        found = [
+        pairs = [
             (controls.moves(device) or "<>", words("howto.hint_drive")),
             (controls.label(device, turbo), words("howto.hint_turbo")),
             (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
         if self.game in FIRES:
-            found.insert(1, (words.printed(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
-        return tuple((label, what) for label, what in found if label)
+            pairs.insert(1, (words.printed(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
+        return tuple((label, action) for label, action in pairs if label)
 
 
 @cached
@@ -125,9 +125,9 @@ def frame(number: int, w: int) -> Steps[LitImage]:
 
 
 @cached
-def caption(said: str, room: int) -> LitImage:
+def caption(sentence: str, room: int) -> LitImage:
     """A caption in lines of similar length, centred on (0, 0)."""
-    lines = wrap_balanced(said, len(wrap(said, BODY, room)))
+    lines = wrap_balanced(sentence, len(wrap(sentence, BODY, room)))
     layer = Layer(-room / 2, -70, room, 140)
     for i, line in enumerate(lines):
         size = fit_size(line, BODY, room, "body")
@@ -141,13 +141,13 @@ def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
     """The row at the foot: left-aligned, except for the last item at the right end."""
     layer = Layer(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
-    for i, (label, what) in enumerate(items):
+    for i, (label, action) in enumerate(items):
         if i == len(items) - 1:
-            x = RIGHT - _width(label) - 10 - text_width(what, BODY, "body")
+            x = RIGHT - _width(label) - 10 - text_width(action, BODY, "body")
         for part in label.split():
             x += button(layer.canvas, x, FOOT_Y, part) + 8
-        layer.canvas.body(what, x + 10, FOOT_Y, MIST)
-        x += 10 + text_width(what, BODY, "body") + 56
+        layer.canvas.body(action, x + 10, FOOT_Y, MIST)
+        x += 10 + text_width(action, BODY, "body") + 56
     yield
     return (yield from layer.lighting())
 

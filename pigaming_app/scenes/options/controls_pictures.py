@@ -46,13 +46,13 @@ START_LINE = cut_box(START.x, START.y, START.w, START.h, 10)
 
 
 @cached
-def no_pad(said: str, line: str) -> LitImage:
+def no_pad(title: str, hint: str) -> LitImage:
     """The placeholder of a pad."""
     layer = Layer(0, 0, W, H)
     layer.glow.dashes(cut_box(0, 0, W, H, 20), STEEL, THIN, 22, 16)
     icon(layer.glow, "pad", W / 2, 118, 62, STEEL, THIN)
-    layer.canvas.body(said, W / 2, 222, MIST, "c", fit_size(said, BODY, W - 40, "body"))
-    layer.canvas.body(line, W / 2, 276, dim(MIST, 0.7), "c", fit_size(line, BODY, W - 40, "body"))
+    layer.canvas.body(title, W / 2, 222, MIST, "c", fit_size(title, BODY, W - 40, "body"))
+    layer.canvas.body(hint, W / 2, 276, dim(MIST, 0.7), "c", fit_size(hint, BODY, W - 40, "body"))
     return layer.done()
 
 
@@ -66,7 +66,7 @@ def pad(name: str, labels: tuple[str, ...]) -> LitImage:
     layer.glow.ring(*STICK, REACH + 20, STEEL, LINE)
     for (x, y), label in zip(DIAMOND.values(), labels, strict=False):
         layer.glow.ring(x, y, 30, STEEL, THIN)
-        _printed(layer.glow, label, x, y, MIST)
+        _draw_label(layer.glow, label, x, y, MIST)
     if labels[-1]:
         layer.glow.line(START_LINE, STEEL, THIN, True)
         size = fit_size(labels[-1], 30, START.w - 16)
@@ -84,7 +84,7 @@ def pad_light(button: Button, label: str) -> LitImage:
     x, y = DIAMOND[button]
     layer = Layer(x - 32, y - 32, 64, 64)
     layer.glow.disc(x, y, 30, dim(FOCUS, 0.35)).ring(x, y, 30, FOCUS, THIN)
-    _printed(layer.glow, label, x, y, FOCUS)
+    _draw_label(layer.glow, label, x, y, FOCUS)
     return layer.done()
 
 
@@ -110,7 +110,7 @@ def cap(label: str, w: int, h: int, down: bool) -> LitImage:
     return layer.done()
 
 
-def _printed(ink: GlowCanvas, label: str, x: float, y: float, color: Color) -> None:
+def _draw_label(ink: GlowCanvas, label: str, x: float, y: float, color: Color) -> None:
     """A letter, or the icon for its label."""
     if label in SIGNS:
         icon(ink, SIGNS[label], x, y, 17, color, THIN)

@@ -46,11 +46,11 @@ class ControlsTest:
 
     def on(self, event: InputEvent) -> Turn:
         """Highlight the button; Escape, the prompt, and B held, leave."""
-        meant = self._prompts().as_button(event)
-        if meant.button is Button.BACK and meant.device.kind != "pad":
+        action = self._prompts().as_button(event)
+        if action.button is Button.BACK and action.device.kind != "pad":
             return self._leave()
-        if meant.button is Button.BACK:
-            self.holding, self.held = meant.device, 0.0
+        if action.button is Button.BACK:
+            self.holding, self.held = action.device, 0.0
         if event.button is Button.CLICK and event.at:
             self.clicks = [*self.clicks[-5:], (*event.at, 0.0)]
         if event.button is Button.LOST:
@@ -62,7 +62,7 @@ class ControlsTest:
         """Turn the robots, fade highlights, check for B held."""
         controls = self.context.controls
         self.lit = {key: left - seconds for key, left in self.lit.items() if left > seconds}
-        self.clicks = [(x, y, since + seconds) for x, y, since in self.clicks if since < 0.45]
+        self.clicks = [(x, y, age + seconds) for x, y, age in self.clicks if age < 0.45]
         for i in range(PLACES):
             self.headings[i] += TURN * controls.drive(Device("keys", i)).angular * seconds
         if self.holding and controls.drive(self.holding).turbo:
@@ -87,8 +87,8 @@ class ControlsTest:
             else:
                 gadgets.no_pad(words("padtest.none"), words("padtest.plug")).draw(screen, x, PADS_Y)
             self._cluster(screen, x, KEYS_Y, i)
-        for x_, y_, since in self.clicks:
-            wave = effects.wave(ICE, min(effects.WAVE_STEPS - 1, int(since / 0.45 * effects.WAVE_STEPS)))
+        for x_, y_, age in self.clicks:
+            wave = effects.wave(ICE, min(effects.WAVE_STEPS - 1, int(age / 0.45 * effects.WAVE_STEPS)))
             screen.blit(wave.image, (round(x_ + wave.dx), round(y_ + wave.dy)), special_flags=ADD)
         self._prompts().draw(screen)
 
@@ -114,9 +114,9 @@ class ControlsTest:
 
     def _cluster(self, screen: pygame.Surface, x: int, y: int, number: int) -> None:
         device = Device("keys", number)
-        drive, printed = self.context.controls.drive(device), CLUSTERS[number].printed
+        drive, labels = self.context.controls.drive(device), CLUSTERS[number].printed
         for button, box in gadgets.KEYS.items():
-            label = self.context.words.printed(printed[button])
+            label = self.context.words.printed(labels[button])
             gadgets.cap(label, *box.size, _down(drive, button)).draw(screen, x + box.x, y + box.y)
         heading = self.headings[number]
         ahead = 10 * drive.linear

@@ -28,9 +28,9 @@ from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, hea
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 IDLE = 90.0  # seconds without input until the title
-SAID = 3.0  # seconds for which a sentence is shown
+SENTENCE_SECONDS = 3.0  # seconds for which a sentence is shown
 CLEAR = 2.0  # seconds for which a button is held to clear the high scores
-AHEAD = 2.0  # ms per frame for prewarming
+PREWARM_MS = 2.0  # ms per frame for prewarming
 FLASHES = ("off", "soft", "full")
 ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "robots", "reset")
 FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
@@ -50,13 +50,13 @@ class OptionsPage:
         self.cleared = False
         self.clearing = HoldTimers(context.controls, CLEAR)
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(self.rows)])
-        self.ahead = PrewarmQueue(self._ahead())
+        self.prewarm = PrewarmQueue(self._prewarm_jobs())
         hints = [
             (Button.RIGHT, "options.hint_change"),
             (Button.FIRE, "options.hint_ok"),
             (Button.BACK, "options.hint_back"),
         ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
 
     def entered(self) -> None:
         pass
@@ -83,7 +83,7 @@ class OptionsPage:
         self.clock += seconds
         if self.clearing.update(seconds):
             self._clear()
-        self.ahead.work(AHEAD)
+        self.prewarm.work(PREWARM_MS)
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -111,16 +111,16 @@ class OptionsPage:
         high = min(HIGH, int(pitch))  # overlapping rows would be ambiguous for the focus
         return pygame.Rect(x, round(TOP + pitch * i) - high // 2, w, high)
 
-    def _ahead(self) -> Iterator[Callable[[], object]]:
+    def _prewarm_jobs(self) -> Iterator[Callable[[], object]]:
         """Jobs for the widgets that the next focus move needs, so that it need not wait for them."""
         words = self.context.words
         for name in self.rows:
             yield partial(dials.label, words(f"options.{name}"), True)
-            yield partial(self._piece, name)
+            yield partial(self._focused_value, name)
             yield partial(dials.description, words(f"options.{name}"), words(f"options.{name}_line"))
             yield partial(pictures.drawn, name, self._value(name).chosen)
 
-    def _piece(self, name: str) -> object:
+    def _focused_value(self, name: str) -> object:
         value = self._value(name)
         return dials.value(value.kind, value.options, value.chosen, True)
 
@@ -131,11 +131,11 @@ class OptionsPage:
         off_on = (words("options.off"), words("options.on"))
         match name:
             case "language":
-                return SettingValue("toggle", tuple(NAMES[one] for one in LANGUAGES), LANGUAGES.index(words.language))
+                return SettingValue("toggle", tuple(NAMES[code] for code in LANGUAGES), LANGUAGES.index(words.language))
             case "music" | "sounds":
                 return SettingValue("meter", (), settings.music if name == "music" else settings.sounds)
             case "flashes":
-                flashes = tuple(words(f"options.{one}") for one in FLASHES)
+                flashes = tuple(words(f"options.{code}") for code in FLASHES)
                 return SettingValue("toggle", flashes, FLASHES.index(settings.flashes))
             case "shake":
                 return SettingValue("toggle", off_on, int(settings.shake))
@@ -151,15 +151,15 @@ class OptionsPage:
     def _change(self, name: str, by: int) -> None:
         """Step a row's value."""
         value = self._value(name)
-        most = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
-        self._take(name, max(0, min(most, value.chosen + by)))
+        limit = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
+        self._set(name, max(0, min(limit, value.chosen + by)))
 
     def _do(self, name: str, event: InputEvent) -> Turn:
         """FIRE: the next value, cyclically, or the action."""
         value = self._value(name)
         if value.kind != "deed":
             count = 11 if value.kind == "meter" else len(value.options)
-            self._take(name, (value.chosen + 1) % count)
+            self._set(name, (value.chosen + 1) % count)
             return None
         self.context.sounds.play("move" if name == "reset" else "accept")
         if name == "close":
@@ -185,10 +185,10 @@ class OptionsPage:
             return self._do(name, event)
         hit = dials.value_at(value.kind, value.options, value.chosen, event.at[0] - self.focus.rect(name).x)
         if hit is not None:
-            self._take(name, hit)
+            self._set(name, hit)
         return None
 
-    def _take(self, name: str, chosen: int) -> None:
+    def _set(self, name: str, chosen: int) -> None:
         """Set a value and apply it."""
         if chosen == self._value(name).chosen:
             return
@@ -197,7 +197,7 @@ class OptionsPage:
             case "language":
                 settings.language = LANGUAGES[chosen]
                 context.words.switch(settings.language)
-                self.ahead = PrewarmQueue(self._ahead())
+                self.prewarm = PrewarmQueue(self._prewarm_jobs())
             case "music" | "sounds":
                 setattr(settings, name, chosen)
                 context.sounds.volume(settings.music, settings.sounds)
@@ -209,20 +209,20 @@ class OptionsPage:
                 canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
                 settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
         context.sounds.play("hit" if name == "sounds" else "move")
-        self._keep()
+        self._save()
 
     def _clear(self) -> None:
         """Clear the high scores and ghosts."""
         self.context.scores.reset()
         self.cleared = True
         self.context.sounds.play("accept")
-        self._keep(scores=True)
+        self._save(scores=True)
         try:
             forget(folders().data)
         except OSError as trouble:
             log.warning("%s", trouble)
 
-    def _keep(self, scores: bool = False) -> None:
+    def _save(self, scores: bool = False) -> None:
         """Save settings or scores; on failure, show a sentence."""
         try:
             if scores:

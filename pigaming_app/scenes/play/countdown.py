@@ -19,7 +19,7 @@ POP = 0.16  # seconds in which a sign shrinks to its final size
 POPS = 5  # cached sizes of each sign
 HUGE = 300
 LEVELS = 8  # brightnesses of a fading sign
-MOAT = 14  # px of black outline
+OUTLINE = 14  # px of black outline
 CLEAR_X, CLEAR_Y = 390, 290  # px of clearance between a number and a robot with its caption
 SHIFTS = sorted(((x, y) for x in range(-480, 481, 60) for y in range(-180, 181, 60)), key=lambda at: math.hypot(*at))
 
@@ -100,7 +100,7 @@ def _word(text: str, color: Color) -> Steps[Sprite]:
     top = h / 2 - font("hero", HUGE).get_ascent() + CAPITALS * HUGE / 2
     for i in range(24):
         angle = i * math.tau / 24
-        out.blit(edge, (64 + MOAT * math.cos(angle), top + MOAT * math.sin(angle)))
+        out.blit(edge, (64 + OUTLINE * math.cos(angle), top + OUTLINE * math.sin(angle)))
     yield
     light = yield from GlowCanvas(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lighting(0.8)
     out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)

@@ -76,8 +76,8 @@ class DeviceTable:
         name = words(f"devices.{controls.name(device)}")
         layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, 264, "body"))
         self._moves(layer, device, y)
-        for x, act, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
-            wide = button(layer.canvas, x, y, words.printed(controls.label(device, act)))
+        for x, function, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
+            wide = button(layer.canvas, x, y, words.printed(controls.label(device, function)))
             layer.canvas.body(words(name), x + wide + 18, y, MIST)
         return layer
 

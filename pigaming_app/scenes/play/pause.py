@@ -42,9 +42,9 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 ITEMS = ("continue", "restart", "controls", "end")
 PITCH, ITEM_H = 74, 66
 ITEM_W = 620
-ASKED = ("restart", "end")  # items that need a confirming press
+NEED_CONFIRMATION = ("restart", "end")  # items that need a confirming press
 SURE = 3.0  # seconds for the confirming press
-WAITS = 2.0  # seconds for which a rejected press is explained
+EXPLAIN_SECONDS = 2.0  # seconds for which a rejected press is explained
 RING = X + W - 112, Y + 116
 
 
@@ -92,7 +92,7 @@ class Pause:
         self.player = match.devices.index(device) if device in match.devices else None
         self.access = PauseAccess(match.context, lambda: match.devices, device)
         self.picture: pygame.Surface | None = None
-        self.sure = self.waits = 0.0
+        self.sure = self.explain_left = 0.0
         self.focus = Focus(menu_spots((ITEMS[0], *match.extras, *ITEMS[1:])))
         hints = [
             (Button.FIRE, "pause.hint_ok"),
@@ -112,7 +112,7 @@ class Pause:
         admitted = self.access.admit(event)
         acting = self.access.acting
         if admitted is None or (event.button is Button.BRAIN and acting and admitted.device not in acting):
-            self.waits = WAITS
+            self.explain_left = EXPLAIN_SECONDS
             return None
         event = admitted
         if event.button is Button.BRAIN:
@@ -123,7 +123,7 @@ class Pause:
             self.sure = 0.0
             self.context.sounds.play("move")
         chosen = self.focus.chosen(event)
-        if chosen in ASKED and self.sure <= 0.0:
+        if chosen in NEED_CONFIRMATION and self.sure <= 0.0:
             self.sure = SURE
             self.context.sounds.play("move")
             return None
@@ -135,7 +135,7 @@ class Pause:
         self.access.update(seconds)
         self.focus.update(seconds)
         self.sure -= seconds
-        self.waits -= seconds
+        self.explain_left -= seconds
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -153,8 +153,8 @@ class Pause:
         else:
             word(self.context.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
         self._draw_owned(screen)
-        if self.waits > 0.0:
-            caption(self._why(), FOCUS).draw(screen, 960, PROMPTS)
+        if self.explain_left > 0.0:
+            caption(self._rejection(), FOCUS).draw(screen, 960, PROMPTS)
         else:
             self.prompts.draw(screen)
         self.match.shine(screen)
@@ -171,7 +171,7 @@ class Pause:
         screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
         word(str(math.ceil(self.access.left)), LABEL, FOCUS, "head").draw(screen, *RING)
 
-    def _why(self) -> str:
+    def _rejection(self) -> str:
         """The reason for which a press was rejected."""
         if self.player is None or not self.access.owned:
             return self.context.words("pause.wait")
@@ -209,9 +209,9 @@ def menu_spots(names: Sequence[str] = ITEMS) -> list[FocusSpot]:
 
 
 @cached
-def sure(said: str, label: str) -> LitImage:
+def sure(sentence: str, label: str) -> LitImage:
     """A confirmation prompt centred on (0, 0); "{button}" in the text is replaced by the drawn button."""
-    before, _, after = said.partition("{button}")
+    before, _, after = sentence.partition("{button}")
     wide = button_width(label) + 36
     size = fit_size(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
     ends = [text_width(part.strip(), size) for part in (before, after)]

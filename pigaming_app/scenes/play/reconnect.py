@@ -16,7 +16,7 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
 
 WAIT = 15.0  # seconds
-DEAF = 1.0  # seconds in which presses are ignored: other players are still pressing buttons
+IGNORED = 1.0  # seconds in which presses are ignored: other players are still pressing buttons
 RING = X + 398, Y + 468
 PAD = X + 184, Y + 376
 TEXT_X, TEXT_W = X + 352, W - 352 - 56
@@ -62,7 +62,7 @@ class Reconnect:
             self.found = False
         elif event.button in (Button.FIRE, Button.START) and self.match.free(event.device):
             return self._hand(event.device)
-        elif admitted is None or self.age < DEAF:
+        elif admitted is None or self.age < IGNORED:
             return None
         elif admitted.button is Button.X:
             return self._hand(None)

@@ -22,8 +22,8 @@ from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import Caption, caption
 
 BEHIND = 72  # of 255: brightness of a match behind a page
-LAST = 10  # seconds at the end with a tick sound each
-BESIDE = 104  # px from a robot to its caption
+TICK_SOUNDS = 10  # seconds at the end with a tick sound each
+CAPTION_GAP = 104  # px from a robot to its caption
 
 
 class MatchRunner:
@@ -33,43 +33,43 @@ class MatchRunner:
         self.context, self.match, self.loud = context, match, loud
         self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
         kind = VIEWS[match.setup.game]
-        with self._making():
+        with self._tagged():
             self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
         self.brain = BrainOverlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
-        self.unseen = 0.0  # seconds of real time since the last picture
-        self.second = LAST + 1
+        self.undrawn = 0.0  # seconds of real time since the last picture
+        self.second = TICK_SOUNDS + 1
 
     def warm(self, milliseconds: float) -> bool:
         """Prewarm sprites for up to `milliseconds`; true when done."""
-        with self._making():
+        with self._tagged():
             return bool(self.view.warm(milliseconds))
 
     def advance(self, seconds: float, speed: float = 1.0) -> None:
         """Advance the match by `seconds` of real time."""
-        self.unseen += seconds
+        self.undrawn += seconds
         for _ in range(self.timestep.due(seconds, speed)):
             if self.match.over:
                 break
             self.match.tick()
-            with self._making():
-                heard = self.view.watch(self.match.state)
-            for name, player, x in heard:
+            with self._tagged():
+                sounds = self.view.watch(self.match.state)
+            for name, player, x in sounds:
                 if self.loud:
                     self.context.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
         self._count_down()
 
     def wait(self, seconds: float) -> None:
         """Advance only the effects of the view: the match is halted."""
-        self.unseen += seconds
+        self.undrawn += seconds
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the match, interpolated between its last two ticks."""
         blend = 1.0 if self.match.over else self.timestep.blend
-        unseen, self.unseen = self.unseen, 0.0
-        with self._making():
-            self.view.draw(screen, self.match.state, blend, unseen)
-            self.brain.draw(screen, blend, unseen)
+        undrawn, self.undrawn = self.undrawn, 0.0
+        with self._tagged():
+            self.view.draw(screen, self.match.state, blend, undrawn)
+            self.brain.draw(screen, blend, undrawn)
 
     def picture(self) -> pygame.Surface:
         """The current match, darkened, as drawn behind a page."""
@@ -94,8 +94,8 @@ class MatchRunner:
         robot = self.match.state.robots[seat]
         margin = LEFT + 24 + sheet.width / 2
         x = min(max(LEFT + robot.x, margin), 1920 - margin)
-        beside = self.view.reach(seat, BESIDE)
-        sheet.draw(screen, x, TOP + robot.y + (beside if robot.y < HEIGHT / 2 else -beside))
+        offset = self.view.reach(seat, CAPTION_GAP)
+        sheet.draw(screen, x, TOP + robot.y + (offset if robot.y < HEIGHT / 2 else -offset))
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
         """Name and icon of a seat's driver."""
@@ -111,12 +111,12 @@ class MatchRunner:
             return words("match.player", player=seat + 1), "pad"
         return (words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else brain.upper()), "ai"
 
-    def _making(self) -> AbstractContextManager[None]:
+    def _tagged(self) -> AbstractContextManager[None]:
         """Tag new sprites with the game, to release them when the title returns."""
         return surfaces.made_for(self.match.setup.game)
 
     def _count_down(self) -> None:
         second = int(self.match.seconds_left) + 1
-        if second < self.second and second <= LAST and not self.match.over and self.loud:
+        if second < self.second and second <= TICK_SOUNDS and not self.match.over and self.loud:
             self.context.sounds.play("tick")
         self.second = second

@@ -69,7 +69,7 @@ class MatchScene:
         self.spot = CENTRE
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.warm = self.stopped = self.repeated = False
-        self.idle = self.frozen = self.noticed = 0.0
+        self.idle = self.frozen = self.notice_left = 0.0
         self.notice: Caption | None = None
         self.results: Results | None = None
         self.access = Access(context, lambda: self.devices)
@@ -104,7 +104,7 @@ class MatchScene:
             return None
         admitted = self.access.admit(event)
         if event.button is Button.FIRE and self.free(event.device):
-            self._knock(event)
+            self._request_seat(event)
         if admitted is None:
             return None
         self.idle = 0.0
@@ -117,7 +117,7 @@ class MatchScene:
         return None
 
     def update(self, seconds: float) -> Turn:
-        self.noticed -= seconds
+        self.notice_left -= seconds
         if self.repeated:
             return Swap(self.again(self.context, self.setup, self.devices))
         if self.match.over or self.stopped:
@@ -137,7 +137,7 @@ class MatchScene:
             self.runner.wait(seconds)
             return None
         self.idle += seconds
-        self._miss(seconds)
+        self._replace_idle(seconds)
         self.runner.advance(seconds, self.speed)
         if self.humans and self.idle > STILL:
             return Push(StillThere(self))
@@ -159,10 +159,10 @@ class MatchScene:
                 self.spot = clear_of(self.runner.robots())
             self.count.draw(screen, words("match.go"), self.spot)
         for seat, left in self.idle_seats.asked().items():
-            said = words("match.still", seconds=max(1, math.ceil(left)))
-            self.runner.beside(screen, seat, caption(said, PLAYERS[seat], player=seat))
+            sentence = words("match.still", seconds=max(1, math.ceil(left)))
+            self.runner.beside(screen, seat, caption(sentence, PLAYERS[seat], player=seat))
         self._draw_joining(screen)
-        if self.notice and self.noticed > 0.0:
+        if self.notice and self.notice_left > 0.0:
             self.notice.draw(screen, 960, 206)
 
     def _draw_laps(self, screen: pygame.Surface) -> None:
@@ -196,21 +196,21 @@ class MatchScene:
         self.idle_seats.settle(seat, device)
         name, sign = self.runner.driver(seat, device)
         name = name if device else self.context.words("match.back_in")
-        self.notice, self.noticed = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
+        self.notice, self.notice_left = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.context.sounds.play("join", seat)
 
     def welcome(self, event: InputEvent) -> bool:
         """Return its seat to an idle device on any press; true if done."""
-        if event.device not in self.idle_seats.away or event.button in (Button.STOP, Button.BRAIN):
+        if event.device not in self.idle_seats.claims or event.button in (Button.STOP, Button.BRAIN):
             return False
         self.idle = 0.0
-        self.hand(self.idle_seats.away[event.device], event.device)
+        self.hand(self.idle_seats.claims[event.device], event.device)
         return True
 
     def think_aloud(self) -> None:
         """Show the thoughts of the next AI, after the last none; show a notice if there is no AI."""
         if not self.runner.brain.seats:
-            self.notice, self.noticed = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
+            self.notice, self.notice_left = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
         self.runner.brain.next()
 
     def picture(self) -> pygame.Surface:
@@ -260,14 +260,14 @@ class MatchScene:
         """True if BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
         return device.kind != "pad" or not self.access.seated
 
-    def _knock(self, event: InputEvent) -> None:
+    def _request_seat(self, event: InputEvent) -> None:
         """FIRE on a free device: take an unclaimed seat at once, any other after holding."""
-        claimed = self.idle_seats.away.values()
+        claimed = self.idle_seats.claims.values()
         if vacant := [seat for seat in self.stood_in if seat not in claimed]:
             self.hand(vacant[0], event.device)
         elif self.takeable:
             self.joining.begin(event)
-            self.notice, self.noticed = caption(self.context.words("match.hold"), sign="ai"), NOTICE
+            self.notice, self.notice_left = caption(self.context.words("match.hold"), sign="ai"), NOTICE
 
     def _join(self, device: Device) -> None:
         """Give a device the seat of an AI."""
@@ -285,7 +285,7 @@ class MatchScene:
             if self.free(device):
                 self.runner.beside(screen, seat, hold_ring(seat, math.ceil(share * RING_STEPS)))
 
-    def _miss(self, seconds: float) -> None:
+    def _replace_idle(self, seconds: float) -> None:
         """Replace people at idle seats by AIs."""
         controls = self.context.controls
         driven = {seat: device for seat in self.humans if (device := self.devices[seat])}
@@ -300,11 +300,11 @@ class MatchScene:
         self.devices[seat] = device
         if device is None:
             self.helped.add(seat)
-        brain = HumanPlayer(lambda: self._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        brain = HumanPlayer(lambda: self._read(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else STAND_IN
 
-    def _held(self, seat: int, device: Device) -> StickState:
+    def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
         drive = self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:

@@ -22,7 +22,7 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 
 MINUTES = 1.0  # length of a match
-AFTER = 2.5  # seconds for which the end of a match is shown
+END_SECONDS = 2.5  # seconds for which the end of a match is shown
 PAGE = 12.0  # seconds per page
 PROMPT_Y, PAGE_PROMPT_Y = 984, 1020  # px; above PAGE_PROMPT_Y lies a page's own row
 LEVELS = 6  # brightnesses of the prompt
@@ -86,10 +86,10 @@ class Attract:
 
     def _best(self, game: str) -> Scene | None:
         """High scores of the game; None if there are none."""
-        there = [one for one in contests(self.context.scores) if one.game == game]
-        if not there:
+        tables = [table for table in contests(self.context.scores) if table.game == game]
+        if not tables:
             return None
-        best = HighScores(self.context, secrets.choice(there))
+        best = HighScores(self.context, secrets.choice(tables))
         return TimedPage(best, best.paint)
 
 
@@ -117,7 +117,7 @@ class DemoMatch:
         self.warm = self.warm or self.runner.warm(3.0)
         self.runner.advance(seconds)
         self.over += seconds * self.runner.match.over
-        return Home() if self.over > AFTER else None
+        return Home() if self.over > END_SECONDS else None
 
     def draw(self, screen: pygame.Surface) -> None:
         self.runner.draw(screen)

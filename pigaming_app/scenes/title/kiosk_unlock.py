@@ -17,16 +17,16 @@ class KioskUnlock:
 
     def __init__(self, context: Context) -> None:
         self.context = context
-        self.since = 0.0
+        self.held_for = 0.0
 
     def held(self, seconds: float) -> bool:
         """Advance by `seconds`; true at the moment the combination has been held long enough."""
         if not self.context.kiosk:
             return False
-        self.since = self.since + seconds if any(map(self._holds, self._devices())) else 0.0
-        if self.since < HOLD:
+        self.held_for = self.held_for + seconds if any(map(self._holds, self._devices())) else 0.0
+        if self.held_for < HOLD:
             return False
-        self.since = 0.0
+        self.held_for = 0.0
         return True
 
     def _devices(self) -> list[Device]:

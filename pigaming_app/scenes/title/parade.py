@@ -15,9 +15,9 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
 
 COMING, STAYING, LEAVING = 1.9, 16.0, 1.3  # seconds
-APART = 0.22  # seconds between successive robots
+STAGGER = 0.22  # seconds between successive robots
 SPARK_EVERY, SPARK_SPEED = 4.0, 1500.0  # seconds, px/s: period and speed of the sparks along the lines
-LOOKS = (0.0, -0.45, 0.0, 0.5, 0.15, -0.3)  # rad, headings of a waiting robot in turn
+LOOK_ANGLES = (0.0, -0.45, 0.0, 0.5, 0.15, -0.3)  # rad, headings of a waiting robot in turn
 LOOK_EVERY, LOOK_TURN = 1.7, 0.3  # seconds
 FAR = 2080.0  # px along x: off screen
 
@@ -25,20 +25,20 @@ FAR = 2080.0  # px along x: off screen
 def parade(screen: pygame.Surface, seconds: float) -> None:
     """Draw lines and robots, `seconds` after the title appeared."""
     for player in range(4):
-        own = seconds - APART * player
-        head, tail = _reach(own, player)
+        age = seconds - STAGGER * player
+        head, tail = _reach(age, player)
         if head > tail:
             lit = line(player)
             left = max(0, round(tail) - lit.at[0])
             area = (left, 0, round(head) - lit.at[0] - left, lit.image.get_height())
             screen.blit(lit.image, (lit.at[0] + left, lit.at[1]), area, special_flags=ADD)
-            _spark(screen, player, own, tail, head)
+            _spark(screen, player, age, tail, head)
     for player in range(4):
-        own = seconds - APART * player
-        head, _ = _reach(own, player)
+        age = seconds - STAGGER * player
+        head, _ = _reach(age, player)
         if head < FAR:
             x, y, heading = _at(player, head)
-            blit_sprite(screen, tank(player, step(heading + _look(own, player), HEADINGS)), x, y)
+            blit_sprite(screen, tank(player, step(heading + _look(age, player), HEADINGS)), x, y)
 
 
 def dot_robot(seconds: float, scale: float) -> Sprite:
@@ -71,18 +71,18 @@ def _light(player: int) -> LitImage:
     return LitImage(ink.disc(64, 32, 5, WHITE).lit(1.2), (-64, -32))
 
 
-def _reach(own: float, player: int) -> tuple[float, float]:
+def _reach(age: float, player: int) -> tuple[float, float]:
     """x of a robot and of the tail of its line, px."""
     stop = trail_path(player)[3][0]
-    if own < 0.0:
+    if age < 0.0:
         return -80.0, -80.0
-    own %= COMING + STAYING + LEAVING + 0.7
-    if own < COMING:
-        return -80.0 + (stop + 80.0) * (1.0 - (1.0 - own / COMING) ** 2.2), -80.0
-    own -= COMING + STAYING
-    if own < 0.0:
+    age %= COMING + STAYING + LEAVING + 0.7
+    if age < COMING:
+        return -80.0 + (stop + 80.0) * (1.0 - (1.0 - age / COMING) ** 2.2), -80.0
+    age -= COMING + STAYING
+    if age < 0.0:
         return stop, -80.0
-    gone = own / LEAVING
+    gone = age / LEAVING
     return min(FAR, stop + (FAR - stop) * gone**2 * 1.6), -80.0 + (FAR + 80.0) * min(1.0, gone) ** 1.5
 
 
@@ -104,21 +104,21 @@ def _ramp(x: float) -> float:
     return max(0.0, min(1.0, 0.5 + x / 80.0))
 
 
-def _look(own: float, player: int) -> float:
+def _look(age: float, player: int) -> float:
     """Rotation of a waiting robot, rad; 0 while it drives."""
-    waiting = own % (COMING + STAYING + LEAVING + 0.7) - COMING
-    if not 0.0 < waiting < STAYING or own < 0.0:
+    waiting = age % (COMING + STAYING + LEAVING + 0.7) - COMING
+    if not 0.0 < waiting < STAYING or age < 0.0:
         return 0.0
     turns, into = divmod(min(waiting, STAYING - LOOK_EVERY * 0.6) + 0.4 * player, LOOK_EVERY)
     ends = waiting > STAYING - LOOK_EVERY
-    now = LOOKS[(int(turns) * (player + 1)) % len(LOOKS)]
-    then = 0.0 if ends else LOOKS[((int(turns) + 1) * (player + 1)) % len(LOOKS)]
+    now = LOOK_ANGLES[(int(turns) * (player + 1)) % len(LOOK_ANGLES)]
+    then = 0.0 if ends else LOOK_ANGLES[((int(turns) + 1) * (player + 1)) % len(LOOK_ANGLES)]
     share = max(0.0, min(1.0, (into - LOOK_EVERY + LOOK_TURN) / LOOK_TURN))
     return now + (then - now) * share * share * (3.0 - 2.0 * share)
 
 
-def _spark(screen: pygame.Surface, player: int, own: float, tail: float, head: float) -> None:
-    x = ((own + 1.3 * player) % SPARK_EVERY) * SPARK_SPEED - 80.0
+def _spark(screen: pygame.Surface, player: int, age: float, tail: float, head: float) -> None:
+    x = ((age + 1.3 * player) % SPARK_EVERY) * SPARK_SPEED - 80.0
     if tail < x < head - 40.0:
         _, y, heading = _at(player, x)
         if heading == 0.0:

@@ -62,7 +62,7 @@ class Title:
     def on(self, event: InputEvent) -> Turn:
         """Directions and the mouse move the focus; FIRE, START or a click activate; Y changes the language."""
         if event.button is Button.Y:
-            self._speak(self.context.words.other)
+            self._set_language(self.context.words.other)
         elif self.focus.on(event):
             self.context.sounds.play("move")
         self.game = self.focus.name if self.focus.name in games() else self.game
@@ -101,7 +101,7 @@ class Title:
 
     def _open(self, name: str) -> Turn:
         if name in LANGUAGES:
-            self._speak(name)
+            self._set_language(name)
             return None
         scene = self._scene(name)
         self.context.sounds.play("accept")
@@ -132,7 +132,7 @@ class Title:
         self.lab = self.lab or Lab(self.context)
         return self.lab
 
-    def _speak(self, language: str) -> None:
+    def _set_language(self, language: str) -> None:
         if language != self.context.words.language:
             self.context.words.switch(language)
             self.context.settings.language = language
@@ -154,14 +154,14 @@ class Title:
         return spots
 
     def _menu(self) -> tuple[str, ...]:
-        there = "howto", "lab", "options"
-        return there if self.context.kiosk else (*there, "quit")
+        items = "howto", "lab", "options"
+        return items if self.context.kiosk else (*items, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:
         """The call to action, between arrows that run towards it."""
-        said, label = self.asked
-        call_to_action(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
-        reach = call_to_action_width(said, label, SUB) / 2 + 44
+        sentence, label = self.asked
+        call_to_action(sentence, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
+        reach = call_to_action_width(sentence, label, SUB) / 2 + 44
         for k in range(3):
             level = (3, 5, 8)[(k + int(self.clock * 4)) % 3]
             sign("right", 24, FOCUS, LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
@@ -174,9 +174,9 @@ class Title:
         label = words.printed(self.context.controls.label(None, Button.FIRE))
         if name in games():
             return words("title.press", button="{button}"), label
-        return words("title.choose", button="{button}", what=self._what(name)), label
+        return words("title.choose", button="{button}", what=self._item_name(name)), label
 
-    def _what(self, name: str) -> str:
+    def _item_name(self, name: str) -> str:
         """The name of a menu item."""
         return NAMES[name] if name in LANGUAGES else self.context.words(f"title.{name}")
 
@@ -184,8 +184,8 @@ class Title:
         words = self.context.words
         for name in (*self._menu(), *LANGUAGES):
             lit = name == words.language if name in LANGUAGES else name == self.focus.name
-            said, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
-            chip(said, box.w, "on" if lit else "off").draw(screen, *box.topleft)
+            word, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
+            chip(word, box.w, "on" if lit else "off").draw(screen, *box.topleft)
         label = self.context.controls.label(None, Button.Y)
         if label:
             button_label(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)

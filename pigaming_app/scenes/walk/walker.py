@@ -17,8 +17,8 @@ from pigaming_app.scenes.walk.tour import tour
 
 FPS = 30
 TAP = 2  # frames for which a key is held
-PATIENCE = 60.0  # s, timeout for a screen to appear
-WARM = 2.0  # s on the title before the first input
+TIMEOUT = 60.0  # s, timeout for a screen to appear
+SETTLE = 2.0  # s on the title before the first input
 
 
 class ScreenMissing(Exception):
@@ -38,9 +38,9 @@ class Walker:
         """The current scene."""
         return self.app.stack.top
 
-    def on(self, kind: str) -> bool:
+    def on(self, class_name: str) -> bool:
         """True if the current scene is of this class."""
-        return type(self.top).__name__ == kind
+        return type(self.top).__name__ == class_name
 
     def at(self, screen: str) -> None:
         """Attribute the following frames to a screen."""
@@ -48,9 +48,9 @@ class Walker:
 
     def frame(self) -> None:
         """Run and measure one frame."""
-        began = thread_time()
+        start = thread_time()
         painted = self.app.compose(1 / FPS)
-        spent = 1000.0 * (thread_time() - began)
+        spent = 1000.0 * (thread_time() - start)
         self.worst[self.screen] = max(spent, self.worst.get(self.screen, 0.0))
         if painted:
             self.context.canvas.flip()
@@ -60,10 +60,10 @@ class Walker:
         for _ in range(round(seconds * FPS)):
             self.frame()
 
-    def until(self, true: Callable[[], bool]) -> None:
+    def until(self, condition: Callable[[], bool]) -> None:
         """Run frames until `true()`. Raises ScreenMissing."""
-        for _ in range(round(PATIENCE * FPS)):
-            if true():
+        for _ in range(round(TIMEOUT * FPS)):
+            if condition():
                 return
             self.frame()
         raise ScreenMissing(f"{self.screen}: {type(self.top).__name__} is still shown")
@@ -86,7 +86,7 @@ def walk() -> dict[str, float]:
         walker = Walker(app)
         walker.frame()
         walker.worst.clear()
-        walker.wait(WARM)
+        walker.wait(SETTLE)
         tour(walker)
     return walker.worst
 

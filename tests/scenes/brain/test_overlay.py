@@ -65,7 +65,7 @@ def test_where_nobody_is_an_ai_that_is_said(arcade: Arcade) -> None:
     f4(arcade)
     assert match.runner.brain.seat is None
     assert match.notice is not None
-    assert match.noticed > 0.0
+    assert match.notice_left > 0.0
 
 
 def test_alt_and_f4_is_for_the_window_manager(arcade: Arcade) -> None:
@@ -170,7 +170,7 @@ def test_what_is_shown_is_seen(arcade: Arcade, game: str) -> None:
     places = around.clip(arcade.screen.get_rect()), pygame.Rect(160, 0, 600, 130), clock.inflate(-60, -20)
     before = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
     stage.brain.next()
-    stage.unseen = 0.0
+    stage.undrawn = 0.0
     stage.draw(arcade.screen)
     now = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
     assert [old != new for old, new in zip(before, now, strict=True)] == [True, True, False]

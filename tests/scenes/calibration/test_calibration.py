@@ -54,7 +54,9 @@ def made() -> Iterator[CalibrationResult]:
 
 def concluded(arcade: Operated, made: CalibrationResult) -> ResultPage:
     """The page of a calibration that has been made, above the wizard's first."""
-    page = ResultPage(arcade.context, replace(made, site=arcade.site))
+    page = ResultPage(
+        arcade.context, replace(made, site=arcade.site), lambda: CalibrationPage(arcade.context, arcade.site)
+    )
     arcade.open(page)
     return page
 

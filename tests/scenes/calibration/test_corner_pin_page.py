@@ -12,7 +12,7 @@ from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision import markers
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.app import App, Options
-from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, FARTHEST, CornerPinPage, handle
+from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, MAX_OFFSET, CornerPinPage, handle
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import FOCUS
@@ -117,8 +117,8 @@ def test_corners_do_not_cross_and_do_not_get_lost(arcade: Arcade) -> None:
     for _ in range(300):
         arcade.press(Button.RIGHT)
         arcade.press(Button.DOWN)
-    assert page.corners[0] <= FARTHEST
-    assert page.said > 0.0 or page.corners[0] == FARTHEST
+    assert page.corners[0] <= MAX_OFFSET
+    assert page.sentence_left > 0.0 or page.corners[0] == MAX_OFFSET
     arcade.shown(CornerPinPage)
     arcade.context.canvas.flip()
 

@@ -16,7 +16,7 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import HUMAN
 from pigaming_app.scenes.play.device_table import DeviceTable
-from pigaming_app.scenes.play.idle_seats import ASK, REST
+from pigaming_app.scenes.play.idle_seats import ANSWER_LIMIT, IDLE_LIMIT
 from pigaming_app.scenes.play.pause import SURE, Pause
 from pigaming_app.scenes.play.reconnect import StillThere
 from pigaming_app.scenes.play.scene import MatchScene
@@ -365,17 +365,19 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
     (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
     match = running(arcade, "human human off off", [first, second])
     one.stick(0.0, -1.0)
-    arcade.wait(REST - 1.0, fps=20)
+    arcade.wait(IDLE_LIMIT - 1.0, fps=20)
     assert not match.idle_seats.asked()
     arcade.until(lambda: bool(match.idle_seats.asked()))
     assert list(match.idle_seats.asked()) == [1]
     arcade.stack.top.draw(arcade.screen)
     tap(arcade, two, "x")
     assert not match.idle_seats.asked(), "any button answers"
-    arcade.wait(REST + 1.0, fps=20)
+    arcade.wait(IDLE_LIMIT + 1.0, fps=20)
     before = match.match.state.tick
     arcade.until(lambda: isinstance(match.match.brains[1], BrainPlayer))
-    assert match.match.state.tick - before == pytest.approx((ASK - 1.0) * 50, abs=20), "nobody else had to wait"
+    assert match.match.state.tick - before == pytest.approx((ANSWER_LIMIT - 1.0) * 50, abs=20), (
+        "nobody else had to wait"
+    )
     assert arcade.stack.top is match
     assert isinstance(match.match.brains[0], HumanPlayer)
     tap(arcade, two, "a")
@@ -386,7 +388,7 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
 def test_time_in_a_pause_is_no_walking_off(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
     arcade.press(Button.START)
-    arcade.wait(REST + ASK + 5.0, fps=10)
+    arcade.wait(IDLE_LIMIT + ANSWER_LIMIT + 5.0, fps=10)
     arcade.press(Button.START)
     arcade.wait(3.0)
     assert arcade.stack.top is match

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.scenes.flow.timestep import MOST, FixedTimestep
+from pigaming_app.scenes.flow.timestep import MAX_TICKS, FixedTimestep
 from pigaming_app.sim.world import DT
 
 
@@ -14,14 +14,14 @@ def test_ten_seconds_are_five_hundred_ticks_at_any_frame_rate(fps: int) -> None:
 
 def test_a_second_asleep_is_not_caught_up() -> None:
     pace = FixedTimestep()
-    assert pace.due(1.0) == MOST
+    assert pace.due(1.0) == MAX_TICKS
     assert pace.blend == 0.0
     assert sum(pace.due(1 / 50) for _ in range(50)) == 50
 
 
 def test_a_machine_of_five_frames_a_second_plays_slowly() -> None:
     pace = FixedTimestep()
-    assert sum(pace.due(1 / 5) for _ in range(10)) == 10 * MOST
+    assert sum(pace.due(1 / 5) for _ in range(10)) == 10 * MAX_TICKS
 
 
 def test_four_times_the_speed_is_four_times_the_ticks() -> None:

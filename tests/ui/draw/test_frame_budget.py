@@ -226,7 +226,7 @@ def test_the_last_picture_stays_until_the_next_one_is_whole(app: App, watch: Wat
         began = watch.now
         app._frame(1 / 60)
         frames += 1
-        assert watch.now - began <= arcade.PAINTING + PIECE
+        assert watch.now - began <= arcade.PREWARM_UNTIL + PIECE
     assert shown == [(30, 0, 0)]
     assert frames > 5
     assert page.made == [*range(30)]
@@ -245,7 +245,7 @@ def test_a_tap_while_a_picture_is_made_is_heard(app: App, watch: Watch) -> None:
 def test_a_picture_that_never_gets_ready_is_completed_after_a_while(
     app: App, watch: Watch, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(arcade, "LATEST", 3)
+    monkeypatch.setattr(arcade, "MAX_UNFINISHED", 3)
     app.stack.turn(Push(Slow(watch)))
     assert [app.compose(1 / 60) for _ in range(4)] == [False, False, False, True]
 
