@@ -1,4 +1,4 @@
-"""The second window, which shows what the camera over the emulated mat sees."""
+"""The second window, with the view of the emulated camera."""
 
 import pygame
 import pytest

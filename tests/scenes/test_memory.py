@@ -1,4 +1,4 @@
-"""What the arcade keeps in memory: no more than the budget of its cache, and nothing of a match that is over."""
+"""Memory: the cache stays within its budget and keeps nothing of a finished match."""
 
 import gc
 import random
@@ -37,7 +37,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def match(arcade: Arcade, game: str) -> MatchScene:
-    """A match of AIs with the longest way to the goal."""
+    """A match of AIs with the longest goal."""
     rules = games()[game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
@@ -46,7 +46,7 @@ def match(arcade: Arcade, game: str) -> MatchScene:
 
 
 def warmed(arcade: Arcade, game: str) -> None:
-    """Put a match on top, and wait until it has all its sprites and has begun."""
+    """Push a match, and wait until all its sprites are built and it has started."""
     scene = match(arcade, game)
     arcade.stack.turn(Push(scene))
     arcade.until(lambda: scene.warm, 60.0)

@@ -1,4 +1,4 @@
-"""What the arcade says: both languages say the same things."""
+"""The texts: both languages have the same keys and placeholders."""
 
 import ast
 import re
@@ -52,7 +52,7 @@ FORMATTERS = {
 
 
 def test_every_decimal_number_on_a_screen_is_written_in_its_language() -> None:
-    """A format with decimals stands in a call of the words or of `decimal`, or in a formatter, whose calls do so."""
+    """Decimals are formatted in a call of the words or of `decimal`, or in a formatter whose calls are."""
     scenes, found = ASSETS.parent / "pigaming_app" / "scenes", []
     for file in scenes.rglob("*.py"):
         module = ast.parse(file.read_text(encoding="utf-8"))
@@ -61,18 +61,18 @@ def test_every_decimal_number_on_a_screen_is_written_in_its_language() -> None:
 
 
 def known(module: ast.AST) -> set[str]:
-    """The formatters that a module imports."""
+    """The formatters imported by a module."""
     imports = [node for node in ast.walk(module) if isinstance(node, ast.ImportFrom) and node.module]
     names = [(alias.name, node.module) for node in imports for alias in node.names]
     return {name for name, source in names if name in FORMATTERS and str(source).endswith(FORMATTERS[name])}
 
 
 def bare_decimals(module: ast.AST, formatters: set[str], localised: bool = False) -> Iterator[int]:
-    """The lines on which a number with decimals is written without regard to the language."""
+    """Lines on which decimals are formatted without localisation."""
     for node in ast.iter_child_nodes(module):
         name = getattr(node, "name", "")
         if name in ("FrameMeter", "projection") or isinstance(node, ast.Raise):
-            continue  # F3, what a calibration is valid for, and reasons in the log: not for players
+            continue  # F3, calibration projections and log reasons: not shown to players
         if isinstance(node, ast.FormattedValue) and not localised and decimals(node):
             yield node.lineno
         if called(node) in formatters and not localised:
@@ -82,14 +82,14 @@ def bare_decimals(module: ast.AST, formatters: set[str], localised: bool = False
 
 
 def called(node: ast.AST) -> str:
-    """The name of the function that is called."""
+    """The name of the called function."""
     if not isinstance(node, ast.Call):
         return ""
     return node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
 
 
 def decimals(node: ast.FormattedValue) -> bool:
-    """Whether a format may give decimals."""
+    """True if a format may produce decimals."""
     text = ast.unparse(node.format_spec) if node.format_spec else ""
     return bool(re.search(r"\.[1-9]f|g['\"]$", text))
 

@@ -1,4 +1,4 @@
-"""The probe tells of every device, also where there is none and where a look fails."""
+"""The probe reports every device, also missing ones and failing checks."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-"""The sounds: rendered by the project's own script, heard where there is a device, silence where there is none."""
+"""The sounds: rendered by the project's script, played if there is a device, silent otherwise."""
 
 import importlib.util
 import math
@@ -45,7 +45,7 @@ def sounds() -> Iterator[Sounds]:
 
 @pytest.fixture
 def now(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """A clock that only the test moves."""
+    """A clock advanced by the test."""
     clock = [1000.0]
     monkeypatch.setattr("time.monotonic", lambda: clock[0])
     return clock
@@ -73,7 +73,7 @@ def test_a_sound_is_clean(name: str) -> None:
 
 
 def test_the_loudness_of_a_tone_at_1000_hz_is_its_own() -> None:
-    """A-weighting leaves 1 kHz alone (IEC 61672-1): a full sine has half the power of full scale, -3.01 dB."""
+    """A-weighting leaves 1 kHz alone (IEC 61672-1): a full-scale sine has half the power, -3.01 dB."""
     tone = np.sin(2.0 * np.pi * 1000.0 * np.arange(RENDER.RATE) / RENDER.RATE)
     assert RENDER.loudness(tone) == pytest.approx(10.0 * math.log10(0.5), abs=0.05)
 

@@ -61,7 +61,7 @@ class Walker:
             self.frame()
 
     def until(self, condition: Callable[[], bool]) -> None:
-        """Run frames until `true()`. Raises ScreenMissing."""
+        """Run frames until `condition()`. Raises ScreenMissing."""
         for _ in range(round(TIMEOUT * FPS)):
             if condition():
                 return

@@ -1,4 +1,4 @@
-"""The look into an AI's brain (F4): it goes round the AIs, says what they do, hides nobody and changes nothing."""
+"""The brain overlay (F4): it cycles through the AIs, describes their actions, covers no robot and changes nothing."""
 
 from itertools import pairwise
 
@@ -26,7 +26,7 @@ from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
 SEATS = {"pitanks": ["hard", "easy", "random", "idle"], "race": ["hard", "easy", "random", "idle"]}
 SEATS["factory"] = ["hard", "normal", "easy", "random"]
-READABLE = 0.85  # of its size, below which a text is not pressed together
+READABLE = 0.85  # minimum horizontal scale of readable text
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def arcade(controls: Controls) -> Arcade:
 
 
 def f4(arcade: Arcade) -> None:
-    """Somebody presses the key, and lets go."""
+    """Press and release F4."""
     for kind in (pygame.KEYDOWN, pygame.KEYUP):
         pygame.event.post(pygame.Event(kind, key=pygame.K_F4, scancode=pygame.KSCAN_F4, mod=0, unicode=""))
     arcade.frame(draw=True)
@@ -159,7 +159,7 @@ def test_every_brain_is_drawn_and_the_match_plays_out_alike(controls: Controls, 
 
 @pytest.mark.parametrize("game", SEATS)
 def test_what_is_shown_is_seen(arcade: Arcade, game: str) -> None:
-    """Light round the robot, another text in place of the panels, the clock where it was; and all of it goes again."""
+    """Light round the robot, texts in place of the panels, an unchanged clock; all of it disappears again."""
     stage = stage_of(arcade, game)
     for _ in range(120):
         stage.advance(1 / 60)
@@ -181,7 +181,7 @@ def test_what_is_shown_is_seen(arcade: Arcade, game: str) -> None:
 
 
 def test_no_light_of_it_lies_on_a_robot(arcade: Arcade) -> None:
-    """Neither on its own robot nor on others, which stand in the rose and across the lines of sight."""
+    """Neither on its own robot nor on others in the rose and across the lines of sight."""
     stage = stage_of(arcade, "pitanks")
     state, overlay = stage.match.state, stage.brain
     for _ in range(30):
@@ -204,7 +204,7 @@ def test_no_light_of_it_lies_on_a_robot(arcade: Arcade) -> None:
 
 
 def test_the_petals_of_a_rose_turn_with_the_robot() -> None:
-    """A rose that wants to go ahead is lit where the robot looks."""
+    """A rose with the wish to go ahead is lit in front of the robot."""
     pygame.display.init()
     pygame.display.set_mode((1920, 1080))
     ahead = [1.0] + [0.0] * 15

@@ -1,4 +1,4 @@
-"""The calibration wizard on the emulated arena: it finds what is true there; whatever is wrong is one sentence."""
+"""The calibration wizard on the emulated arena: it recovers the ground truth; every failure is one sentence."""
 
 import ast
 import os
@@ -37,12 +37,12 @@ from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from tests.scenes.operated import Operated
 
-LONG = 30.0  # s after which a test gives up waiting
+LONG = 30.0  # s, timeout of a test
 
 
 @pytest.fixture(scope="module")
 def made() -> Iterator[CalibrationResult]:
-    """A calibration by the wizard, made once for the tests of what comes after it."""
+    """A calibration by the wizard, shared by the tests of later pages."""
     with tempfile.TemporaryDirectory() as home, pytest.MonkeyPatch.context() as patch:
         patch.setenv("PIGAMING_HOME", home)
         pygame.display.init()
@@ -53,7 +53,7 @@ def made() -> Iterator[CalibrationResult]:
 
 
 def concluded(arcade: Operated, made: CalibrationResult) -> ResultPage:
-    """The page of a calibration that has been made, above the wizard's first."""
+    """The result page of a finished calibration, above the wizard's first page."""
     page = ResultPage(
         arcade.context, replace(made, site=arcade.site), lambda: CalibrationPage(arcade.context, arcade.site)
     )
@@ -193,7 +193,8 @@ def test_nobody_puts_a_robot_on_the_outline(
 ) -> None:
     monkeypatch.setattr(standing, "PATIENCE", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
-    arcade.open(HeightPage(arcade.context, replace(made, site=arcade.site)))
+    finding = replace(made, site=arcade.site)
+    arcade.open(HeightPage(arcade.context, finding, lambda: CalibrationPage(arcade.context, arcade.site)))
     result = arcade.pictures(ResultPage)
     assert result.finding.trouble.key == "nobody"
 
@@ -214,7 +215,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made
         arcade.picture()
     assert checking.marker_mm == pytest.approx(50.0, rel=0.04), "the width of the mat was measured well"
     canvas = arcade.context.canvas
-    canvas.pin(CornerPin([8, 0, 1928, 0, 1928, 1080, 8, 1080]))  # somebody pushes the projector
+    canvas.pin(CornerPin([8, 0, 1928, 0, 1928, 1080, 8, 1080]))  # the projector is moved
     for _ in range(24):
         arcade.picture()
     assert checking.mm == pytest.approx(8 * checking.drift.ground.mm, abs=2.0)  # type: ignore[union-attr]

@@ -1,4 +1,4 @@
-"""The calibration wizard with real cameras, or none: what they do not do is one sentence, and no thread stays."""
+"""The calibration wizard with real cameras, or none: failures are one sentence, and no thread survives."""
 
 import time
 from pathlib import Path
@@ -28,11 +28,11 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.operated import Operated
 
-LONG = 30.0  # s after which a test gives up waiting
+LONG = 30.0  # s, timeout of a test
 
 
 class Driver:
-    """A `cv2.VideoCapture` of the tests': it opens, or not, and sends grey pictures."""
+    """A fake `cv2.VideoCapture` that opens or fails, and returns grey images."""
 
     def __init__(self, opens: bool = True) -> None:
         self.opens, self.sends = opens, True
@@ -68,7 +68,7 @@ def until(arcade: Operated, true: Any) -> None:
     end = time.monotonic() + LONG
     while not true():
         arcade.picture()
-        time.sleep(0.005)  # as the arcade does between two pictures; else the camera's thread may starve
+        time.sleep(0.005)  # like the arcade between two pictures; else the camera's thread may starve
         assert time.monotonic() < end, "it did not happen"
 
 
@@ -191,7 +191,7 @@ def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls
 
 
 class Overhead(Driver):
-    """A driver whose camera hangs over an emulated mat, and sends its pictures in colour."""
+    """A fake camera above an emulated mat, with colour images."""
 
     def __init__(self, site: EmulatedCalibrationSite) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""The corner markers: they stand in the side margins, and tell when somebody has run into the camera."""
+"""The corner markers: they lie in the side margins and reveal a displaced camera."""
 
 from pathlib import Path
 

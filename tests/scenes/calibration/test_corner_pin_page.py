@@ -1,4 +1,4 @@
-"""The corner pin by hand: the picture follows, only what is saved stays, and nothing impossible is ever shown."""
+"""The manual corner pin: live preview, only saved corners persist, impossible ones are never shown."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Whose press counts: pads that are seated, pads that are not, and people who walk off."""
+"""Access control: seated pads, free pads, and idle people."""
 
 import random
 from collections.abc import Iterator
@@ -67,7 +67,7 @@ def tap(arcade: Arcade, pad: VirtualPad, *buttons: str) -> None:
 
 
 def key(arcade: Arcade, scancode: int, seconds: float = 0.0) -> None:
-    """Hold a key of the keyboard for so long."""
+    """Hold a key for `seconds`."""
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=scancode, mod=0))
     arcade.wait(max(seconds, 1 / 30))
     pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=scancode, mod=0))
@@ -152,7 +152,7 @@ def test_a_shared_key_counts_for_the_seated_half_of_the_keyboard(arcade: Arcade)
     arcade.open(page)
     key(arcade, pygame.KSCAN_SPACE)
     key(arcade, pygame.KSCAN_SPACE)
-    key(arcade, pygame.KSCAN_UP)  # a hand of nobody on the arrows
+    key(arcade, pygame.KSCAN_UP)  # a key of an unseated cluster
     assert page.seats.places[0].ready
     key(arcade, pygame.KSCAN_ESCAPE)
     assert not page.seats.places[0].ready
@@ -356,7 +356,7 @@ def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arc
     assert sum(fired) == 1
 
 
-# ---- seats that change hands
+# ---- seats with a new driver
 
 
 def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pressed(
@@ -511,7 +511,7 @@ def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(ar
     assert scene.asked[1] == "SPACE", "not the button of a pad that is gone"
 
 
-# ---- anything may happen
+# ---- random input
 
 
 def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) -> None:

@@ -1,4 +1,4 @@
-"""Scenes that hold something are told when they are taken off the stack, however that happens."""
+"""Scenes that hold a resource are closed whenever they are removed from the stack."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Real time and ticks: as many as real time holds, never a burst."""
+"""Fixed timestep: as many ticks as real time holds, never a burst."""
 
 import pytest
 

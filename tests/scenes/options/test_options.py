@@ -1,4 +1,4 @@
-"""The options: what is changed is so at once, and is still so tomorrow."""
+"""The options: changes apply immediately and persist."""
 
 import tomllib
 from datetime import datetime
@@ -33,7 +33,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def go(arcade: Arcade, name: str) -> OptionsPage:
-    """Put the focus on a row."""
+    """Focus a row."""
     page = arcade.shown(OptionsPage)
     while page.focus.name != name:
         arcade.press(Button.DOWN)

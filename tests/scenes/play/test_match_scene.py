@@ -1,4 +1,4 @@
-"""Matches as people live them: the countdown, pads that are pulled, who takes over, pauses, and what comes after."""
+"""Matches as played: the countdown, unplugged pads, replacements, pauses, and the results."""
 
 from collections.abc import Iterator
 from contextlib import ExitStack

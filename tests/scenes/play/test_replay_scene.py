@@ -1,4 +1,4 @@
-"""Watching: what runs while nobody plays, and matches that were recorded."""
+"""Demonstration matches and replays."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Pictures under a budget: what is missing is made over several frames, and the last whole picture stays meanwhile."""
+"""Frame budget: missing sprites are built over several frames, while the last complete picture stays."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -23,12 +23,12 @@ from pigaming_app.ui.draw.frame_budget import (
 from pigaming_app.ui.draw.surface_cache import SurfaceCache
 from pigaming_app.ui.input.events import Button, InputEvent
 
-PIECE = 0.004  # s that a piece takes
-FRAME = 0.010  # s of a frame for pieces
+PIECE = 0.004  # s to build a sprite
+FRAME = 0.010  # s per frame for sprites
 
 
 class Watch:
-    """A clock that only work moves."""
+    """A clock advanced by work only."""
 
     def __init__(self) -> None:
         self.now = 0.0
@@ -49,7 +49,7 @@ def watch(monkeypatch: pytest.MonkeyPatch) -> Watch:
 
 
 def pieces(watch: Watch, seconds: float = PIECE) -> tuple[list[int], "partial[pygame.Surface]"]:
-    """A cached function, and the arguments for which it was really called."""
+    """A cached function, and the arguments of its actual calls."""
     made: list[int] = []
 
     def make(number: int) -> pygame.Surface:
@@ -183,7 +183,7 @@ def test_what_was_made_ahead_in_a_frame_counts_for_its_picture(watch: Watch) -> 
 
 
 class Slow:
-    """A page of thirty pieces in the colour (30, 0, 0), painted over the whole screen as it grows."""
+    """A page of thirty sprites in the colour (30, 0, 0), drawn over the whole screen as it grows."""
 
     def __init__(self, watch: Watch) -> None:
         self.made, self.piece = pieces(watch)

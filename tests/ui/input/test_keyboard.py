@@ -11,7 +11,7 @@ STILL = StickState()
 
 
 def key(code: int, down: bool = True, mod: int = 0) -> pygame.Event:
-    """A key, with a keycode that no layout has: only its place counts."""
+    """A key event with a keycode of no layout: only its scancode counts."""
     return pygame.Event(pygame.KEYDOWN if down else pygame.KEYUP, key=0, scancode=code, mod=mod, unicode="")
 
 
