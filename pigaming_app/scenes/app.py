@@ -286,7 +286,7 @@ class App:
         """True if an event closes the arcade: with two windows open, SDL sends no QUIT for the first."""
         if event.type == pygame.QUIT:
             return True
-        if self.window is None or self.window.asked(event):
+        if self.window is None or self.window.close_if_requested(event):
             return False
         return event.type == pygame.WINDOWCLOSE
 

@@ -50,7 +50,7 @@ class CameraWindow:
             log.warning("The window with the camera's view was lost: %s.", reason)
             self.close()
 
-    def asked(self, event: pygame.Event) -> bool:
+    def close_if_requested(self, event: pygame.Event) -> bool:
         """Close this window if an event requests it; true if so."""
         mine = event.type == pygame.WINDOWCLOSE and self.window is not None and event.window == self.window
         if mine:

@@ -72,9 +72,9 @@ class BrainOverlay:
         self.clock += seconds
         part, thoughts = 1.0 - math.exp(-EASE * seconds), self.thoughts
         self.rose = [old + part * (new - old) for old, new in zip(self.rose, thoughts.rose, strict=True)]
-        shown: Mapping[str, float] = self.wishes
+        current: Mapping[str, float] = self.wishes
         self.wishes = {
-            name: (old := shown.get(name, 0.0)) + part * (new - old) for name, new in thoughts.wishes.items()
+            name: (old := current.get(name, 0.0)) + part * (new - old) for name, new in thoughts.wishes.items()
         }
 
     def _floor(self, screen: pygame.Surface, state: Any, seat: int, blend: float) -> None:

@@ -66,8 +66,8 @@ class Access:
 
     def update(self, seconds: float) -> InputEvent | None:
         """Advance the timers; returns the operator's BACK when Escape has been held long enough."""
-        held = self.escape.update(seconds)
-        return held[0] if held else None
+        events = self.escape.update(seconds)
+        return events[0] if events else None
 
     @property
     def voice(self) -> Device:
@@ -99,7 +99,7 @@ class PauseAccess(Access):
     def update(self, seconds: float) -> InputEvent | None:
         """Advance the timers; an operator holding Escape becomes the owner."""
         self.left -= seconds
-        held = super().update(seconds)
-        if held:
-            self.owner, self.left = held.device, OWNED
-        return held
+        events = super().update(seconds)
+        if events:
+            self.owner, self.left = events.device, OWNED
+        return events

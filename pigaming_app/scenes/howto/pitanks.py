@@ -62,10 +62,10 @@ def _hit(screen: pygame.Surface, shooter: int, places: tuple[Point, Point], sinc
     if since < 1.1:
         level = things.POPUP_LEVELS if since < 0.7 else max(1, round(things.POPUP_LEVELS * (1.1 - since) / 0.4))
         rise = 60 * (1 - (1 - min(1.0, since / 0.8)) ** 2)
-        for seat, said in ((shooter, "+1"), (1 - shooter, "−1")):
+        for seat, change in ((shooter, "+1"), (1 - shooter, "−1")):
             px, py = places[seat]
             side = 96 if seat == 0 else -96
-            blit_sprite(screen, things.popup(said, seat, level), px + side, py + 30 - rise)
+            blit_sprite(screen, things.popup(change, seat, level), px + side, py + 30 - rise)
 
 
 def walls(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:

@@ -113,11 +113,11 @@ def _note(loud: int, beat: int) -> LitImage:
 def _drawn(name: str, chosen: int, beat: int) -> LitImage:
     ink = GlowCanvas(480, 340).to(240, 170)
     if name == "language":
-        for i, said in enumerate(("EN", "PT")):
+        for i, code in enumerate(("EN", "PT")):
             lit: Color = FOCUS if i == chosen else STEEL
             x, y = (-88, -40) if i == 0 else (72, 40)
             _bubble(ink, x, y, -1 if i == 0 else 1, lit)
-            ink.text(said, LABEL, x, y, lit, "head", "c")
+            ink.text(code, LABEL, x, y, lit, "head", "c")
     elif name in ("display", "fullscreen"):
         _monitor(ink, bool(chosen) if name == "fullscreen" else False, beat)
     elif name == "padtest":

@@ -18,11 +18,11 @@ class IdleSeats:
         self.idle_for: dict[int, float] = {}
         self.claims: dict[Device, int] = {}  # seat by idle device
 
-    def alive(self, seat: int) -> None:
+    def touch(self, seat: int) -> None:
         """Input at a seat."""
         self.idle_for[seat] = 0.0
 
-    def asked(self) -> dict[int, float]:
+    def prompted(self) -> dict[int, float]:
         """Remaining seconds of the seats being asked."""
         return {seat: IDLE_LIMIT + ANSWER_LIMIT - idle for seat, idle in self.idle_for.items() if idle >= IDLE_LIMIT}
 
@@ -35,9 +35,9 @@ class IdleSeats:
         """An AI takes over for a device."""
         self.claims[device] = seat
 
-    def settle(self, seat: int, device: Device | None) -> None:
+    def reassign(self, seat: int, device: Device | None) -> None:
         """A seat has a new driver: drops all claims to it and the driver's claims to other seats."""
-        self.alive(seat)
+        self.touch(seat)
         self.claims = {claimant: left for claimant, left in self.claims.items() if left != seat and claimant != device}
 
     def forget(self, device: Device) -> None:

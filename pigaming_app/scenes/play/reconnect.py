@@ -41,7 +41,7 @@ class Reconnect:
 
     def __init__(self, match: OpenMatch, seat: int) -> None:
         self.match, self.context, self.seat = match, match.context, seat
-        self.age, self.found = 0.0, False
+        self.age, self.replugged = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
         hints = [(Button.X, "pause.hint_ai"), (Button.BACK, "pause.hint_menu")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
@@ -56,10 +56,10 @@ class Reconnect:
         event = self.prompts.as_button(event)
         admitted = self.match.access.admit(event)
         if event.button is Button.FOUND:
-            self.found = True
+            self.replugged = True
             self.context.sounds.play("move")
         elif event.button is Button.LOST:
-            self.found = False
+            self.replugged = False
         elif event.button in (Button.FIRE, Button.START) and self.match.free(event.device):
             return self._hand(event.device)
         elif admitted is None or self.age < IGNORED:
@@ -79,12 +79,14 @@ class Reconnect:
         return self._hand(None) if self.age >= WAIT else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        if self.found not in self.pictures:
-            self.pictures[self.found] = overlay(self.match.picture(), PLAYERS[self.seat], self._paint, self.found)
-        screen.blit(self.pictures[self.found], (0, 0))
-        gap = 0 if self.found else round(4 + 4 * math.sin(self.age * math.tau / 1.4))
-        plug(MIST if not self.found else GREEN, self.found).draw(screen, PAD[0], PAD[1] - gap)
-        if not self.found and self.age % 1.4 < 0.7:
+        if self.replugged not in self.pictures:
+            self.pictures[self.replugged] = overlay(
+                self.match.picture(), PLAYERS[self.seat], self._paint, self.replugged
+            )
+        screen.blit(self.pictures[self.replugged], (0, 0))
+        gap = 0 if self.replugged else round(4 + 4 * math.sin(self.age * math.tau / 1.4))
+        plug(MIST if not self.replugged else GREEN, self.replugged).draw(screen, PAD[0], PAD[1] - gap)
+        if not self.replugged and self.age % 1.4 < 0.7:
             bolt().draw(screen, *PAD)
         ring(screen, WAIT - self.age, WAIT)
         self.prompts.draw(screen)
@@ -101,7 +103,7 @@ class Reconnect:
         icon(ink, "pad", x, y + 34, 100, PLAYERS[self.seat], LINE)
         ink.line([(x, y - 16), (x, y - 46)], PLAYERS[self.seat], LINE)
         ink.line([(x - 16, y - 46), (x + 16, y - 46)], PLAYERS[self.seat], LINE)
-        say(layer, words("pause.found" if self.found else "pause.how"), FOCUS if self.found else ICE)
+        say(layer, words("pause.found" if self.replugged else "pause.how"), FOCUS if self.replugged else ICE)
         after(layer, words("pause.then_ai"))
 
 

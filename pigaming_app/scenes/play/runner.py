@@ -33,7 +33,7 @@ class MatchRunner:
         self.context, self.match, self.loud = context, match, loud
         self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
         kind = VIEWS[match.setup.game]
-        with self._tagged():
+        with self._tag_sprites():
             self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
         self.brain = BrainOverlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
@@ -42,7 +42,7 @@ class MatchRunner:
 
     def warm(self, milliseconds: float) -> bool:
         """Prewarm sprites for up to `milliseconds`; true when done."""
-        with self._tagged():
+        with self._tag_sprites():
             return bool(self.view.warm(milliseconds))
 
     def advance(self, seconds: float, speed: float = 1.0) -> None:
@@ -52,7 +52,7 @@ class MatchRunner:
             if self.match.over:
                 break
             self.match.tick()
-            with self._tagged():
+            with self._tag_sprites():
                 sounds = self.view.watch(self.match.state)
             for name, player, x in sounds:
                 if self.loud:
@@ -67,7 +67,7 @@ class MatchRunner:
         """Draw the match, interpolated between its last two ticks."""
         blend = 1.0 if self.match.over else self.timestep.blend
         undrawn, self.undrawn = self.undrawn, 0.0
-        with self._tagged():
+        with self._tag_sprites():
             self.view.draw(screen, self.match.state, blend, undrawn)
             self.brain.draw(screen, blend, undrawn)
 
@@ -111,7 +111,7 @@ class MatchRunner:
             return words("match.player", player=seat + 1), "pad"
         return (words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else brain.upper()), "ai"
 
-    def _tagged(self) -> AbstractContextManager[None]:
+    def _tag_sprites(self) -> AbstractContextManager[None]:
         """Tag new sprites with the game, to release them when the title returns."""
         return surfaces.made_for(self.match.setup.game)
 

@@ -109,7 +109,7 @@ class MatchScene:
             return None
         self.idle = 0.0
         if admitted.device in self.devices:
-            self.idle_seats.alive(self.devices.index(admitted.device))
+            self.idle_seats.touch(self.devices.index(admitted.device))
         if event.button is Button.BRAIN:
             self.think_aloud()
         if event.button is Button.START or (event.button is Button.BACK and self._escapes(admitted.device)):
@@ -158,7 +158,7 @@ class MatchScene:
                 self.runner.captions(screen, self.devices)
                 self.spot = clear_of(self.runner.robots())
             self.count.draw(screen, words("match.go"), self.spot)
-        for seat, left in self.idle_seats.asked().items():
+        for seat, left in self.idle_seats.prompted().items():
             sentence = words("match.still", seconds=max(1, math.ceil(left)))
             self.runner.beside(screen, seat, caption(sentence, PLAYERS[seat], player=seat))
         self._draw_joining(screen)
@@ -193,7 +193,7 @@ class MatchScene:
     def hand(self, seat: int, device: Device | None) -> None:
         """Assign a seat to a device, or to an AI until somebody takes it."""
         self._sit(seat, device)
-        self.idle_seats.settle(seat, device)
+        self.idle_seats.reassign(seat, device)
         name, sign = self.runner.driver(seat, device)
         name = name if device else self.context.words("match.back_in")
         self.notice, self.notice_left = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
@@ -291,7 +291,7 @@ class MatchScene:
         driven = {seat: device for seat in self.humans if (device := self.devices[seat])}
         for seat, device in driven.items():
             if controls.touched(device):
-                self.idle_seats.alive(seat)
+                self.idle_seats.touch(seat)
         for seat in self.idle_seats.update(seconds, driven):
             self.hand(seat, None)
             self.idle_seats.leave(driven[seat], seat)
@@ -309,7 +309,7 @@ class MatchScene:
         drive = self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
-            self.idle_seats.alive(seat)
+            self.idle_seats.touch(seat)
         return drive
 
     def _end(self, seconds: float) -> Turn:

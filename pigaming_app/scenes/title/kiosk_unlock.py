@@ -19,7 +19,7 @@ class KioskUnlock:
         self.context = context
         self.held_for = 0.0
 
-    def held(self, seconds: float) -> bool:
+    def unlocked(self, seconds: float) -> bool:
         """Advance by `seconds`; true at the moment the combination has been held long enough."""
         if not self.context.kiosk:
             return False

@@ -47,7 +47,7 @@ class Title:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.clock = 0.0
-        self.combination = KioskUnlock(context)
+        self.kiosk_unlock = KioskUnlock(context)
         self.focus = Focus(self._spots())
         self.game = next(iter(games()))  # the game whose tile was focused last
         self.lab: Scene | None = None
@@ -73,7 +73,7 @@ class Title:
         """Animate; start attract mode when idle."""
         self.clock += seconds
         self.focus.update(seconds)
-        if self.combination.held(seconds):
+        if self.kiosk_unlock.unlocked(seconds):
             from pigaming_app.scenes.options.page import OptionsPage
 
             self.context.sounds.play("accept")
@@ -159,7 +159,7 @@ class Title:
 
     def _prompt(self, screen: pygame.Surface) -> None:
         """The call to action, between arrows that run towards it."""
-        sentence, label = self.asked
+        sentence, label = self.call_text
         call_to_action(sentence, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
         reach = call_to_action_width(sentence, label, SUB) / 2 + 44
         for k in range(3):
@@ -168,7 +168,7 @@ class Title:
             sign("left", 24, FOCUS, LINE, level).draw(screen, round(960 + reach + 34 * (2 - k)), PROMPT_Y)
 
     @property
-    def asked(self) -> tuple[str, str]:
+    def call_text(self) -> tuple[str, str]:
         """The call to action and the label of its button."""
         words, name = self.context.words, self.focus.name
         label = words.printed(self.context.controls.label(None, Button.FIRE))

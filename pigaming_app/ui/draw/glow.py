@@ -42,7 +42,7 @@ class GlowCanvas:
     def __init__(self, w: int, h: int, ss: int = 2) -> None:
         self.w, self.h, self.ss = w, h, ss
         self.covers: list[list[tuple[float, float]]] = []
-        self.knock: pygame.Surface | None = None
+        self.knockout: pygame.Surface | None = None
         self.tiles: set[tuple[int, int]] = set()
         self.to(0, 0)
 
@@ -100,17 +100,17 @@ class GlowCanvas:
     def void(self, points: Points, width: float, keep: float = 0.0) -> Self:
         """A black line that neighbouring glow does not fill, except for the share `keep`."""
         self.line(points, BLACK, width)
-        canvas, self.sheet = self.sheet, self._knock()
+        canvas, self.sheet = self.sheet, self._knockout()
         shade = round(255 * keep)
         self.line(points, (shade, shade, shade), width)
         self.sheet = canvas
         return self
 
-    def _knock(self) -> pygame.Surface:
-        if self.knock is None:
-            self.knock = pygame.Surface(self.sheet.get_size())
-            self.knock.fill(WHITE)
-        return self.knock
+    def _knockout(self) -> pygame.Surface:
+        if self.knockout is None:
+            self.knockout = pygame.Surface(self.sheet.get_size())
+            self.knockout.fill(WHITE)
+        return self.knockout
 
     def neon(self, points: Points, color: Color, width: float = LINE, closed: bool = False) -> Self:
         """A line with a brighter core."""
@@ -163,10 +163,10 @@ class GlowCanvas:
         box = self.sheet.blit(image, at)
         self._mark(box.left, box.top, box.right, box.bottom)
         if color == BLACK:  # keep black lettering black under neighbouring glow
-            self._knock().blit(image, at)
+            self._knockout().blit(image, at)
         return self
 
-    def _shrunk(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> Steps[None]:
+    def _downscale(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> Steps[None]:
         """Blit the drawn tiles of a supersampled surface, downscaled, onto a surface of w x h px."""
         for row, first, count in runs(self.tiles):
             box = pygame.Rect(first * TILE_W, row * TILE_H, count * TILE_W, TILE_H).clip((0, 0, self.w, self.h))
@@ -177,13 +177,13 @@ class GlowCanvas:
     def onto(self, out: pygame.Surface) -> Steps[None]:
         """Add the drawing, without glow, to a surface of w x h px."""
         if self.tiles:
-            yield from self._shrunk(self.sheet, out, ADD)
+            yield from self._downscale(self.sheet, out, ADD)
 
     def shrinking(self) -> Steps[pygame.Surface]:
         """The drawing at w x h px, without glow."""
         out = pygame.Surface((self.w, self.h))
         if self.tiles:
-            yield from self._shrunk(self.sheet, out, 0)
+            yield from self._downscale(self.sheet, out, 0)
         return out
 
     def plain(self) -> pygame.Surface:
@@ -192,8 +192,8 @@ class GlowCanvas:
 
     def knocked(self, out: pygame.Surface) -> Steps[None]:
         """Darken voids and black lettering."""
-        if self.knock:
-            yield from self._shrunk(self.knock, out, MULT)
+        if self.knockout:
+            yield from self._downscale(self.knockout, out, MULT)
 
     def lighting(self, glow: float = 1.0, halos: Halos = NEAR) -> Steps[pygame.Surface]:
         """The drawing with its glow. Blurs are added only where the drawing is dark, so that no hue clips."""

@@ -40,8 +40,8 @@ class Layer:
     def __init__(self, x: float, y: float, w: float, h: float) -> None:
         self.at = round(x) - MARGIN, round(y) - MARGIN
         self.canvas = LayeredCanvas(round(w) + 2 * MARGIN, round(h) + 2 * MARGIN)
-        for ink in (self.canvas.glow, self.canvas.soft, self.canvas.crisp):
-            ink.to(-self.at[0], -self.at[1])
+        for canvas in (self.canvas.glow, self.canvas.soft, self.canvas.crisp):
+            canvas.to(-self.at[0], -self.at[1])
 
     @property
     def glow(self) -> GlowCanvas:

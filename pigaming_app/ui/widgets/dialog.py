@@ -18,13 +18,13 @@ PROMPTS = Y + 588  # the row of prompts
 
 
 def overlay(
-    behind: pygame.Surface, color: Color, paint: Callable[[Layer], None], shown: Hashable = None
+    behind: pygame.Surface, color: Color, paint: Callable[[Layer], None], cache_key: Hashable = None
 ) -> pygame.Surface:
     """The picture `behind` (canvas size) under a sheet outlined in `color`, with the drawing of `paint` on it.
 
-    `shown`: cache key of everything else that `paint` depends on. Raises Unfinished if the frame budget is spent.
+    `cache_key`: everything else that `paint` depends on. Raises Unfinished if the frame budget is spent.
     """
-    light = _sheet(color, paint, shown)
+    light = _sheet(color, paint, cache_key)
     out = behind.copy()
     pygame.draw.polygon(out, BLACK, cut_box(X - 12, Y - 12, W + 24, H + 24, 32))
     light.draw(out)
@@ -32,7 +32,7 @@ def overlay(
 
 
 @resumable
-def _sheet(color: Color, paint: Callable[[Layer], None], shown: Hashable) -> Steps[LitImage]:
+def _sheet(color: Color, paint: Callable[[Layer], None], cache_key: Hashable) -> Steps[LitImage]:
     layer = Layer(X, Y, W, H)
     panel(layer.glow, X, Y, W, H, color, LINE, 28)
     for y in (HEAD, FOOT):

@@ -366,12 +366,12 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
     match = running(arcade, "human human off off", [first, second])
     one.stick(0.0, -1.0)
     arcade.wait(IDLE_LIMIT - 1.0, fps=20)
-    assert not match.idle_seats.asked()
-    arcade.until(lambda: bool(match.idle_seats.asked()))
-    assert list(match.idle_seats.asked()) == [1]
+    assert not match.idle_seats.prompted()
+    arcade.until(lambda: bool(match.idle_seats.prompted()))
+    assert list(match.idle_seats.prompted()) == [1]
     arcade.stack.top.draw(arcade.screen)
     tap(arcade, two, "x")
-    assert not match.idle_seats.asked(), "any button answers"
+    assert not match.idle_seats.prompted(), "any button answers"
     arcade.wait(IDLE_LIMIT + 1.0, fps=20)
     before = match.match.state.tick
     arcade.until(lambda: isinstance(match.match.brains[1], BrainPlayer))
@@ -502,13 +502,13 @@ def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(ar
     pad, device = plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
     scene = Title(arcade.context)
     arcade.open(scene)
-    assert scene.asked == ("Press {button} to play", "SPACE")
+    assert scene.call_text == ("Press {button} to play", "SPACE")
     tap(arcade, pad, "down")
     assert arcade.context.controls.last == device
-    assert scene.asked == ("Lab: press {button}", "Cross")
+    assert scene.call_text == ("Lab: press {button}", "Cross")
     pad.unplug()
     arcade.frame()
-    assert scene.asked[1] == "SPACE", "not the button of a pad that is gone"
+    assert scene.call_text[1] == "SPACE", "not the button of a pad that is gone"
 
 
 # ---- random input
