@@ -109,7 +109,7 @@ def test_a_supervisor_ends_it_and_the_settings_are_kept(home: Path) -> None:
     assert (home / "config" / "settings.toml").is_file()
 
 
-def test_settings_that_cannot_be_read_are_told_of_on_the_screen_and_in_full_beside_it(
+def test_unreadable_settings_are_reported_on_the_screen_and_in_detail_on_stderr(
     home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (home / "config").mkdir()

@@ -32,7 +32,7 @@ def test_it_shows_the_newest_picture_and_can_be_closed_alone(controls: Controls)
         mat.end()
 
 
-def test_without_a_second_window_a_sentence_is_said_and_the_arcade_goes_on(
+def test_without_a_second_window_the_arcade_goes_on_with_a_log_entry(
     controls: Controls, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def refuse(*_: object, **__: object) -> None:

@@ -83,7 +83,7 @@ def top(arcade: Arcade, name: str) -> Scene:
 
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES), indirect=True)
 @pytest.mark.parametrize("name", PAGES)
-def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None:
+def test_every_page_survives_every_press_of_every_device(arcade: Arcade, name: str) -> None:
     with VirtualPad() as pad:
         arcade.frame()
         for button in Button:

@@ -105,7 +105,7 @@ def grabbed(context: Context, screen: pygame.Surface) -> None:
 @pytest.mark.parametrize(
     "damage", [clip, clip_twice_removed, locks, pixels, transparency, cached_picture, pinned, grabbed]
 )
-def test_the_title_is_painted_as_if_nothing_had_been_done(damage: Damage) -> None:
+def test_the_title_is_intact_after_a_failure(damage: Damage) -> None:
     assert pictures(lambda context: Failing(context, damage)) == whole()
     assert not pygame.display.get_init() or not pygame.event.get_grab()
 
@@ -119,7 +119,7 @@ def test_a_picture_in_pinned_corners_is_whole_too(home: Path) -> None:
 
 
 @pytest.mark.parametrize("under", [False, True])
-def test_a_scene_that_does_not_let_go_does_not_stop_recovery(home: Path, under: bool) -> None:
+def test_a_scene_that_fails_in_left_does_not_stop_recovery(home: Path, under: bool) -> None:
     class Opening(Failing):
         """A scene that pushes another onto itself."""
 
@@ -138,7 +138,7 @@ def test_a_scene_that_does_not_let_go_does_not_stop_recovery(home: Path, under: 
     assert "it does not let go" in log
 
 
-def test_all_scenes_let_go_even_if_one_of_them_fails_to() -> None:
+def test_all_scenes_are_closed_even_if_one_raises() -> None:
     gone: list[str] = []
 
     class Holding(Failing):

@@ -161,5 +161,5 @@ SENTENCES = {
 
 
 @pytest.mark.parametrize("key", SENTENCES)
-def test_these_sentences_stand_so(key: str) -> None:
+def test_composed_sentences_in_both_languages(key: str) -> None:
     assert (Words("en")(key), Words("pt")(key)) == SENTENCES[key]

@@ -18,7 +18,7 @@ def test_both_languages_have_the_same_keys() -> None:
     assert all(text.strip() for text in [*english.values(), *portuguese.values()])
 
 
-def test_both_languages_are_told_the_same_values() -> None:
+def test_both_languages_have_the_same_placeholders() -> None:
     english, portuguese = texts("en"), texts("pt")
     assert [key for key in english if _holes(english[key]) != _holes(portuguese[key])] == []
 
@@ -99,7 +99,7 @@ def test_a_space_bar_has_a_name_and_a_button_is_called_what_is_printed_on_it() -
     assert Words("pt").printed("R CTRL") == "R CTRL"
 
 
-def test_a_text_that_nobody_wrote_is_an_error() -> None:
+def test_an_unknown_key_is_an_error() -> None:
     with pytest.raises(KeyError):
         Words("en")("lobby.nonsense")
 

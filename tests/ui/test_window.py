@@ -71,7 +71,7 @@ def test_any_other_window_shows_all_of_it_undistorted(
 
 
 @pytest.mark.parametrize("window", [(1, 1), (1, 900), (1600, 1)])
-def test_a_window_squeezed_to_nothing_harms_nobody(canvas: Canvas, window: tuple[int, int]) -> None:
+def test_a_window_of_no_size_does_no_harm(canvas: Canvas, window: tuple[int, int]) -> None:
     resize(*window)
     canvas.screen.fill("red")
     canvas.flip()

@@ -68,7 +68,7 @@ def arcade(controls: Controls, _home: None) -> Operated:
     return arcade
 
 
-def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Operated, tmp_path: Path) -> None:
+def test_an_operator_previews_calibrates_and_saves(arcade: Operated, tmp_path: Path) -> None:
     for _ in range(20):
         arcade.picture()
     first = arcade.shown(CalibrationPage)
@@ -101,7 +101,7 @@ def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
 
 
 @pytest.mark.long
-def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operated) -> None:
+def test_a_robot_on_the_spots_gives_the_camera_height(arcade: Operated) -> None:
     arcade.go("by")
     arcade.press(Button.RIGHT)
     assert "height" not in [spot.name for spot in arcade.shown(CalibrationPage).focus.spots]
@@ -116,7 +116,7 @@ def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operate
 
 
 @pytest.mark.long
-def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operated) -> None:
+def test_a_person_in_the_light_is_reported_and_a_repeat_succeeds(arcade: Operated) -> None:
     arcade.begin()
     result = arcade.pictures(ResultPage, covered=True)
     assert not result.finding.good
@@ -153,7 +153,7 @@ def test_a_folder_that_cannot_be_written(arcade: Operated, made: CalibrationResu
     assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
 
 
-def test_what_cannot_be_saved_is_said_and_nothing_is_lost(
+def test_a_failed_save_is_reported_and_nothing_is_lost(
     arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(path: Path, text: str) -> None:
@@ -178,7 +178,7 @@ def test_the_way_back_leads_out_of_every_page(arcade: Operated, made: Calibratio
     assert arcade.stack.top is arcade.setup
 
 
-def test_a_camera_that_goes_blind_meanwhile(arcade: Operated) -> None:
+def test_a_camera_that_fails_during_calibration(arcade: Operated) -> None:
     arcade.begin()
     for _ in range(20):
         arcade.picture()
@@ -188,9 +188,7 @@ def test_a_camera_that_goes_blind_meanwhile(arcade: Operated) -> None:
     arcade.shown(ResultPage)
 
 
-def test_nobody_puts_a_robot_on_the_outline(
-    arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_missing_robot_times_out(arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(standing, "PATIENCE", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
     finding = replace(made, site=arcade.site)
@@ -199,7 +197,7 @@ def test_nobody_puts_a_robot_on_the_outline(
     assert result.finding.trouble.key == "nobody"
 
 
-def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made: CalibrationResult) -> None:
+def test_a_moved_projector_is_detected_by_the_drift_page(arcade: Operated, made: CalibrationResult) -> None:
     concluded(arcade, made)
     arcade.press(Button.FIRE)
     arcade.press(Button.BACK)
@@ -247,7 +245,7 @@ def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -
     site.close()
 
 
-def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
+def test_a_click_sets_the_value_it_hits(arcade: Operated) -> None:
     first = arcade.go("by")
     spot = first.focus.spot.rect
     ruler, robot = (x + w / 2 for x, w in dials.chips((arcade.context.words("calibrate.ruler"), "Robot")))
@@ -287,7 +285,7 @@ def test_the_corner_pin_is_part_of_what_was_calibrated(arcade: Operated) -> None
     assert canvas.projection == straight
 
 
-def test_every_sentence_with_a_key_is_said_in_both_languages() -> None:
+def test_every_message_key_has_a_sentence_in_both_languages() -> None:
     keys = set()
     for file in Path(hardware.__file__).parent.rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):

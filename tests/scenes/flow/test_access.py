@@ -107,7 +107,7 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
     assert arcade.shown(Lobby) is page
 
 
-def test_in_a_full_lobby_a_free_pad_hears_only_that_it_is_full(arcade: Arcade) -> None:
+def test_in_a_full_lobby_a_free_pad_gets_only_a_notice(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
     page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
@@ -228,7 +228,7 @@ def test_while_ais_play_alone_any_device_pauses(arcade: Arcade, pads: ExitStack)
         assert arcade.stack.top is match
 
 
-def test_whoever_paused_owns_the_pause_for_twenty_seconds(arcade: Arcade) -> None:
+def test_a_pause_belongs_to_its_owner_for_twenty_seconds(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
     arcade.press(Button.START, KEYS[1])
     page = arcade.shown(Pause)
@@ -253,7 +253,7 @@ def test_whoever_paused_owns_the_pause_for_twenty_seconds(arcade: Arcade) -> Non
     assert arcade.stack.top is match
 
 
-def test_f4_of_the_keyboard_shows_thoughts_in_any_match_but_ends_no_pause_of_somebody_else(
+def test_f4_of_the_keyboard_works_in_any_match_but_ends_no_pause_of_another_device(
     arcade: Arcade, pads: ExitStack
 ) -> None:
     pad, first = plug(arcade, pads)
@@ -359,9 +359,7 @@ def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arc
 # ---- seats with a new driver
 
 
-def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pressed(
-    arcade: Arcade, pads: ExitStack
-) -> None:
+def test_an_idle_seat_is_asked_then_an_ai_drives_until_a_button_is_pressed(arcade: Arcade, pads: ExitStack) -> None:
     (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
     match = running(arcade, "human human off off", [first, second])
     one.stick(0.0, -1.0)
@@ -385,7 +383,7 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
     assert isinstance(match.match.brains[1], HumanPlayer)
 
 
-def test_time_in_a_pause_is_no_walking_off(arcade: Arcade) -> None:
+def test_paused_time_does_not_count_as_idle(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
     arcade.press(Button.START)
     arcade.wait(IDLE_LIMIT + ANSWER_LIMIT + 5.0, fps=10)
@@ -395,7 +393,7 @@ def test_time_in_a_pause_is_no_walking_off(arcade: Arcade) -> None:
     assert match.devices[:2] == KEYS[:2]
 
 
-def test_when_all_have_gone_the_match_asks_as_before_and_the_first_press_brings_its_seat_back(
+def test_when_all_are_idle_the_match_asks_and_the_first_press_returns_its_seat(
     arcade: Arcade,
 ) -> None:
     match = running(arcade, "human human off off", KEYS[:2], 5.0)
@@ -479,7 +477,7 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
     assert [seat.brain for seat in match.setup.seats[:2]] == ["human", "human"]
 
 
-def test_change_game_changes_the_game_and_keeps_everybodys_seat(arcade: Arcade) -> None:
+def test_change_game_keeps_all_seats(arcade: Arcade) -> None:
     ended(arcade, "human off human hard", [KEYS[2], None, KEYS[0], None])  # type: ignore[list-item]
     arcade.wait(3.0)
     arcade.press(Button.X, KEYS[1])

@@ -51,7 +51,7 @@ def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tu
     assert all(preloader.ready(*one) for one in prepared)
 
 
-def test_where_preparing_fails_matches_begin_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failing_preload_does_not_block_matches(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken() -> list[tuple[str, str]]:
         raise MemoryError("no more")
 

@@ -12,7 +12,7 @@ def test_ten_seconds_are_five_hundred_ticks_at_any_frame_rate(fps: int) -> None:
     assert sum(pace.due(1 / fps) for _ in range(10 * fps)) == pytest.approx(500, abs=1)
 
 
-def test_a_second_asleep_is_not_caught_up() -> None:
+def test_a_second_of_sleep_is_dropped() -> None:
     pace = FixedTimestep()
     assert pace.due(1.0) == MAX_TICKS
     assert pace.blend == 0.0

@@ -116,7 +116,7 @@ def test_interrupted_work_goes_on_where_it_was(watch: Watch) -> None:
     assert done == [*range(6)]
 
 
-def test_work_that_nobody_asks_for_again_is_dropped(watch: Watch) -> None:
+def test_abandoned_work_is_dropped(watch: Watch) -> None:
     begun: list[int] = []
 
     @resumable
@@ -232,7 +232,7 @@ def test_the_last_picture_stays_until_the_next_one_is_whole(app: App, watch: Wat
     assert page.made == [*range(30)]
 
 
-def test_a_tap_while_a_picture_is_made_is_heard(app: App, watch: Watch) -> None:
+def test_a_tap_while_a_picture_is_incomplete_counts(app: App, watch: Watch) -> None:
     page = Slow(watch)
     app.stack.turn(Push(page))
     assert not app.compose(1 / 60)

@@ -128,7 +128,7 @@ def test_a_result_without_surfaces_costs_nothing() -> None:
     assert cache.bytes == 0
 
 
-def test_a_function_that_fails_is_asked_again() -> None:
+def test_a_function_that_raises_is_called_again() -> None:
     cache = SurfaceCache(KB)
     tries: list[int] = []
 

@@ -76,7 +76,7 @@ def test_a_pad_that_was_there_at_the_start_is_known_and_not_found_again(pads: Ex
         ("up", Button.UP),
     ],
 )
-def test_every_press_is_heard_once(controls: Controls, pads: ExitStack, button: str, meaning: Button) -> None:
+def test_every_press_is_reported_once(controls: Controls, pads: ExitStack, button: str, meaning: Button) -> None:
     pad, device = plug(controls, pads)
     pad.press(button)
     assert heard(controls) == [(meaning, device)]
