@@ -32,7 +32,7 @@ def test_it_shows_the_newest_picture_and_can_be_closed_alone(controls: Controls)
         mat.end()
 
 
-def test_without_a_second_window_the_arcade_goes_on_with_a_log_entry(
+def test_without_a_second_window_the_arcade_prints_a_reason_and_goes_on(
     controls: Controls, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def refuse(*_: object, **__: object) -> None:
