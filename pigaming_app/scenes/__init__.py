@@ -1,1 +1,1 @@
-"""What people see, hear and press: the only place that knows pygame."""
+"""Scenes: the screens of the arcade and the code they share."""

@@ -1,6 +1,6 @@
-"""The arcade itself: open everything, then events, presses, scenes, pictures, until somebody closes it.
+"""The arcade application: opens window and devices and runs the main loop until it is closed.
 
-A mistake in a scene is written to the log and the title comes back with one sentence: a child never sees a traceback.
+An exception in a scene is logged and the title returns with one sentence: children never see a traceback.
 """
 
 import faulthandler
@@ -41,36 +41,36 @@ from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.notices import FrameMeter, Notices
 from pigaming_app.ui.window import Canvas
 
-FRAMES = 60  # a second
-SLOWEST = 0.1  # s; whatever took longer (a dragged window, a machine asleep) did not happen
-PAINTING = 0.012  # s of a frame after which no missing piece is begun
-LATEST = 240  # frames after which a picture is completed at once, however long that takes
-SETTLING = 1.0  # s after the start in which a pointer that merely lies there does not take the focus
-TROUBLES, QUIET = 5, 10.0  # so many failures, each within so many s of the one before: the arcade gives up
+FPS = 60  # frames per second
+MAX_FRAME_GAP = 0.1  # s; longer gaps (a dragged window, a suspended machine) are cut to this
+PREWARM_UNTIL = 0.012  # s into a frame after which no more missing sprites are built
+MAX_UNFINISHED = 240  # frames after which a picture is completed without a budget
+POINTER_IGNORED = 1.0  # s after the start during which pointer motion does not move the focus
+MAX_FAILURES, FAILURE_WINDOW = 5, 10.0  # give up after this many failures, each within this many s of the last
 
 log = logging.getLogger("pigaming")
 
 
 @dataclass(frozen=True)
 class Options:
-    """What the command line may ask of the arcade. `frames`: close after so many; `shot`: a picture, taken when due."""
+    """Options of the arcade. `frames`: close after this many; `shot`: path of a screenshot, taken when due."""
 
-    first: Callable[[Context], Scene] | None = None  # a scene on top of the title
-    alone: bool = False  # close when that scene has gone
+    first: Callable[[Context], Scene] | None = None  # scene pushed on top of the title
+    alone: bool = False  # close when that scene is popped
     kiosk: bool = False
     display: int | None = None
     headless: bool = False
     frames: int | None = None
     shot: Path | None = None
     shot_due: Callable[[], bool] = lambda: True
-    step: float | None = None  # s of made-up time for each frame, instead of real time
-    over: Callable[[], bool] = lambda: False  # whether to close after this picture
-    emulate: int | None = None  # the seed of an emulated arena that stands in for the mat
-    chosen: Mapping[str, object] = field(default_factory=dict)  # settings, which are kept
+    step: float | None = None  # s of simulated time per frame, instead of real time
+    over: Callable[[], bool] = lambda: False  # close after this picture if true
+    emulate: int | None = None  # seed of an emulated arena instead of the real one
+    chosen: Mapping[str, object] = field(default_factory=dict)  # settings to store
 
 
 def run(options: Options) -> int:
-    """Open the arcade and stay until it is closed; the exit code. Raises NoDisplay."""
+    """Run the arcade until it is closed. Returns the exit code. Raises NoDisplay."""
     with opened(options) as app:
         try:
             return app.loop()
@@ -80,46 +80,46 @@ def run(options: Options) -> int:
 
 @contextmanager
 def opened(options: Options) -> "Iterator[App]":
-    """The arcade with its window and devices; afterwards all is closed and the settings are saved. Raises NoDisplay."""
+    """The arcade with window and devices; closes all and saves the settings on exit. Raises NoDisplay."""
     heap.return_large_blocks()
-    where = folders()
-    settings, said = Settings.load(where.config)
-    scores, more = Scores.load(where.data)
+    data_folders = folders()
+    settings, damaged = Settings.load(data_folders.config)
+    scores, damaged_scores = Scores.load(data_folders.data)
     for name, value in options.chosen.items():
         settings.choose(name, value)
-    windowed = options.headless or options.emulate is not None  # beside the window of the emulated camera
+    windowed = options.headless or options.emulate is not None  # next to the emulated camera's window
     canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
-    crash_file = _keep_log(where.data)
+    crash_file = _open_log(data_folders.data)
     pygame.font.init()
     context = Context(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)
     context.sounds.volume(settings.music, settings.sounds)
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
     context.preloader.then = context.compiler.start
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)  # a supervisor ends it as Ctrl+C does
+    old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
     try:
-        yield App(options, context, [*said, *more])
+        yield App(options, context, [*damaged, *damaged_scores])
     finally:
-        signal.signal(signal.SIGTERM, before)
+        signal.signal(signal.SIGTERM, old_handler)
         context.stop_all_robots()
         context.preloader.end()
         context.compiler.end()
         gc.unfreeze()
         session.end()
         context.sounds.close()
-        _keep(settings, where.config)
+        _save(settings, data_folders.config)
         if scores.unsaved:
-            _keep(scores, where.data)
+            _save(scores, data_folders.data)
         canvas.close()
         _close_log(crash_file)
 
 
 class App:
-    """A running arcade; `troubles` are sentences about what was wrong with its files."""
+    """A running arcade; `troubles` are sentences about damaged files."""
 
     def __init__(self, options: Options, context: Context, troubles: list[str]) -> None:
         self.options, self.context = options, context
-        self.notices, self.gauge = Notices(), FrameMeter()
+        self.notices, self.meter = Notices(), FrameMeter()
         session = context.session
         self.window = CameraWindow(session) if isinstance(session, EmulatedSession) and session.live else None
         for line in troubles:
@@ -129,22 +129,22 @@ class App:
             self.notices.say(context.words("app.settings"))
         self._pin()
         self.frames, self.seconds = 0, 0.0
-        self.exempt = False  # whether what was loaded is left out by the garbage collector
-        self.shown, self.unfinished = False, 0  # whether there was a picture; frames since in which there was none
-        self.failures, self.failed_at = 0, -QUIET
+        self.frozen = False  # whether loaded objects are exempt from garbage collection
+        self.shown, self.unfinished = False, 0  # whether a picture was shown yet; frames since the last one
+        self.failures, self.failed_at = 0, -FAILURE_WINDOW
         self.code = 0
-        self.stack = self._begin()
-        self.lying = self._lying()  # which scenes lay on the stack in the last frame
-        self.left = False  # whether one that has left is still to be freed
+        self.stack = self._first_stack()
+        self.previous_ids = self._scene_ids()  # ids of the scenes on the stack in the last frame
+        self.to_free = False  # a removed scene is still to be freed
 
     def loop(self) -> int:
-        """Frame after frame, until no scene is left; the exit code."""
+        """The main loop, until the stack is empty. Returns the exit code."""
         ticker, last = pygame.time.Clock(), perf_counter()
         while self.stack.scenes:
             now = perf_counter()
-            seconds = self.options.step or min(now - last, SLOWEST)
+            seconds = self.options.step or min(now - last, MAX_FRAME_GAP)
             last = now
-            if self._failed(seconds) and not self._recovered():
+            if self._frame_failed(seconds) and not self._recover():
                 return 1
             self.frames += 1
             self.seconds += seconds
@@ -153,11 +153,11 @@ class App:
             if self.frames == self.options.frames:
                 break
             if self.options.step is None:
-                ticker.tick(FRAMES)
-                self.gauge.fps = ticker.get_fps()
+                ticker.tick(FPS)
+                self.meter.fps = ticker.get_fps()
         return self.code
 
-    def _begin(self) -> Stack:
+    def _first_stack(self) -> Stack:
         if self.options.first and self.options.alone:
             return Stack(self.options.first(self.context))
         stack = Stack(_title(self.context))
@@ -166,7 +166,7 @@ class App:
         return stack
 
     def _pin(self) -> None:
-        """Draw the picture into the corners that the operator has set."""
+        """Apply the corner pin of the settings."""
         corners = self.context.settings.corners
         if not corners:
             self.context.canvas.pin(None)
@@ -179,8 +179,8 @@ class App:
             log.warning("%s", english().explained(trouble.message))
             self.notices.say(self.context.words("app.pin"))
 
-    def _failed(self, seconds: float) -> bool:
-        """Show one picture; whether a scene failed at it, which goes to the log."""
+    def _frame_failed(self, seconds: float) -> bool:
+        """Run one frame; true if a scene failed, which is logged."""
         try:
             self._frame(seconds)
         except Exception:
@@ -189,11 +189,11 @@ class App:
         return False
 
     def compose(self, seconds: float) -> bool:
-        """Handle events, let `seconds` pass and paint the next picture; false: there is no new one to show."""
-        began, started = clock(), perf_counter()
+        """Handle events, advance by `seconds` and draw the next picture; false if there is no new one to show."""
+        cpu_start, start = clock(), perf_counter()
         freed = self._free_scenes()
         events = pygame.event.get()
-        if any(self._closes(event) for event in events) and not self.context.kiosk:
+        if any(self._is_close_event(event) for event in events) and not self.context.kiosk:
             self.stack.clear()
             return False
         for event in events:
@@ -201,24 +201,24 @@ class App:
                 self._function_key(event.key)
         first = not self.shown
         with budget.frame(self.unfinished > 0 or freed):
-            self._play(events, seconds)
-            played = perf_counter()
-            if not self.stack.scenes or not self._paint(began):
+            self._dispatch(events, seconds)
+            updated = perf_counter()
+            if not self.stack.scenes or not self._paint(cpu_start):
                 return False
-        self._say(self.context.canvas.screen, seconds)
+        self._draw_notices(self.context.canvas.screen, seconds)
         if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
-            self._prepare()
-        self.gauge.note(seconds, played - started, perf_counter() - played)
+            self._preload()
+        self.meter.note(seconds, updated - start, perf_counter() - updated)
         return True
 
-    def _paint(self, began: float) -> bool:
-        """Paint the top scene in what is left of a frame that has begun then; false: it is not complete yet."""
+    def _paint(self, cpu_start: float) -> bool:
+        """Draw the top scene in the rest of a frame that started at `began`; false if it is incomplete."""
         screen = self.context.canvas.screen
-        limited = self.options.step is None and self.shown and self.unfinished < LATEST
+        limited = self.options.step is None and self.shown and self.unfinished < MAX_UNFINISHED
         try:
-            with budget.until(began + PAINTING if limited else math.inf):
-                if not self.unfinished and clock() >= began + PAINTING:
-                    budget.note()  # the scene has used the frame: pieces can wait for the next one
+            with budget.until(cpu_start + PREWARM_UNTIL if limited else math.inf):
+                if not self.unfinished and clock() >= cpu_start + PREWARM_UNTIL:
+                    budget.note()  # the update took the whole frame: build missing sprites in the next one
                 self.stack.top.draw(screen)
         except Unfinished:
             screen.set_clip(None)
@@ -227,28 +227,33 @@ class App:
         self.shown, self.unfinished = True, 0
         return True
 
-    def _prepare(self) -> None:
-        """While the title is shown alone: begin the work behind it, and when that is done, exempt all that is there now
-        from the collection of garbage. It stays, and looking through it would take 15 ms whenever a scene is freed."""
+    def _preload(self) -> None:
+        """While only the title is shown: start the preloader, then exempt all present objects from garbage collection.
+
+        They stay alive, and traversing them would take 15 ms whenever a scene is freed.
+        """
         preloader = self.context.preloader
         if not preloader.begun:
             preloader.start()
-        elif not preloader.busy and not self.exempt:
-            self.exempt = True
+        elif not preloader.busy and not self.frozen:
+            self.frozen = True
             gc.collect()
             gc.freeze()
 
     def _free_scenes(self) -> bool:
-        """Free the scenes that have been taken off the stack, if there are any. Most are in reference cycles, whose
-        canvases of 8 MB each would pile up: Python collects cycles by the number of objects."""
-        before, self.lying = self.lying, self._lying()
-        self.left = self.left or bool(before - self.lying)
-        if not self.left or not heap.collect():
+        """Free the scenes removed from the stack, if any. Returns true if garbage was collected.
+
+        Most are in reference cycles, and their canvases of 8 MB each would pile up: Python triggers the collection of
+        cycles by the number of objects.
+        """
+        before, self.previous_ids = self.previous_ids, self._scene_ids()
+        self.to_free = self.to_free or bool(before - self.previous_ids)
+        if not self.to_free or not heap.collect():
             return False
-        self.left = False
+        self.to_free = False
         return True
 
-    def _lying(self) -> frozenset[int]:
+    def _scene_ids(self) -> frozenset[int]:
         return frozenset(map(id, self.stack.scenes))
 
     def _frame(self, seconds: float) -> None:
@@ -257,7 +262,7 @@ class App:
         if not self.stack.scenes:
             return
         if painted and self.options.shot and self.options.shot_due():
-            self.code = self._shoot(self.options.shot)
+            self.code = self._save_screenshot(self.options.shot)
             self.stack.clear()
             return
         if painted:
@@ -267,8 +272,8 @@ class App:
         if self.options.over():
             self.stack.clear()
 
-    def _shoot(self, path: Path) -> int:
-        """Save the picture that was asked for; the exit code."""
+    def _save_screenshot(self, path: Path) -> int:
+        """Save the screenshot. Returns the exit code."""
         try:
             self.context.canvas.screenshot(path)
         except NotSaved as trouble:
@@ -277,19 +282,19 @@ class App:
             return 2
         return 0
 
-    def _closes(self, event: pygame.Event) -> bool:
-        """Whether an event closes the arcade: with a second window, closing the first one no longer says QUIT."""
+    def _is_close_event(self, event: pygame.Event) -> bool:
+        """True if an event closes the arcade: with two windows open, SDL sends no QUIT for the first."""
         if event.type == pygame.QUIT:
             return True
-        if self.window is None or self.window.asked(event):
+        if self.window is None or self.window.close_if_requested(event):
             return False
         return event.type == pygame.WINDOWCLOSE
 
-    def _play(self, events: list[pygame.Event], seconds: float) -> None:
-        """Let the scenes hear what was pressed, and let time pass for the top one."""
+    def _dispatch(self, events: list[pygame.Event], seconds: float) -> None:
+        """Dispatch input to the top scene and update it."""
         controls, stack = self.context.controls, self.stack
         presses = [*controls.presses(events), *controls.repeats(seconds)]
-        if self.seconds < SETTLING:
+        if self.seconds < POINTER_IGNORED:
             presses = [press for press in presses if press.button is not Button.POINT]
         self.context.idle = 0.0 if presses else self.context.idle + seconds
         before = stack.scenes[-1:]
@@ -297,28 +302,27 @@ class App:
             if stack.scenes:
                 stack.turn(stack.top.on(press))
         if stack.scenes:
-            budget.behind = budget.behind or stack.scenes[-1:] != before  # what has just come is painted first
+            budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
             stack.turn(stack.top.update(seconds))
 
-    def _recovered(self) -> bool:
-        """After a scene has failed: undo all that it may have left behind and begin again at the title; false: it is
-        hopeless."""
+    def _recover(self) -> bool:
+        """After a scene has failed: clean up and restart at the title; false if that is impossible."""
         self.context.stop_all_robots()
-        self.failures = self.failures + 1 if self.seconds - self.failed_at < QUIET else 1
+        self.failures = self.failures + 1 if self.seconds - self.failed_at < FAILURE_WINDOW else 1
         self.failed_at = self.seconds
-        if self.failures >= TROUBLES or self.options.alone or not self.stack.scenes or not self._begun_again():
+        if self.failures >= MAX_FAILURES or self.options.alone or not self.stack.scenes or not self._restart():
             print(f"PiGaming: it cannot go on; {folders().data / 'pigaming.log'} says why.", file=sys.stderr)
             return False
         self.notices.say(self.context.words("app.error"))
         return True
 
-    def _begun_again(self) -> bool:
-        """A new title on a clean screen; false if the title fails, too."""
+    def _restart(self) -> bool:
+        """Reset the canvas and show a new title; false if the title fails, too."""
         try:
             self.stack.clear()
         except Exception:
             log.exception("a scene failed when it was taken off the stack")
-        surfaces.clear()  # any of them may have been painted on
+        surfaces.clear()  # the failed scene may have drawn on any of them
         self.context.canvas.restore()
         self._pin()
         try:
@@ -329,10 +333,10 @@ class App:
         return True
 
     def _function_key(self, key: int) -> None:
-        """F3 shows numbers; F11 and F12 change the window and take a picture, but not in a kiosk."""
+        """F3 toggles the frame meter; F11 (full screen) and F12 (screenshot) are disabled in a kiosk."""
         context = self.context
         if key == pygame.K_F3:
-            self.gauge.shown = not self.gauge.shown
+            self.meter.visible = not self.meter.visible
         elif key == pygame.K_F11 and not context.kiosk:
             context.settings.fullscreen = context.canvas.toggle_fullscreen()
         elif key == pygame.K_F12 and not context.kiosk:
@@ -344,19 +348,19 @@ class App:
                 log.warning("%s", trouble)
                 self.notices.say(context.words("app.unsaved"))
 
-    def _say(self, screen: pygame.Surface, seconds: float) -> None:
-        """Paint what has to be said over any scene."""
+    def _draw_notices(self, screen: pygame.Surface, seconds: float) -> None:
+        """Draw notices and the frame meter over the scene."""
         if self.context.canvas.notices:
             for line in self.context.canvas.notices:
                 log.warning(line)
             self.context.canvas.notices.clear()
             self.notices.say(self.context.words("app.display"))
         self.notices.draw(screen, seconds)
-        self.gauge.draw(screen)
+        self.meter.draw(screen)
 
 
 def _session(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSession | RealSession:
-    """Where real robots drive."""
+    """The robot session: real or emulated."""
     if options.emulate is None:
         return RealSession(settings, lambda: canvas.projection)
     session = EmulatedSession(options.emulate, options.step is None, lambda: canvas.projection)
@@ -364,7 +368,7 @@ def _session(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSe
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
     settings.real = settings.real or [1, 2, 3, 4]
     try:
-        session.open()  # now, while nobody waits for a picture; it is closed until somebody plays
+        session.open()  # now, while no picture is waiting; reopened by the first match
         session.close()
     except RobotsUnavailable as trouble:
         print(f"PiGaming: {english().explained(trouble.message)}", file=sys.stderr)
@@ -372,28 +376,28 @@ def _session(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSe
 
 
 def _projected(canvas: Canvas, window: pygame.Surface) -> object:
-    """The pixels that fall on the emulated mat: bars beside the picture do not, but a pinned picture has its own."""
+    """The pixels projected onto the emulated mat: with bars cropped, or the whole window of a pinned picture."""
     from pigaming_app.ui.draw.pixels import pixels_of
 
     return pixels_of(window if canvas.corners else canvas.screen)
 
 
 def _title(context: Context) -> Scene:
-    from pigaming_app.scenes.title.scene import Title  # what `play` and `replay` show first need not wait for it
+    from pigaming_app.scenes.title.scene import Title  # late: the first picture of `play` and `replay` needs no title
 
     return Title(context)
 
 
-def _keep(kept: Settings | Scores, folder: Path) -> None:
+def _save(record: Settings | Scores, folder: Path) -> None:
     try:
-        kept.save(folder)
+        record.save(folder)
     except NotSaved as trouble:
         log.warning("%s", trouble)
         print(f"PiGaming: {trouble}", file=sys.stderr)
 
 
-def _keep_log(data: Path) -> "IO[Any] | None":
-    """Write a log into the data folder, and where the interpreter itself crashes, where it was; none if that fails."""
+def _open_log(data: Path) -> "IO[Any] | None":
+    """Open the log file and the crash log of the interpreter. Returns the latter, None on failure."""
     try:
         log.handlers[:] = [log_file(data)]
         log.propagate = False

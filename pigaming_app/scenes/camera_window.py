@@ -1,4 +1,4 @@
-"""A second window beside the arcade: what the camera over the emulated mat sees."""
+"""A second window with the view of the emulated camera."""
 
 import logging
 import sys
@@ -9,13 +9,13 @@ import pygame
 from pigaming_app.hardware.session.emulated import EmulatedSession
 
 SIZE = (960, 540)
-EVERY = 1.0 / 15.0  # s between two pictures
+PERIOD = 1.0 / 15.0  # s between two pictures
 
 log = logging.getLogger("pigaming")
 
 
 class CameraWindow:
-    """The window; where the system gives no second one, the log says so and the arcade goes on."""
+    """The window; if the system supports only one window, this is logged and the arcade runs on."""
 
     def __init__(self, session: EmulatedSession) -> None:
         self.session = session
@@ -25,8 +25,8 @@ class CameraWindow:
             self.window = pygame.Window("PiGaming: what the camera sees", SIZE, position=(24, 24), resizable=True)
             self.window.get_surface()
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore", DeprecationWarning)  # there is no other way to name the first window
-                pygame.Window.from_display_module().focus()  # the keys belong to the arcade
+                warnings.simplefilter("ignore", DeprecationWarning)  # there is no other way to access the first window
+                pygame.Window.from_display_module().focus()  # the arcade's window gets the keys
         except pygame.error as reason:
             sentence = f"There is no second window for the camera's view: {reason}."
             log.warning("%s", sentence)
@@ -34,10 +34,10 @@ class CameraWindow:
             self.close()
 
     def update(self, seconds: float) -> None:
-        """Show the newest picture, if there is a new one and it is time to."""
+        """Show the newest picture, if it is new and due."""
         self._age += seconds
         frame = self.session.newest
-        if self.window is None or self._age < EVERY or frame is None or frame.number == self._shown:
+        if self.window is None or self._age < PERIOD or frame is None or frame.number == self._shown:
             return
         from pigaming_app.ui.draw.pixels import grey_surface
 
@@ -50,15 +50,14 @@ class CameraWindow:
             log.warning("The window with the camera's view was lost: %s.", reason)
             self.close()
 
-    def asked(self, event: pygame.Event) -> bool:
-        """Whether an event asks for this window to be closed; then it is."""
+    def close_if_requested(self, event: pygame.Event) -> bool:
+        """Close this window if an event requests it; true if so."""
         mine = event.type == pygame.WINDOWCLOSE and self.window is not None and event.window == self.window
         if mine:
             self.close()
         return mine
 
     def close(self) -> None:
-        """Take the window away."""
         window, self.window = self.window, None
         if window is not None:
             window.destroy()

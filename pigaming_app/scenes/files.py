@@ -1,4 +1,4 @@
-"""Replays and trained tables as files: their formats belong to `games` and `ai`, reading and writing to `storage`."""
+"""Replays and trained tables as files: formats are defined by `games` and `ai`, file access by `storage`."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -16,27 +16,27 @@ T = TypeVar("T")
 
 
 def save_replay(match: Match, path: Path) -> None:
-    """Write the replay of a match as far as it has been played, whole or not at all. Raises NotSaved."""
+    """Write the replay of a match up to now, atomically. Raises NotSaved."""
     write_atomic(path, replay.encode(match))
 
 
 def load_replay(path: Path) -> Replay:
-    """Read and check a replay. Raises ReplayError, which begins with the name of the file."""
+    """Read and check a replay. Raises ReplayError, whose text begins with the file name."""
     return _load(path, replay.MOST_BYTES, replay.decode, ReplayError)
 
 
 def save_table(trained: Trained, path: Path) -> None:
-    """Write a trained table, whole or not at all. Raises NotSaved."""
+    """Write a trained table atomically. Raises NotSaved."""
     write_atomic(path, table_files.encode(trained))
 
 
 def load_table(path: Path) -> Trained:
-    """Read and check a trained table. Raises TableError, which begins with the name of the file."""
+    """Read and check a trained table. Raises TableError, whose text begins with the file name."""
     return _load(path, table_files.MOST_BYTES, table_files.decode, TableError)
 
 
 def _load(path: Path, limit: int, decode: Callable[[bytes, str], T], error: type[ValueError]) -> T:
-    """Read a file of at most `limit` bytes and decode it. Raises `error`."""
+    """Read at most `limit` bytes and decode them. Raises `error`."""
     try:
         raw = read(path, limit)
     except OSError as trouble:

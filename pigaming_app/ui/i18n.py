@@ -1,4 +1,4 @@
-"""Everything the arcade says, in English and Portuguese: assets/text/en.toml and pt.toml, with the same keys.
+"""All texts in English and Portuguese, from assets/text/en.toml and pt.toml, which have the same keys.
 
 words = Words("pt")
 words("lobby.seat", player=2)      "Jogador 2"
@@ -18,7 +18,7 @@ NAMES = {"en": "English", "pt": "Português"}
 
 
 class Message(Protocol):
-    """A key of the table `hardware`, and the values to put into its sentence."""
+    """A key of the table `hardware` and its format values."""
 
     @property
     def key(self) -> str: ...
@@ -28,68 +28,68 @@ class Message(Protocol):
 
 
 class Words:
-    """The texts of one language at a time; `language` is one of LANGUAGES."""
+    """The texts of one language; `language` is one of LANGUAGES."""
 
     def __init__(self, language: str) -> None:
         self.language = language
         self._texts = texts(language)
 
     def __call__(self, key: str, **values: object) -> str:
-        """The text of a key, `table.name`, with values put in. Raises KeyError where there is no such text."""
-        return self._texts[key].format(**{name: self._written(value) for name, value in values.items()})
+        """The text of a key, `table.name`, with values filled in. Raises KeyError for an unknown key."""
+        return self._texts[key].format(**{name: self._localised(value) for name, value in values.items()})
 
     def sentence(self, message: Message) -> str:
-        """The sentence of a message of the hardware, as short as a screen needs it."""
+        """The short on-screen sentence of a hardware message."""
         return self(f"hardware.{message.key}", **message.values)
 
     def explained(self, message: Message) -> str:
-        """The sentence of a message for terminal and log: that of the table `terminal`, where there is one."""
+        """The sentence of a hardware message for terminal and log: from the table `terminal` if present there."""
         table = "terminal" if f"terminal.{message.key}" in self._texts else "hardware"
         return self(f"{table}.{message.key}", **message.values)
 
     def decimal(self, number: str) -> str:
-        """A number, with a point before its decimals, as this language writes it: 1.5 s are 1,5 s in Portuguese."""
+        """A number written with a decimal point, in this language's notation: 1.5 is 1,5 in Portuguese."""
         return number.replace(".", self._texts["numbers.decimal"])
 
     def switch(self, language: str) -> None:
-        """Speak another language from now on."""
+        """Change the language."""
         self.language = language
         self._texts = texts(language)
 
     @property
     def other(self) -> str:
-        """The language that is not spoken."""
+        """The other language."""
         return LANGUAGES[1 - LANGUAGES.index(self.language)]
 
     def printed(self, label: str) -> str:
-        """What the button labelled `label` is called here: the space bar has a name of its own."""
+        """The local name of the button labelled `label`: the space bar, for example, is translated."""
         return self._texts.get(f"keys.{label}", label)
 
-    def _written(self, value: object) -> object:
-        """What is put into a text: a number as this language writes it, anything else as it is."""
+    def _localised(self, value: object) -> object:
+        """A format value: numbers in local notation, everything else unchanged."""
         number = isinstance(value, float) or (isinstance(value, str) and DECIMAL.fullmatch(value))
         return self.decimal(str(value)) if number else value
 
 
 @cache
 def english() -> Words:
-    """The texts of log and terminal, which are English whatever the screen's language."""
+    """The texts of log and terminal, always English."""
     return Words("en")
 
 
 def in_every_language(*keys: str) -> list[str]:
-    """The texts of these keys, one language after the other."""
+    """The texts of these keys in all languages, language by language."""
     return [Words(language)(key) for language in LANGUAGES for key in keys]
 
 
 def texts(language: str) -> dict[str, str]:
-    """Every text of a language by its key. Raises OSError or ValueError for a file that is missing or broken."""
+    """All texts of a language by key. Raises OSError or ValueError for a missing or malformed file."""
     file = ASSETS / "text" / f"{language}.toml"
     return dict(_flat(tomllib.loads(file.read_text(encoding="utf-8")), ""))
 
 
 def _flat(table: dict[str, Any], path: str) -> list[tuple[str, str]]:
-    found = []
+    flat = []
     for name, value in table.items():
-        found += _flat(value, f"{path}{name}.") if isinstance(value, dict) else [(path + name, str(value))]
-    return found
+        flat += _flat(value, f"{path}{name}.") if isinstance(value, dict) else [(path + name, str(value))]
+    return flat

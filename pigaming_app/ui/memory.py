@@ -1,4 +1,4 @@
-"""When memory is given back: by the C library, and by the collection of garbage."""
+"""Memory release: malloc thresholds and garbage collection."""
 
 import ctypes
 import gc
@@ -8,14 +8,14 @@ from contextlib import contextmanager
 from threading import Event
 
 MMAP_THRESHOLD = -3  # M_MMAP_THRESHOLD in malloc.h
-LARGE = 128 * 1024  # bytes; where glibc begins
+LARGE = 128 * 1024  # bytes; glibc's initial value
 
 
 def return_large_blocks() -> None:
-    """Let glibc return each large block to the system as soon as it is freed, as other C libraries do.
+    """Make glibc return each large block to the system when it is freed, as other C libraries do.
 
-    By itself it raises its limit to the largest block freed so far, up to 32 MB. Then the buffers in which pages are
-    painted come from the heap, and smaller blocks that outlive them keep up to 200 MB of it from being returned.
+    By default it raises its mmap threshold to the largest block freed so far, up to 32 MB. Page rendering buffers then
+    come from the heap, where smaller, longer-lived blocks keep up to 200 MB from being returned.
     """
     if sys.platform.startswith("linux"):
         try:
@@ -24,12 +24,12 @@ def return_large_blocks() -> None:
             return  # another C library
 
 
-_busy = Event()  # set while nothing may be collected
+_busy = Event()  # set while collection is paused
 
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """Collect no garbage meanwhile, in any thread: so many new objects are being made that it would take long."""
+    """Pause garbage collection in all threads: with this many new objects it would take long."""
     _busy.set()
     enabled = gc.isenabled()
     gc.disable()
@@ -42,7 +42,7 @@ def uncollected() -> Iterator[None]:
 
 
 def collect() -> bool:
-    """Collect all garbage now, unless it would take long; whether it was done."""
+    """Collect all garbage, unless collection is paused; returns true if done."""
     if _busy.is_set():
         return False
     gc.collect()

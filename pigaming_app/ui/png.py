@@ -1,4 +1,4 @@
-"""Pictures as PNG files."""
+"""PNG encoding."""
 
 from io import BytesIO
 
@@ -6,7 +6,7 @@ import pygame
 
 
 def png_of(surface: pygame.Surface) -> bytes:
-    """The content of a PNG file with the pixels of a surface."""
+    """A surface encoded as a PNG file."""
     packed = BytesIO()
     pygame.image.save(surface, packed, "picture.png")
     return packed.getvalue()

@@ -1,6 +1,6 @@
-"""What is heard. The sound device is opened by a thread, so that the first picture never waits for it.
+"""Sound. A thread opens the device, so that the first picture does not wait for it.
 
-Without a device, or with a file missing, the arcade is silent there and never fails.
+Without a device or a sound file the arcade stays silent and never fails.
 """
 
 import logging
@@ -15,13 +15,13 @@ import pygame
 from pigaming_app import ASSETS
 
 FOLDER = ASSETS / "sounds"
-_VOICES = 24  # sounds at the same time; what comes on top is dropped
-_GAP = 0.05  # seconds in which the same sound starts only once: four players mash their buttons
+_MAX_VOICES = 24  # simultaneous sounds; more are dropped
+_MIN_REPEAT = 0.05  # seconds before the same sound may restart: four players mash their buttons
 _log = logging.getLogger(__name__)
 
 
 class Sounds:
-    """The sounds and the music. Silent until `open` has found a device; `trouble` says why if it stays so."""
+    """Sounds and music. Silent until `open` has found a device; `trouble` is the reason if it does not."""
 
     def __init__(self, folder: Path = FOLDER) -> None:
         self.trouble = ""
@@ -35,33 +35,33 @@ class Sounds:
         self._opener: Thread | None = None
 
     def open(self) -> None:
-        """Begin to open the device and load the sounds, and return at once. More calls do nothing."""
+        """Start opening the device and loading the sounds in a thread. Further calls do nothing."""
         if self._opener is None:
             self._opener = Thread(target=self._open, name="sounds", daemon=True)
             self._opener.start()
 
     def wait(self) -> bool:
-        """Wait until the device is open or known to be missing; true if there will be sound."""
+        """Wait until opening has finished; true if sound is available."""
         self.open()
         if self._opener:
             self._opener.join()
         return self._ready
 
     def close(self) -> None:
-        """Fall silent and give the device back."""
+        """Stop all sound and close the device."""
         if self._opener:
             self._opener.join()
         self._ready, self._music_playing, self._sounds = False, False, {}
         pygame.mixer.quit()
 
     def play(self, name: str, player: int | None = None, pan: float = 0.0) -> None:
-        """Play a sound, in the pitch of a player (seat 0..3) if it has one, from the left (-1) to the right (1)."""
+        """Play a sound, in the pitch of a player (seat 0..3) if it has one, panned from -1 (left) to 1 (right)."""
         if not self._ready:
             return
-        own = f"{name}{(player or 0) + 1}"  # what has a pitch for each player has nothing else
-        key = own if own in self._sounds else name
+        variant = f"{name}{(player or 0) + 1}"  # sounds with a variant per player have no other
+        key = variant if variant in self._sounds else name
         sound, now = self._sounds.get(key), time.monotonic()
-        if sound is None or now - self._started.get(key, 0.0) < _GAP:
+        if sound is None or now - self._started.get(key, 0.0) < _MIN_REPEAT:
             return
         channel = pygame.mixer.find_channel()
         if channel is None:
@@ -71,25 +71,25 @@ class Sounds:
         channel.set_volume(*stereo(pan))
 
     def music(self, on: bool) -> None:
-        """Let the music play from its beginning, or fade away."""
+        """Start the music from its beginning, or fade it out."""
         self._music_on = on
         if self._ready:
             self._follow_music()
 
     def volume(self, music: int, sounds: int) -> None:
-        """How loud, 0 (off) to 10."""
+        """Set both volumes, 0 (off) to 10."""
         self._volumes = (music, sounds)
         if self._ready:
             self._set_volumes()
 
     def _open(self) -> None:
         try:
-            if _no_card():
+            if _no_sound_device():
                 raise pygame.error("no sound device was found")
             pygame.mixer.init(44100, -16, 2, 512, allowedchanges=0)
-            pygame.mixer.set_num_channels(_VOICES)
-        except (pygame.error, NotImplementedError) as reason:
-            self.trouble = f"There is no sound: {reason}."
+            pygame.mixer.set_num_channels(_MAX_VOICES)
+        except (pygame.error, NotImplementedError) as error:
+            self.trouble = f"There is no sound: {error}."
             _log.info(self.trouble)
             return
         for path in sorted(self._folder.glob("*.ogg")):
@@ -102,11 +102,11 @@ class Sounds:
     def _load(self, path: Path) -> None:
         try:
             self._sounds[path.stem] = pygame.mixer.Sound(str(path))
-        except (pygame.error, OSError) as reason:
-            _log.warning("%s: %s", path, reason)
+        except (pygame.error, OSError) as error:
+            _log.warning("%s: %s", path, error)
 
     def _set_volumes(self) -> None:
-        music, sounds = (_loudness(volume) for volume in self._volumes)
+        music, sounds = (_amplitude(volume) for volume in self._volumes)
         pygame.mixer.music.set_volume(music)
         for sound in self._sounds.values():
             sound.set_volume(sounds)
@@ -121,24 +121,24 @@ class Sounds:
             elif self._music_playing and not self._music_on:
                 pygame.mixer.music.fadeout(800)
                 self._music_playing = False
-        except (pygame.error, OSError) as reason:
-            _log.warning("%s: %s", path, reason)
+        except (pygame.error, OSError) as error:
+            _log.warning("%s: %s", path, error)
 
 
 def stereo(pan: float) -> tuple[float, float]:
-    """How loud the left and the right side are; nothing comes from one alone, as people sit beside each other."""
+    """Volumes of the left and right channel; neither is ever silent, as players sit beside each other."""
     side = max(-1.0, min(1.0, pan)) * 0.7
     return (min(1.0, 1.0 - side), min(1.0, 1.0 + side))
 
 
-def _no_card() -> bool:
-    """Whether a Linux system surely has no sound. Asking it would fill the terminal with complaints of its library."""
+def _no_sound_device() -> bool:
+    """True if a Linux system certainly has no sound. Probing it would fill the terminal with ALSA errors."""
     if not sys.platform.startswith("linux") or os.environ.keys() & {"SDL_AUDIODRIVER", "AUDIODEV", "PULSE_SERVER"}:
         return False
     servers = Path(os.environ.get("XDG_RUNTIME_DIR", f"/run/user/{os.getuid()}"))
     return not any(place.exists() for place in (Path("/dev/snd"), servers / "pulse" / "native", servers / "pipewire-0"))
 
 
-def _loudness(volume: int) -> float:
-    """Ears hear steps in decibels: volume 5 of 10 is a quarter of the amplitude."""
+def _amplitude(volume: int) -> float:
+    """Perceived loudness is logarithmic: volume 5 of 10 is a quarter of the amplitude."""
     return (max(0, min(10, volume)) / 10.0) ** 2

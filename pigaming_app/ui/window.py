@@ -1,7 +1,7 @@
-"""The window: scenes always paint 1920 x 1080, and the canvas shows that on whatever window or display there is.
+"""The window. Scenes always draw 1920 x 1080 px; the canvas scales that to any window or display.
 
-Where the window is exactly that large, scenes paint straight on it; else the picture is scaled with black bars, never
-distorted. Nothing that happens to a window or a display at run time raises: the picture falls back to what works.
+If the window is exactly that size, scenes draw on it directly; else the picture is scaled with black bars, never
+distorted. Window and display errors at run time never raise: the window falls back to a mode that works.
 """
 
 import os
@@ -18,35 +18,35 @@ from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.ui.png import png_of
 
 SIZE = (1920, 1080)
-CURSOR_SECONDS = 3.0  # the mouse pointer hides after so long without motion
-_UNSEEN = ("dummy", "offscreen")  # SDL's drivers that paint into memory only
+CURSOR_SECONDS = 3.0  # seconds without motion until the mouse pointer hides
+_MEMORY_DRIVERS = ("dummy", "offscreen")  # SDL drivers that render into memory only
 
 
 class NoDisplay(Exception):
-    """There is no display to open a window on; the text is one plain sentence."""
+    """No display to open a window on; the text is one plain sentence."""
 
 
 class WindowSettings(Protocol):
-    """What the settings say about the window."""
+    """The settings of the window."""
 
     display: int
     fullscreen: bool
 
 
 class Warp(Protocol):
-    """Draws the canvas into a quadrangle of a window of `size` px."""
+    """Warps the canvas into a quadrilateral of a window of `size` px."""
 
     size: tuple[int, int]
 
     def draw(self, picture: Any, window: Any) -> None:
-        """Draw the canvas's pixels over the whole window, both (height, width, 4)."""
+        """Draw the canvas over the whole window; both are pixels, (height, width, 4)."""
 
     def back(self, at: tuple[float, float]) -> tuple[float, float]:
-        """The place of the canvas, px, that is shown at a place in the window."""
+        """The canvas position, px, shown at a window position."""
 
 
 class Pin(Protocol):
-    """The corners of the quadrangle, px of the canvas, upper left first, clockwise; `fit` makes it for a window."""
+    """The corners of the quadrilateral, canvas px, clockwise from the upper left; `fit` builds a window's warp."""
 
     corners: tuple[float, ...]
 
@@ -54,9 +54,9 @@ class Pin(Protocol):
 
 
 class Canvas:
-    """The one window of the arcade. `notices` collects plain sentences about what could not be done as asked.
+    """The arcade's window. `notices` collects plain sentences about requests that failed.
 
-    Each of `watchers` sees every picture as it is shown in the window.
+    Each of `watchers` is called with every picture shown in the window.
     """
 
     def __init__(self, display: int, fullscreen: bool, headless: bool) -> None:
@@ -66,7 +66,7 @@ class Canvas:
         self.notices: list[str] = []
         self.watchers: list[Callable[[pygame.Surface], None]] = []
         self._pin: Pin | None = None
-        self._warp: Warp | None = None  # of the pin, for the window as large as it was last
+        self._warp: Warp | None = None  # of the pin, for the last window size
         self._picture: pygame.Surface | None = None
         self._pointer = (0, 0)
         self._pointer_moved = 0.0
@@ -80,25 +80,25 @@ class Canvas:
         fullscreen: bool | None = None,
         headless: bool = False,
     ) -> "Canvas":
-        """Open the window as the settings or the arguments (which win) say. Raises NoDisplay.
+        """Open the window as given by the arguments, else by the settings. Raises NoDisplay.
 
-        Call it before `pygame.init`, because SDL reads some of its wishes only once.
+        Call it before `pygame.init`, because SDL reads some hints only once.
         """
-        _tell_sdl(headless)
-        wanted = os.environ.get("SDL_VIDEODRIVER")
-        if not wanted and sys.platform.startswith("linux") and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
-            raise NoDisplay(_no_display("none was found"))  # asked, SDL would look for one and complain itself
+        _set_sdl_hints(headless)
+        requested = os.environ.get("SDL_VIDEODRIVER")
+        if not requested and sys.platform.startswith("linux") and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
+            raise NoDisplay(_no_display("none was found"))  # else SDL would print an error of its own
         try:
             pygame.display.init()
             driver = pygame.display.get_driver()
-            if not wanted and driver in _UNSEEN:
+            if not requested and driver in _MEMORY_DRIVERS:
                 raise NoDisplay(_no_display("none was found"))
-            if driver == "x11":  # it shares memory: 2 ms a frame, against 11 in software OpenGL
+            if driver == "x11":  # shared memory: 2 ms a frame, against 11 ms in software OpenGL
                 os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
             return cls(
                 settings.display if display is None else display,
                 settings.fullscreen if fullscreen is None else fullscreen,
-                headless or driver in _UNSEEN,
+                headless or driver in _MEMORY_DRIVERS,
             )
         except pygame.error as reason:
             pygame.display.quit()
@@ -106,7 +106,7 @@ class Canvas:
 
     @property
     def screen(self) -> pygame.Surface:
-        """The surface to paint the next frame on, always 1920 x 1080. Ask for it in every frame."""
+        """The surface to draw the next frame on, always 1920 x 1080. It may change every frame."""
         window = pygame.display.get_surface()
         if window is not None and window.get_size() == SIZE and self._warp is None:
             return window
@@ -115,12 +115,12 @@ class Canvas:
         return self._picture
 
     def flip(self) -> None:
-        """Show what was painted on `screen`."""
+        """Show the contents of `screen`."""
         window, picture = pygame.display.get_surface(), self.screen
         if window is None:
             return
         if picture is not window:
-            area = _fitted(window.get_size())
+            area = _fit_canvas(window.get_size())
             if area.w and area.h:
                 _paint_bars(window, area)
                 if self._warp is None:
@@ -135,7 +135,7 @@ class Canvas:
         self._hide_pointer()
 
     def restore(self) -> None:
-        """Undo what a scene that failed may have done to the surface that it painted on, and to the pointer."""
+        """Undo what a failed scene may have done to the surface and the pointer."""
         self._picture = None
         pygame.event.set_grab(False)
         window = pygame.display.get_surface()
@@ -149,9 +149,9 @@ class Canvas:
         window.set_colorkey(None)
 
     def at(self, mouse: tuple[float, float]) -> tuple[float, float]:
-        """Where on the 1920 x 1080 canvas a position in the window lies; in a black bar, that is outside of it."""
+        """Window coordinates as canvas coordinates, 1920 x 1080; outside of the canvas for a black bar."""
         window = pygame.display.get_surface()
-        area = _fitted(window.get_size()) if window else pygame.Rect((0, 0), SIZE)
+        area = _fit_canvas(window.get_size()) if window else pygame.Rect((0, 0), SIZE)
         if not area.w or not area.h:
             return (-1.0, -1.0)
         if self._warp is not None and self._warp.size == area.size:
@@ -159,31 +159,31 @@ class Canvas:
         return ((mouse[0] - area.x) * SIZE[0] / area.w, (mouse[1] - area.y) * SIZE[1] / area.h)
 
     def pin(self, pin: Pin | None) -> None:
-        """Draw the picture into the corners of a pin; None: straight again."""
+        """Warp the picture into the corners of a pin; None: unwarped."""
         self._pin, self._warp = pin, pin.fit(SIZE) if pin else None
 
     @property
     def corners(self) -> tuple[float, ...]:
-        """Those of the pin; empty: there is none."""
+        """The corners of the pin; empty if there is none."""
         return self._pin.corners if self._pin else ()
 
     @property
     def projection(self) -> str:
-        """The name of how the picture comes onto the mat: which display, all of it or a window, pinned where."""
+        """A name for the projection: which display, full screen or window, pinned corners."""
         name = self.displays()[self.display] if self.display < len(self.displays()) else str(self.display + 1)
         window = "" if self.fullscreen or self.headless else ", in a window"
         return name + window + (f", pinned {' '.join(f'{value:g}' for value in self.corners)}" if self.corners else "")
 
     def toggle_fullscreen(self) -> bool:
-        """Change between window and full screen; true when it is full screen now."""
+        """Change between window and full screen; true if full screen now."""
         self.show(self.display, not self.fullscreen)
         return self.fullscreen
 
     def show(self, display: int, fullscreen: bool) -> None:
-        """Move to a display, as a window or filling it; where that fails, stay, or be a window on the first display."""
+        """Move to a display, windowed or full screen. Falls back to the old mode, then to a window on display 1."""
         before = (self.display, self.fullscreen)
-        for place in ((display, fullscreen and not self.headless), before, (0, False)):
-            self.display, self.fullscreen = place
+        for mode in ((display, fullscreen and not self.headless), before, (0, False)):
+            self.display, self.fullscreen = mode
             try:
                 self._show()
                 return
@@ -191,15 +191,14 @@ class Canvas:
                 self.notices.append(f"The picture could not be moved: {reason}.")
 
     def displays(self) -> list[str]:
-        """The displays that are there now: their place in the list is their number."""
+        """The connected displays; their index is the display number."""
         return [f"{number}: {w} × {h}" for number, (w, h) in enumerate(pygame.display.get_desktop_sizes(), 1)]
 
     def screenshot(self, path: Path) -> None:
-        """Save what was painted last as a PNG file; missing folders are made. Raises NotSaved."""
+        """Save the last picture as a PNG file; missing folders are created. Raises NotSaved."""
         write_atomic(path, png_of(self.screen))
 
     def close(self) -> None:
-        """Take the window away."""
         pygame.display.quit()
 
     def _show(self) -> None:
@@ -210,7 +209,7 @@ class Canvas:
             self.display = 0
         pygame.display.set_caption("PiGaming")
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RuntimeWarning)  # window managers that tile choose the size themselves
+            warnings.simplefilter("ignore", RuntimeWarning)  # tiling window managers choose the size themselves
             if self.headless:
                 pygame.display.set_mode(SIZE)
             elif self.fullscreen:
@@ -232,12 +231,12 @@ class Canvas:
         now, pointer = time.monotonic(), pygame.mouse.get_pos()
         if pointer != self._pointer:
             self._pointer, self._pointer_moved = pointer, now
-        seen = now - self._pointer_moved < CURSOR_SECONDS
-        if seen != pygame.mouse.get_visible():
-            pygame.mouse.set_visible(seen)
+        visible = now - self._pointer_moved < CURSOR_SECONDS
+        if visible != pygame.mouse.get_visible():
+            pygame.mouse.set_visible(visible)
 
 
-def _tell_sdl(headless: bool) -> None:
+def _set_sdl_hints(headless: bool) -> None:
     hints = {
         "SDL_WINDOWS_DPI_AWARENESS": "permonitorv2",
         "SDL_VIDEO_MINIMIZE_ON_FOCUS_LOSS": "0",
@@ -246,7 +245,7 @@ def _tell_sdl(headless: bool) -> None:
     }
     for name, value in hints.items():
         os.environ.setdefault(name, value)
-    if headless and os.environ.get("SDL_VIDEODRIVER") not in _UNSEEN:
+    if headless and os.environ.get("SDL_VIDEODRIVER") not in _MEMORY_DRIVERS:
         os.environ["SDL_VIDEODRIVER"] = "dummy"
 
 
@@ -256,17 +255,17 @@ def _no_display(reason: str) -> str:
 
 
 def _window_size(desktop: tuple[int, int]) -> tuple[int, int]:
-    """The canvas itself where the desktop has room for it, else the largest of its shape that leaves a margin."""
+    """The canvas size if the desktop is larger, else the largest of that shape that leaves a margin."""
     if desktop[0] > SIZE[0] and desktop[1] > SIZE[1]:
         return SIZE
-    return _fitted((int(desktop[0] * 0.85), int(desktop[1] * 0.85))).size
+    return _fit_canvas((int(desktop[0] * 0.85), int(desktop[1] * 0.85))).size
 
 
-def _fitted(room: tuple[int, int]) -> pygame.Rect:
-    """The largest area of the canvas's shape in the middle of a room."""
-    factor = min(room[0] / SIZE[0], room[1] / SIZE[1])
+def _fit_canvas(area_size: tuple[int, int]) -> pygame.Rect:
+    """The largest rectangle of the canvas's shape, centred in an area."""
+    factor = min(area_size[0] / SIZE[0], area_size[1] / SIZE[1])
     w, h = round(SIZE[0] * factor), round(SIZE[1] * factor)
-    return pygame.Rect((room[0] - w) // 2, (room[1] - h) // 2, w, h)
+    return pygame.Rect((area_size[0] - w) // 2, (area_size[1] - h) // 2, w, h)
 
 
 def _paint_bars(window: pygame.Surface, area: pygame.Rect) -> None:

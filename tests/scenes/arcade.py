@@ -1,4 +1,4 @@
-"""An arcade without a window, for scripted play: real controls and scenes, made-up time, sounds only noted."""
+"""A headless arcade for scripted play: real controls and scenes, simulated time, recorded sounds."""
 
 from collections.abc import Callable
 from typing import TypeVar, cast
@@ -21,7 +21,7 @@ KEYS = [Device("keys", number) for number in range(4)]
 
 
 class Noted(Sounds):
-    """Sounds that nobody hears."""
+    """Sounds that are recorded instead of played."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -32,7 +32,7 @@ class Noted(Sounds):
 
 
 class Floor:
-    """A lowest scene on which nothing happens."""
+    """A lowest scene without behaviour."""
 
     def entered(self) -> None:
         pass
@@ -48,7 +48,7 @@ class Floor:
 
 
 class Arcade:
-    """Scenes on a stack above two floors (a title and a setup), and somebody who presses."""
+    """A stack of scenes above two floors (a title and a setup), with simulated input."""
 
     def __init__(self, controls: Controls, language: str = "en") -> None:
         pygame.font.init()
@@ -71,7 +71,7 @@ class Arcade:
         self.stack.turn(self.stack.top.on(InputEvent(Button.CLICK, Device("mouse"), at=(x, y))))
 
     def frame(self, seconds: float = 1 / 30, draw: bool = False) -> None:
-        """One turn of the loop of the real arcade."""
+        """One iteration of the main loop."""
         controls = self.context.controls
         for event in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
             self.stack.turn(self.stack.top.on(event))
@@ -80,22 +80,22 @@ class Arcade:
             self.stack.top.draw(self.screen)
 
     def wait(self, seconds: float, fps: int = 30, draw: bool = False) -> None:
-        """Let made-up time pass."""
+        """Run frames for `seconds` of simulated time."""
         for _ in range(round(seconds * fps)):
             self.frame(1 / fps, draw)
 
-    def until(self, true: Callable[[], bool], most: float = 30.0) -> float:
-        """Let time pass until something is so; answers how long that took."""
-        for frame in range(round(most * 30)):
-            if true():
+    def until(self, condition: Callable[[], bool], timeout: float = 30.0) -> float:
+        """Run frames until `condition()`; returns the seconds it took."""
+        for frame in range(round(timeout * 30)):
+            if condition():
                 return frame / 30
             self.frame()
-        raise AssertionError(f"not so within {most} s; on top lies {type(self.stack.top).__name__}")
+        raise AssertionError(f"not so within {timeout} s; on top lies {type(self.stack.top).__name__}")
 
-    def shown(self, kind: type[S]) -> S:
-        """The top scene, which must be of this kind; painted once, so that every scene of a story is painted."""
+    def shown(self, scene_class: type[S]) -> S:
+        """The top scene, which must be of this class; drawn once, so that every scene of a story is drawn."""
         top = self.stack.top
-        assert isinstance(top, kind), f"{type(top).__name__} is on top"
+        assert isinstance(top, scene_class), f"{type(top).__name__} is on top"
         self.stack.top.draw(self.screen)
         return top
 

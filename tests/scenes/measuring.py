@@ -1,6 +1,6 @@
-"""Where texts stand on a page, measured while it is painted: for tests that nothing touches or is cut off.
+"""Text positions on a page, measured while it is drawn, for tests that nothing overlaps or is cut off.
 
-`GlowCanvas` notes each line of text and each closed cut box; a `Screen` notes which of them reach it.
+`GlowCanvas` records each line of text and each closed cut box; a `Screen` records those that reach it.
 """
 
 import functools
@@ -20,14 +20,14 @@ from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.draw.theme import CAPITALS, font
 
-SAFE = pygame.Rect(60, 16, 1800, 1048)  # a little more than the safe area of menus: hints may stand in its margin
+SAFE = pygame.Rect(60, 16, 1800, 1048)  # slightly more than the safe area of menus: prompts may lie in its margin
 Painting = Callable[..., Steps[pygame.Surface]]
-NEAR = 3  # px between a text and an outline, at least
+NEAR = 3  # px, minimum distance between a text and an outline
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A line of text, or an outline (no text), and its box on the surface it was drawn on, px."""
+    """A line of text or an outline (empty text), and its box on the surface it was drawn on, px."""
 
     text: str
     box: tuple[float, float, float, float]  # left, top, right, bottom
@@ -39,7 +39,7 @@ class Mark:
 
 @dataclass
 class Measured:
-    """What has been drawn on each surface; surfaces are kept so that no other gets their id."""
+    """Everything drawn on each surface; surfaces are kept alive so that their ids stay unique."""
 
     kept: dict[int, tuple[pygame.Surface, list[Mark]]] = field(default_factory=dict)
 
@@ -51,7 +51,7 @@ class Measured:
 
 
 class Screen(pygame.Surface):
-    """A canvas that knows the texts painted on it."""
+    """A canvas that records the texts drawn on it."""
 
     def __init__(self, measured: Measured) -> None:
         super().__init__((1920, 1080))
@@ -60,7 +60,7 @@ class Screen(pygame.Surface):
     def blit(self, source: pygame.Surface, dest: Any = (0, 0), area: Any = None, special_flags: int = 0) -> Any:
         whole = area is None or pygame.Rect(area).size == source.get_size()
         if not special_flags and source.get_size() == self.get_size():
-            self.marks.clear()  # it hides all
+            self.marks.clear()  # it covers everything
         if whole:
             x, y = (dest.x, dest.y) if isinstance(dest, pygame.Rect) else (dest[0], dest[1])
             self.marks += [mark.moved(x, y) for mark in self.measured.on(source)]
@@ -68,7 +68,7 @@ class Screen(pygame.Surface):
 
     @property
     def texts(self) -> list[Mark]:
-        """Each line once; what is painted over itself, such as a row in focus, counts once."""
+        """Each line once; text drawn over itself, as in a focused row, counts once."""
         return list(dict.fromkeys(_rounded(mark) for mark in self.marks if mark.text.strip()))
 
     @property
@@ -79,7 +79,7 @@ class Screen(pygame.Surface):
 
 @contextmanager
 def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
-    """Everything that is lit from now on is measured; what was lit before is forgotten first."""
+    """Measure everything rendered from now on; caches are cleared first."""
     forget()
     measured = Measured()
     text, line, draw = GlowCanvas.text, GlowCanvas.line, LitImage.draw
@@ -131,7 +131,7 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
 
 
 def forget() -> None:
-    """Empty every cache of what is drawn."""
+    """Clear every cache of rendered surfaces."""
     surfaces.clear()
     for name, module in list(sys.modules.items()):
         if name.startswith(("pigaming_app.scenes", "pigaming_app.ui")):
@@ -142,13 +142,13 @@ def forget() -> None:
 
 
 def marks_of(ink: Any) -> list[Mark]:
-    """What an ink has noted."""
+    """The marks recorded by a canvas."""
     found: list[Mark] = ink.__dict__.setdefault("marks", [])
     return found
 
 
 def faults(screen: Screen, safe: pygame.Rect = SAFE) -> list[str]:
-    """What touches what, crosses an outline or leaves the picture."""
+    """Overlaps, crossed outlines, and marks outside of the safe area."""
     found = [f"{mark.text!r} leaves the picture" for mark in screen.texts if not safe.contains(_rect(mark))]
     for one, other in combinations(screen.texts, 2):
         if _shared(one, other) and one.text != other.text:
@@ -159,13 +159,13 @@ def faults(screen: Screen, safe: pygame.Rect = SAFE) -> list[str]:
 
 
 def _shared(one: Mark, other: Mark, apart: float = 0.0) -> bool:
-    """Whether two boxes share something, or are nearer to each other than `apart` px."""
+    """True if two boxes overlap or are nearer than `apart` px."""
     (a, b, c, d), (e, f, g, h) = one.box, other.box
     return min(c, g) - max(a, e) > -apart and min(d, h) - max(b, f) > -apart
 
 
 def _crosses(mark: Mark, frame: Mark) -> bool:
-    """It is neither inside of an outline nor outside."""
+    """True if a mark is neither inside nor outside an outline."""
     (a, b, c, d), (e, f, g, h) = mark.box, frame.box
     inside = a >= e + NEAR and c <= g - NEAR and b >= f + NEAR and d <= h - NEAR
     return not inside and _shared(mark, frame, NEAR)

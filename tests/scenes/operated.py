@@ -1,4 +1,4 @@
-"""An arcade whose window shines on a mat with a camera over it, and an operator: for tests of the calibration."""
+"""An arcade projected onto an emulated mat with a camera, and its operator: for calibration tests."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ from tests.scenes.arcade import Arcade
 
 
 class Operated(Arcade):
-    """An arcade whose window shines on an emulated mat, and an operator."""
+    """An arcade projected onto an emulated mat, and its operator."""
 
     def __init__(self, controls: Controls, site: Any) -> None:
         super().__init__(controls)
@@ -29,7 +29,7 @@ class Operated(Arcade):
             self.context.canvas.watchers.append(lambda window: site.see(pixels_of(window)))
 
     def picture(self, covered: bool = False) -> None:
-        """One picture, on the mat too; `covered`: somebody stands in the light of its right half."""
+        """Draw and project one picture; `covered`: a person blocks the light of the right half."""
         self.frame()
         screen = self.context.canvas.screen
         self.stack.top.draw(screen)
@@ -37,16 +37,16 @@ class Operated(Arcade):
             screen.fill((20, 20, 20), (700, 0, 1220, 1080))
         self.context.canvas.flip()
 
-    def pictures(self, kind: type[Scene], most: int = 400, covered: bool = False) -> Any:
-        """Pictures until a scene of this kind is on top."""
-        for _ in range(most):
-            if isinstance(self.stack.top, kind):
+    def pictures(self, scene_class: type[Scene], limit: int = 400, covered: bool = False) -> Any:
+        """Draw pictures until a scene of this class is on top."""
+        for _ in range(limit):
+            if isinstance(self.stack.top, scene_class):
                 return self.stack.top
             self.picture(covered)
         raise AssertionError(f"{type(self.stack.top).__name__} is on top")
 
     def go(self, row: str) -> CalibrationPage:
-        """Put the focus on a row of the first page."""
+        """Focus a row of the first page."""
         top = self.shown(CalibrationPage)
         while top.focus.name != row:
             self.press(Button.DOWN)

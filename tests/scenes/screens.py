@@ -1,4 +1,4 @@
-"""Every screen outside the mat with the longest values it can show, ready to be painted."""
+"""Every menu screen with the longest values it can show, ready to be drawn."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ ALONE = (0, 1, 2, 3)
 
 @dataclass(frozen=True)
 class Ending:
-    """How a match ended: who drove, for which teams, with which points, and who won."""
+    """The end of a match: drivers, teams, points, winners."""
 
     game: str
     brains: str

@@ -1,4 +1,4 @@
-"""The arcade's loop: it starts, survives a scene that fails, says what was wrong, and ends with everything in order."""
+"""The main loop: it starts, survives a failing scene, reports the error, and shuts down cleanly."""
 
 import os
 import signal
@@ -25,7 +25,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 class Quiet(Floor):
-    """A scene on which nothing happens, and which counts its frames."""
+    """A scene without behaviour that counts its frames."""
 
     def __init__(self, context: Context) -> None:
         self.context, self.frames = context, 0
@@ -39,7 +39,7 @@ class Quiet(Floor):
 
 
 class Broken(Quiet):
-    """A scene that fails when it moves."""
+    """A scene that fails in `update`."""
 
     def update(self, seconds: float) -> Turn:
         raise ValueError("on purpose")
@@ -109,7 +109,7 @@ def test_a_supervisor_ends_it_and_the_settings_are_kept(home: Path) -> None:
     assert (home / "config" / "settings.toml").is_file()
 
 
-def test_settings_that_cannot_be_read_are_told_of_on_the_screen_and_in_full_beside_it(
+def test_unreadable_settings_are_reported_on_the_screen_and_in_detail_on_stderr(
     home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (home / "config").mkdir()

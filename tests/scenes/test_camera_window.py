@@ -1,4 +1,4 @@
-"""The second window, which shows what the camera over the emulated mat sees."""
+"""The second window, with the view of the emulated camera."""
 
 import pygame
 import pytest
@@ -23,8 +23,8 @@ def test_it_shows_the_newest_picture_and_can_be_closed_alone(controls: Controls)
         seen = [window.window.get_surface().get_at((x, SIZE[1] // 2))[0] for x in range(0, SIZE[0], 40)]
         assert max(seen) > 20  # the room's light on the mat
         other = pygame.Event(pygame.WINDOWCLOSE, window=None)
-        assert not window.asked(other)
-        assert window.asked(pygame.Event(pygame.WINDOWCLOSE, window=window.window))
+        assert not window.close_if_requested(other)
+        assert window.close_if_requested(pygame.Event(pygame.WINDOWCLOSE, window=window.window))
         assert window.window is None
         window.update(0.1)
     finally:
@@ -32,7 +32,7 @@ def test_it_shows_the_newest_picture_and_can_be_closed_alone(controls: Controls)
         mat.end()
 
 
-def test_without_a_second_window_a_sentence_is_said_and_the_arcade_goes_on(
+def test_without_a_second_window_the_arcade_prints_a_reason_and_goes_on(
     controls: Controls, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def refuse(*_: object, **__: object) -> None:

@@ -1,4 +1,4 @@
-"""One whole evening: from the title through lobby, setup and match to the results, a rematch, and back again."""
+"""A whole evening: from the title through lobby, setup and match to the results, a rematch, and back."""
 
 from contextlib import ExitStack
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""No text of any screen touches another one, crosses a frame or leaves the picture: both languages, longest values."""
+"""Layout: no text overlaps another, crosses a frame or leaves the picture; both languages, longest values."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.screens import SCREENS
 
-LISTS = ("options", "operator", "robots menu", "setup")  # each of their rows is looked at
+LISTS = ("options", "operator", "robots menu", "setup")  # each of their rows is checked
 
 
 @pytest.fixture
@@ -42,6 +42,6 @@ def test_texts_keep_off_each_other_and_off_frames(
 
 
 def relevant(name: str, found: list[str]) -> list[str]:
-    """Without the numbers of the lessons, which lie in discs on the frames."""
+    """Without the lesson numbers, which lie in discs on the frames."""
     numbers = {f"'{number}' crosses its frame" for number in range(1, 5)} if name.startswith("how to") else set()
     return [fault for fault in found if fault not in numbers]

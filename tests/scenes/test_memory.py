@@ -1,4 +1,4 @@
-"""What the arcade keeps in memory: no more than the budget of its cache, and nothing of a match that is over."""
+"""Memory: the cache stays within its budget and keeps nothing of a finished match."""
 
 import gc
 import random
@@ -37,7 +37,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def match(arcade: Arcade, game: str) -> MatchScene:
-    """A match of AIs with the longest way to the goal."""
+    """A match of AIs with the longest goal."""
     rules = games()[game]
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
@@ -46,7 +46,7 @@ def match(arcade: Arcade, game: str) -> MatchScene:
 
 
 def warmed(arcade: Arcade, game: str) -> None:
-    """Put a match on top, and wait until it has all its sprites and has begun."""
+    """Push a match, and wait until all its sprites are built and it has started."""
     scene = match(arcade, game)
     arcade.stack.turn(Push(scene))
     arcade.until(lambda: scene.warm, 60.0)
@@ -73,13 +73,13 @@ def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> Non
 @pytest.mark.parametrize("game", games())
 def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[tuple[int, Hashable]] = []
-    keep = SurfaceCache._keep
+    keep = SurfaceCache._insert
 
     def noted(cache: SurfaceCache, entry: Entry) -> None:
         made.append((id(entry.table), entry.key))
         keep(cache, entry)
 
-    monkeypatch.setattr(SurfaceCache, "_keep", noted)
+    monkeypatch.setattr(SurfaceCache, "_insert", noted)
     warmed(arcade, game)
     assert len(made) == len(set(made)) > 2000
     assert surfaces.bytes <= surface_cache.BUDGET

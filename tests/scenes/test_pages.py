@@ -1,4 +1,4 @@
-"""The pages outside a match: each opens in both languages, bears every press, and every text fits where it stands."""
+"""The pages outside a match: each opens in both languages, survives every input, and every text fits."""
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -35,7 +35,7 @@ from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
-SMALLEST = 0.8  # no text may be shrunk further than this
+SMALLEST = 0.8  # minimum scale of a text
 MOUSE = Device("mouse")
 PLACES = [(x, y) for x in range(60, 1900, 115) for y in range(40, 1060, 85)]
 
@@ -83,7 +83,7 @@ def top(arcade: Arcade, name: str) -> Scene:
 
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES), indirect=True)
 @pytest.mark.parametrize("name", PAGES)
-def test_every_press_of_every_device_is_borne(arcade: Arcade, name: str) -> None:
+def test_every_page_survives_every_press_of_every_device(arcade: Arcade, name: str) -> None:
     with VirtualPad() as pad:
         arcade.frame()
         for button in Button:
@@ -126,7 +126,7 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
 
 
 def walk(arcade: Arcade, scene: Scene) -> None:
-    """Show every row of a page, and everything that seats can be."""
+    """Show every row of a page and every state of a seat."""
     for button in (Button.X, Button.Y, *[Button.FIRE] * 2, *[Button.Y] * 2, *[Button.DOWN, Button.RIGHT] * 11):
         if not isinstance(scene, Lobby) and button in (Button.FIRE, Button.Y):
             continue
@@ -155,7 +155,7 @@ def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: s
 
 
 def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
-    """The rows of hints that a page can show."""
+    """All prompt rows of a page."""
     if isinstance(scene, Lobby):
         yield scene.page.prompts
         scene.on(InputEvent(Button.X, device))

@@ -1,4 +1,4 @@
-"""After a scene has failed the title is whole again, whatever the scene did to the screen before."""
+"""Recovery: after a scene has failed the title is intact, whatever the scene did to the screen."""
 
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -20,7 +20,7 @@ Damage = Callable[[Context, pygame.Surface], object]
 
 
 class Failing(Floor):
-    """A scene that does some damage to the screen and fails while it paints."""
+    """A scene that damages the screen and fails while drawing."""
 
     def __init__(self, context: Context, damage: Damage) -> None:
         self.context, self.damage = context, damage
@@ -32,7 +32,7 @@ class Failing(Floor):
 
 
 class Clinging(Failing):
-    """A scene that fails again when it is taken off the stack."""
+    """A scene that also fails in `left`."""
 
     def left(self) -> None:
         raise RuntimeError("it does not let go")
@@ -46,7 +46,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def pictures(first: Callable[[Context], Scene], frames: int = 4) -> list[bytes]:
-    """Every picture that the arcade shows in the window from the start on; the pointer is free to leave it."""
+    """Every picture of the arcade from the start; the pointer may leave the window."""
     shown: list[bytes] = []
 
     def over() -> bool:
@@ -60,7 +60,7 @@ def pictures(first: Callable[[Context], Scene], frames: int = 4) -> list[bytes]:
 
 @cache
 def whole() -> list[bytes]:
-    """The pictures after a scene that failed without any damage."""
+    """The pictures after a scene that failed without damage."""
     return pictures(lambda context: Failing(context, lambda context, screen: None))
 
 
@@ -105,7 +105,7 @@ def grabbed(context: Context, screen: pygame.Surface) -> None:
 @pytest.mark.parametrize(
     "damage", [clip, clip_twice_removed, locks, pixels, transparency, cached_picture, pinned, grabbed]
 )
-def test_the_title_is_painted_as_if_nothing_had_been_done(damage: Damage) -> None:
+def test_the_title_is_intact_after_a_failure(damage: Damage) -> None:
     assert pictures(lambda context: Failing(context, damage)) == whole()
     assert not pygame.display.get_init() or not pygame.event.get_grab()
 
@@ -119,9 +119,9 @@ def test_a_picture_in_pinned_corners_is_whole_too(home: Path) -> None:
 
 
 @pytest.mark.parametrize("under", [False, True])
-def test_a_scene_that_does_not_let_go_does_not_stop_recovery(home: Path, under: bool) -> None:
+def test_a_scene_that_fails_in_left_does_not_stop_recovery(home: Path, under: bool) -> None:
     class Opening(Failing):
-        """A scene that puts one on top of itself."""
+        """A scene that pushes another onto itself."""
 
         def update(self, seconds: float) -> Turn:
             return Push(Failing(self.context, clip))
@@ -138,7 +138,7 @@ def test_a_scene_that_does_not_let_go_does_not_stop_recovery(home: Path, under: 
     assert "it does not let go" in log
 
 
-def test_all_scenes_let_go_even_if_one_of_them_fails_to() -> None:
+def test_all_scenes_are_closed_even_if_one_raises() -> None:
     gone: list[str] = []
 
     class Holding(Failing):

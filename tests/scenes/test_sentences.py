@@ -1,4 +1,4 @@
-"""Sentences that are put together: who wins, how many laps, what the rules limit, who drives."""
+"""Composed sentences: winners, laps, rule limits, drivers."""
 
 from pathlib import Path
 
@@ -26,7 +26,7 @@ ALONE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
 
 
 def ended(game: str, brains: str, teams: tuple[int, ...], winners: tuple[int, ...]) -> tuple[Outcome, Setup]:
-    """A match of two minutes that ended so."""
+    """The outcome of a match of two minutes."""
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
     setup = Setup(
         game, "classic", (one, two, three, four), 2.0, 1, games()[game].variants[0], games()[game].default_goal
@@ -161,5 +161,5 @@ SENTENCES = {
 
 
 @pytest.mark.parametrize("key", SENTENCES)
-def test_these_sentences_stand_so(key: str) -> None:
+def test_composed_sentences_in_both_languages(key: str) -> None:
     assert (Words("en")(key), Words("pt")(key)) == SENTENCES[key]

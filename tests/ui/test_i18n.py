@@ -18,7 +18,7 @@ def test_both_languages_have_the_same_keys() -> None:
     assert all(text.strip() for text in [*english.values(), *portuguese.values()])
 
 
-def test_both_languages_are_told_the_same_values() -> None:
+def test_both_languages_have_the_same_placeholders() -> None:
     english, portuguese = texts("en"), texts("pt")
     assert [key for key in english if _holes(english[key]) != _holes(portuguese[key])] == []
 
@@ -52,7 +52,7 @@ FORMATTERS = {
 
 
 def test_every_decimal_number_on_a_screen_is_written_in_its_language() -> None:
-    """A format with decimals stands in a call of the words or of `decimal`, or in a formatter, whose calls do so."""
+    """Decimals are formatted in a call of the words or of `decimal`, or in a formatter whose calls are."""
     scenes, found = ASSETS.parent / "pigaming_app" / "scenes", []
     for file in scenes.rglob("*.py"):
         module = ast.parse(file.read_text(encoding="utf-8"))
@@ -61,18 +61,18 @@ def test_every_decimal_number_on_a_screen_is_written_in_its_language() -> None:
 
 
 def known(module: ast.AST) -> set[str]:
-    """The formatters that a module imports."""
+    """The formatters imported by a module."""
     imports = [node for node in ast.walk(module) if isinstance(node, ast.ImportFrom) and node.module]
     names = [(alias.name, node.module) for node in imports for alias in node.names]
     return {name for name, source in names if name in FORMATTERS and str(source).endswith(FORMATTERS[name])}
 
 
 def bare_decimals(module: ast.AST, formatters: set[str], localised: bool = False) -> Iterator[int]:
-    """The lines on which a number with decimals is written without regard to the language."""
+    """Lines on which decimals are formatted without localisation."""
     for node in ast.iter_child_nodes(module):
         name = getattr(node, "name", "")
         if name in ("FrameMeter", "projection") or isinstance(node, ast.Raise):
-            continue  # F3, what a calibration is valid for, and reasons in the log: not for players
+            continue  # F3, calibration projections and log reasons: not shown to players
         if isinstance(node, ast.FormattedValue) and not localised and decimals(node):
             yield node.lineno
         if called(node) in formatters and not localised:
@@ -82,14 +82,14 @@ def bare_decimals(module: ast.AST, formatters: set[str], localised: bool = False
 
 
 def called(node: ast.AST) -> str:
-    """The name of the function that is called."""
+    """The name of the called function."""
     if not isinstance(node, ast.Call):
         return ""
     return node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
 
 
 def decimals(node: ast.FormattedValue) -> bool:
-    """Whether a format may give decimals."""
+    """True if a format may produce decimals."""
     text = ast.unparse(node.format_spec) if node.format_spec else ""
     return bool(re.search(r"\.[1-9]f|g['\"]$", text))
 
@@ -99,7 +99,7 @@ def test_a_space_bar_has_a_name_and_a_button_is_called_what_is_printed_on_it() -
     assert Words("pt").printed("R CTRL") == "R CTRL"
 
 
-def test_a_text_that_nobody_wrote_is_an_error() -> None:
+def test_an_unknown_key_is_an_error() -> None:
     with pytest.raises(KeyError):
         Words("en")("lobby.nonsense")
 

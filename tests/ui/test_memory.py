@@ -1,4 +1,4 @@
-"""When memory is collected, and when it is not."""
+"""Pausing and running the garbage collector."""
 
 import gc
 

@@ -1,4 +1,4 @@
-"""The probe tells of every device, also where there is none and where a look fails."""
+"""The probe reports every device, also missing ones and failing checks."""
 
 import json
 import subprocess
@@ -13,7 +13,7 @@ from tests.ui.input.virtual_pad import VirtualPad
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def test_every_look_is_one_line():
+def test_every_check_prints_one_line():
     command = [sys.executable, "-m", "pigaming_app.ui.probe"]
     said = subprocess.run(command, cwd=ROOT, capture_output=True, timeout=60, check=True).stdout
     looks = {name: (found, wrong) for name, found, wrong in map(json.loads, said.decode().splitlines())}
@@ -23,17 +23,17 @@ def test_every_look_is_one_line():
     assert looks["fonts"] == ("all there", "")
 
 
-def test_a_look_that_fails_leaves_the_others(monkeypatch, capsys):
+def test_a_failing_check_does_not_stop_the_others(monkeypatch, capsys):
     def crash():
         raise RuntimeError("the driver is confused")
 
-    monkeypatch.setitem(probe.LOOKS, "sound", crash)
+    monkeypatch.setitem(probe.CHECKS, "sound", crash)
     probe.main()
     assert '["sound", "", "the driver is confused"]' in capsys.readouterr().out.splitlines()
 
 
 @pytest.mark.usefixtures("controls")
-def test_pads_are_told_by_name_and_those_without_a_mapping_as_what_is_wrong():
+def test_pads_are_listed_and_those_without_a_mapping_are_a_problem():
     with VirtualPad("Xbox 360 Controller"):
         names, wrong = probe.pads()
         assert (names != "", wrong) == (True, "")

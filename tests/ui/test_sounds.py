@@ -1,4 +1,4 @@
-"""The sounds: rendered by the project's own script, heard where there is a device, silence where there is none."""
+"""The sounds: rendered by the project's script, played if there is a device, silent otherwise."""
 
 import importlib.util
 import math
@@ -45,7 +45,7 @@ def sounds() -> Iterator[Sounds]:
 
 @pytest.fixture
 def now(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """A clock that only the test moves."""
+    """A clock advanced by the test."""
     clock = [1000.0]
     monkeypatch.setattr("time.monotonic", lambda: clock[0])
     return clock
@@ -72,8 +72,8 @@ def test_a_sound_is_clean(name: str) -> None:
     assert (FOLDER / f"{name}.ogg").stat().st_size < 20_000
 
 
-def test_the_loudness_of_a_tone_at_1000_hz_is_its_own() -> None:
-    """A-weighting leaves 1 kHz alone (IEC 61672-1): a full sine has half the power of full scale, -3.01 dB."""
+def test_a_weighting_leaves_1000_hz_unchanged() -> None:
+    """A-weighting leaves 1 kHz alone (IEC 61672-1): a full-scale sine has half the power, -3.01 dB."""
     tone = np.sin(2.0 * np.pi * 1000.0 * np.arange(RENDER.RATE) / RENDER.RATE)
     assert RENDER.loudness(tone) == pytest.approx(10.0 * math.log10(0.5), abs=0.05)
 
@@ -108,7 +108,7 @@ def test_the_music_runs_into_itself() -> None:
     assert (FOLDER / "music.ogg").stat().st_size < 250_000
 
 
-def test_a_player_is_heard_in_the_own_pitch(sounds: Sounds) -> None:
+def test_each_player_sounds_in_its_own_pitch(sounds: Sounds) -> None:
     sounds.play("join", player=2)
     sounds.play("join")
     playing = [pygame.mixer.Channel(number).get_sound() for number in (0, 1)]
@@ -118,7 +118,7 @@ def test_a_player_is_heard_in_the_own_pitch(sounds: Sounds) -> None:
 
 
 @pytest.mark.parametrize(("pan", "sides"), [(0.0, (1.0, 1.0)), (1.0, (0.3, 1.0)), (-9.0, (1.0, 0.3))])
-def test_a_robot_is_heard_from_where_it_is(pan: float, sides: tuple[float, float]) -> None:
+def test_sounds_are_panned_to_the_robot(pan: float, sides: tuple[float, float]) -> None:
     assert stereo(pan) == pytest.approx(sides)
 
 
@@ -142,7 +142,7 @@ def test_four_players_who_mash_buttons_never_run_out_of_voices(sounds: Sounds, n
     assert voices() <= pygame.mixer.get_num_channels()
 
 
-def test_music_follows_what_was_asked_before_the_device_was_open() -> None:
+def test_music_requested_before_the_device_opens_plays() -> None:
     sounds = Sounds()
     sounds.music(True)
     sounds.volume(10, 5)
@@ -178,7 +178,7 @@ def test_without_a_device_there_is_silence_and_a_reason(monkeypatch: pytest.Monk
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="asks Linux")
-def test_a_computer_without_a_sound_card_is_not_even_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_computer_without_a_sound_card_is_not_probed(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("SDL_AUDIODRIVER", "AUDIODEV", "PULSE_SERVER"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(Path, "exists", lambda path: False)

@@ -1,4 +1,4 @@
-"""The window: every frame is 1920 x 1080, whatever it is shown on."""
+"""The window: every frame is 1920 x 1080, whatever the window or display."""
 
 import os
 import subprocess
@@ -28,12 +28,12 @@ def canvas() -> Iterator[Canvas]:
 
 
 def resize(w: int, h: int) -> pygame.Surface:
-    """What a window manager does to a window behind the program's back."""
+    """A resize by the window manager."""
     return pygame.display.set_mode((w, h), pygame.RESIZABLE)
 
 
 def lit(surface: pygame.Surface) -> pygame.Rect:
-    """The part of a surface that is not black."""
+    """The bounding box of the non-black part of a surface."""
     return pygame.mask.from_threshold(surface, (255, 0, 0), (20, 20, 20)).get_bounding_rects()[0]
 
 
@@ -71,7 +71,7 @@ def test_any_other_window_shows_all_of_it_undistorted(
 
 
 @pytest.mark.parametrize("window", [(1, 1), (1, 900), (1600, 1)])
-def test_a_window_squeezed_to_nothing_harms_nobody(canvas: Canvas, window: tuple[int, int]) -> None:
+def test_a_window_of_no_size_does_no_harm(canvas: Canvas, window: tuple[int, int]) -> None:
     resize(*window)
     canvas.screen.fill("red")
     canvas.flip()

@@ -1,1 +1,1 @@
-"""The brain overlay (F4): what an AI sees, what it would like and what it does, drawn over a running match."""
+"""The brain overlay (F4): percepts, goals and actions of an AI, drawn over a running match."""

@@ -1,7 +1,7 @@
-"""What the brain overlay draws on the floor: the rose round a robot, dotted lines to what it sees, where it is going.
+"""Floor marks of the brain overlay: the rose round a robot, dotted lines to its percepts, its path and destination.
 
-All of it is light, and none of it lies on a robot: the rose begins outside of the barrel, lines end before what they
-show, and whatever would lie on another robot (whose marker a camera may be reading) is left out.
+All marks are additive light and none lies on a robot: the rose begins outside the barrel, lines end short of their
+target, and marks that would cover another robot (a camera may be reading its marker) are omitted.
 """
 
 import math
@@ -31,12 +31,12 @@ from pigaming_app.ui.draw import ALARM, FOCUS, LINE, THIN, Color, GlowCanvas, Po
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, master, painted, put, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
-INNER, OUTER = 68, 96  # px from a robot's middle to the ends of a petal's room
+INNER, OUTER = 68, 96  # px from a robot's middle to the inner and outer radius of the petals
 ARM = (INNER + OUTER) / 2
-LEVELS = 5  # lengths of a petal, each way
-TONES = 2  # levels of the colours of a rose for each of these
-PITCH, SPEED = 22.0, 44.0  # px from dot to dot of a line, px/s at which they run
-BEGIN = OUTER + 12.0  # px from a robot at which lines begin
+LEVELS = 5  # petal lengths in each direction of the scale
+TONES = 2  # colour levels of a rose for each of these
+PITCH, SPEED = 22.0, 44.0  # px between the dots of a line; px/s of their motion
+BEGIN = OUTER + 12.0  # px from a robot to the start of its lines
 ENDS = {
     OPPONENT: 52.0,
     MATE: 52.0,
@@ -46,7 +46,7 @@ ENDS = {
     PRIZE: 54.0,
     GOAL: 40.0,
     WAY: 0.0,
-}  # px before the end
+}  # px by which lines end before their target
 COLORS: dict[str, Color] = {
     OPPONENT: (255, 214, 80),
     PERSON: (255, 214, 80),
@@ -54,13 +54,13 @@ COLORS: dict[str, Color] = {
     BULLET: ALARM,
     PRIZE: FOCUS,
 }
-KEEP = 58.0  # px from the middle of another robot that stay free
-GOAL_R = 30  # px: radius of the outer ring where it is going
-SMALL, LARGE = 4.0, 6.0  # px: radius of the dots to what it sees, and on its way
+CLEARANCE = 58.0  # px kept free round the middle of another robot
+GOAL_R = 30  # px: outer ring of the destination
+SMALL, LARGE = 4.0, 6.0  # px: radius of the dots to percepts and on the path
 
 
 class FloorMarks:
-    """Light round the robot at `pose`, for one picture; `others` are where the other robots are, px on the canvas."""
+    """The marks of the robot at `pose` for one picture; `others`: poses of the other robots, canvas px."""
 
     def __init__(self, pose: Pose, others: Sequence[Pose], color: Color, clock: float) -> None:
         self.x, self.y, self.heading = pose
@@ -68,7 +68,7 @@ class FloorMarks:
         self.light: Batch = []
 
     def rose(self, rose: Sequence[float], sights: Sequence[Percept]) -> None:
-        """Sixteen petals that turn with the robot; where something is, the petal's edge has its colour."""
+        """Sixteen petals that turn with the robot; a percept colours the edge of the petal in its direction."""
         for k, value in enumerate(rose):
             self._turned(leaf, round(LEVELS * value), k)
         for sight in sights:
@@ -77,7 +77,7 @@ class FloorMarks:
                 self._turned(lamp, COLORS[sight.kind], petal(bearing))
 
     def sights(self, state: Any, sights: Sequence[Percept]) -> None:
-        """Lines to what it sees, a cross where a wall is between. Its way, and two rings where it leads."""
+        """Lines to all percepts, with a cross at an occluding wall; the path, and two rings at its destination."""
         here = self.x, self.y
         begin, at = BEGIN, here
         for sight in sights:
@@ -101,7 +101,7 @@ class FloorMarks:
     def _dots(
         self, a: tuple[float, float], b: tuple[float, float], begin: float, end: float, color: Color, r: float
     ) -> None:
-        """Dots that run from a to b, from `begin` px after a to `end` px before b."""
+        """Moving dots from a to b, from `begin` px after a to `end` px before b."""
         away = math.dist(a, b)
         at, sprite = begin + self.clock * SPEED % PITCH, dot(color, r)
         while at < away - end:
@@ -109,23 +109,23 @@ class FloorMarks:
             self._put(sprite, a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part)
             at += PITCH
 
-    def _turned(self, sprite: Callable[..., Sprite], what: object, k: int) -> None:
-        """A part of the rose in direction k."""
+    def _turned(self, sprite: Callable[..., Sprite], value: object, k: int) -> None:
+        """Draw part `k` of the rose."""
         angle = self.heading + math.tau * k / PETALS
         if self._free(self.x + ARM * math.cos(angle), self.y + ARM * math.sin(angle)):
-            put(self.light, sprite(what, step(angle, HEADINGS)), self.x, self.y)
+            put(self.light, sprite(value, step(angle, HEADINGS)), self.x, self.y)
 
     def _put(self, sprite: Sprite, x: float, y: float) -> None:
         if self._free(x, y):
             put(self.light, sprite, x, y)
 
     def _free(self, x: float, y: float) -> bool:
-        """Whether no other robot is there."""
-        return all(math.hypot(x - other[0], y - other[1]) > KEEP for other in self.others)
+        """True if no other robot is there."""
+        return all(math.hypot(x - other[0], y - other[1]) > CLEARANCE for other in self.others)
 
 
 def blocked(state: Any, x: float, y: float, to_x: float, to_y: float) -> float:
-    """The share of the way to a point, arena px, after which the first wall that still stands is met; 1: none is."""
+    """The share of the line to a point, arena px, up to the first standing wall; 1 if there is none."""
     walls = [wall for wall in state.walls[: state.wall_count] if wall.health]
     return min((wall_contact(x, y, to_x - x, to_y - y, wall, 0.0) for wall in walls), default=1.0)
 
@@ -135,7 +135,7 @@ def blocked(state: Any, x: float, y: float, to_x: float, to_y: float) -> float:
 
 @cached
 def leaf(level: int, turn: int) -> Sprite:
-    """A petal, -LEVELS (bad) to LEVELS (good), whose middle points to heading `turn` of HEADINGS."""
+    """A petal, -LEVELS (bad) to LEVELS (good), turned to heading `turn` of HEADINGS."""
     return turned(painted(_leaf, (level,)), turn, HEADINGS, ARM)
 
 
@@ -151,7 +151,7 @@ def _leaf(level: int) -> pygame.Surface:
 
 @cached
 def lamp(color: Color, turn: int) -> Sprite:
-    """The outer edge of a petal, lit."""
+    """The lit outer edge of a petal."""
     return turned(painted(_lamp, (color,)), turn, HEADINGS, ARM)
 
 
@@ -162,20 +162,19 @@ def _lamp(color: Color) -> pygame.Surface:
 
 @cached
 def dot(color: Color, r: float) -> Sprite:
-    """One dot of a line."""
     return trim(GlowCanvas(48, 48, 3).disc(24, 24, r, color).lit(0.8), 24, 24)
 
 
 @cached
 def goal(color: Color) -> Sprite:
-    """Where it is going."""
+    """The destination mark."""
     ink = GlowCanvas(120, 120, 3).ring(60, 60, GOAL_R, color, LINE).ring(60, 60, 11, color, LINE)
     return trim(ink.lit(0.7), 60, 60)
 
 
 @cached
 def cross(color: Color) -> Sprite:
-    """Where its sight ends."""
+    """The mark of an occluded line of sight."""
     ink = GlowCanvas(80, 80, 3).to(40, 40)
     for side in (-1, 1):
         ink.line([(-13, -13 * side), (13, 13 * side)], color, THIN + 3)

@@ -1,6 +1,6 @@
-"""The brain overlay itself: whose brain is shown, asked a few times a second, drawn with every picture.
+"""The brain overlay: selects a brain, queries it a few times a second, draws it every frame.
 
-It only looks. The match it draws over is neither changed nor slowed: brains are asked after a tick, never within one.
+Read-only. Brains are queried after a tick, never within one, so the match is neither changed nor slowed.
 """
 
 import math
@@ -20,10 +20,10 @@ from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PLAYERS
 
-EVERY = 5  # ticks between two questions
-EASE = 10.0  # of what is missing, in a second: bars and petals do not jump
-GLOW = 6  # px by which the light of the panels reaches beside the clock
-TILTED = 0.35  # of a stick's way from which on it counts as held
+QUERY_PERIOD = 5  # ticks between two queries
+EASE = 10.0  # 1/s, smoothing rate of bars and petals
+GLOW = 6  # px of the panels' glow beside the clock
+TILTED = 0.35  # deflection above which a stick counts as held
 
 
 class BrainOverlay:
@@ -33,31 +33,31 @@ class BrainOverlay:
         self.match, self.view, self.words = match, view, words
         self.seat: int | None = None
         self.thoughts = Thoughts("starts")
-        self.asked = -EVERY  # the tick of the last question
+        self.queried = -QUERY_PERIOD  # tick of the last query
         self.rose = [0.0] * PETALS
         self.wishes: dict[str, float] = {}
         self.clock = 0.0
 
     @property
     def seats(self) -> list[int]:
-        """Those on which a brain sits that explains itself."""
+        """The seats whose brains can explain themselves."""
         return [seat for seat in self.view.seats if self._brain(seat)]
 
     def next(self) -> None:
-        """Show the first AI, then the one after it, and after the last none."""
+        """Show the first AI, then the next; after the last, none."""
         after = [seat for seat in self.seats if self.seat is None or seat > self.seat]
         self.seat = after[0] if after else None
-        self.asked, self.rose, self.wishes = -EVERY, [0.0] * PETALS, {}
+        self.queried, self.rose, self.wishes = -QUERY_PERIOD, [0.0] * PETALS, {}
 
     def draw(self, screen: pygame.Surface, blend: float, seconds: float) -> None:
-        """Paint it over the match, `seconds` after the last picture."""
+        """Draw it over the match, `seconds` after the previous picture."""
         brain = None if self.seat is None else self._brain(self.seat)
-        if self.seat is None or brain is None:  # somebody may have taken the seat
+        if self.seat is None or brain is None:  # a player may have taken the seat
             self.seat = None
             return
         state = self.match.state
-        if not self.asked <= state.tick < self.asked + EVERY:
-            self.asked = state.tick
+        if not self.queried <= state.tick < self.queried + QUERY_PERIOD:
+            self.queried = state.tick
             self.thoughts = brain.explain(state, self.seat) or Thoughts("starts")
         self._ease(seconds)
         self._floor(screen, state, self.seat, blend)
@@ -68,13 +68,13 @@ class BrainOverlay:
         return brain if isinstance(brain, BrainPlayer) and brain.kind.explain else None
 
     def _ease(self, seconds: float) -> None:
-        """Let what is shown follow what is thought."""
+        """Smooth the displayed values towards the current thoughts."""
         self.clock += seconds
         part, thoughts = 1.0 - math.exp(-EASE * seconds), self.thoughts
         self.rose = [old + part * (new - old) for old, new in zip(self.rose, thoughts.rose, strict=True)]
-        shown: Mapping[str, float] = self.wishes
+        current: Mapping[str, float] = self.wishes
         self.wishes = {
-            name: (old := shown.get(name, 0.0)) + part * (new - old) for name, new in thoughts.wishes.items()
+            name: (old := current.get(name, 0.0)) + part * (new - old) for name, new in thoughts.wishes.items()
         }
 
     def _floor(self, screen: pygame.Surface, state: Any, seat: int, blend: float) -> None:
@@ -87,7 +87,7 @@ class BrainOverlay:
         screen.set_clip(None)
 
     def _boxes(self, screen: pygame.Surface, state: Any, seat: int) -> None:
-        """The texts left of the clock, the wishes right of it."""
+        """Texts left of the clock, wishes right of it."""
         thoughts, clock = self.thoughts, self.view.clock
         left, right, w = LEFT, clock.right + 8, clock.left - 8 - LEFT
         cards.blank(screen, LEFT - 12, clock.left + GLOW)
@@ -107,6 +107,6 @@ class BrainOverlay:
 
 
 def held(action: Any) -> MoveKey:
-    """How the stick is held, in three steps each way, and fire."""
+    """Stick in three steps per axis, and fire."""
     linear, angular = (int(value > TILTED) - int(value < -TILTED) for value in (action.linear, action.angular))
     return linear, angular, int(action.fire)

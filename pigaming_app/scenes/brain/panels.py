@@ -1,7 +1,7 @@
-"""What the brain overlay says above the arena, in place of the panels: what the AI does and why, and its wishes.
+"""Panels of the brain overlay, in place of the HUD: action, reason and wishes of the AI.
 
-Left, whose brain it is and one line each for what it does and why. Right, a bar for everything that it might want, the
-one it follows in white, and its stick; a brain that chooses among moves shows how good each seems instead.
+Left: the robot, its action and the reason. Right: a bar for every wish, the chosen one in white, and the stick; brains
+that choose among moves show a value per move instead.
 """
 
 from collections.abc import Mapping, Sequence
@@ -34,12 +34,12 @@ from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, word
 
-Y, H, EDGE = 24, 106, 24  # px: top and height of both boxes, margin round their sprites
+Y, H, EDGE = 24, 106, 24  # px: top and height of both boxes, margin of their sprites
 TEXT = 104  # px from the left edge of a box to its texts
 BAR_W, BAR_H, PITCH = 36, 48, 72  # px
-TOP, SIGN_Y = 10, 83  # px from a box's top to its bars, and to the middle of their signs
-CELL, GAP = 28, 30  # px of a cell of the stick; from the stick to the sign beside it
-LEVELS = 10  # tones of a cell each way
+TOP, SIGN_Y = 10, 83  # px from a box's top to its bars and to the middle of their signs
+CELL, GAP = 28, 30  # px: size of a stick cell; gap between stick and sign
+LEVELS = 10  # colour levels of a cell in each direction
 CRATES = {"raw": 0, "half": 1, "done": 2, "damaged": 3}  # signs that are crates
 SIGNS = {
     "cover": "shield", "attack": "faster", "fire": "shoot", "dodge": "ricochet", "free": "turn_left",
@@ -49,7 +49,7 @@ SIGNS = {
 
 
 def blank(screen: pygame.Surface, left: int, right: int) -> None:
-    """Take away the panels between two x of the canvas."""
+    """Clear the HUD between two x coordinates of the canvas."""
     screen.fill(BLACK, (left, 0, right - left, Y + H + 4))
 
 
@@ -60,7 +60,7 @@ def draw_words(screen: pygame.Surface, x: int, w: int, seat: int, doing: str, be
 
 
 def draw_wishes(screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mapping[str, float], chosen: object) -> None:
-    """The right box of a brain with wishes: a bar for each."""
+    """The right box of a brain with wishes: one bar each."""
     put_on(screen, box(seat, w, False), x, Y)
     light: Batch = []
     room = w - 224
@@ -79,7 +79,7 @@ def draw_wishes(screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mappi
 
 
 def draw_held(screen: pygame.Surface, right: int, seat: int, held: MoveKey, buttons: Sequence[tuple[str, int]]) -> None:
-    """At the right end of that box, whose x is given: how it holds its stick and its buttons."""
+    """Stick and buttons at the right end of that box; `right` is its x."""
     light: Batch = []
     stick(light, right - 128, Y + H / 2, {}, held, PLAYERS[seat])
     for i, (name, down) in enumerate(buttons):
@@ -97,7 +97,7 @@ def draw_moves(
     chosen: object,
     sure: Sequence[str],
 ) -> None:
-    """The right box of a brain that chooses among moves: how good each is, without and with fire, and how `sure`."""
+    """The right box of a brain that chooses among moves: values without and with fire, and the confidence `sure`."""
     put_on(screen, box(seat, w, False), x, Y)
     light: Batch = []
     for fire, at in ((0, x + 84), (1, x + 228)):
@@ -113,18 +113,18 @@ def draw_moves(
 
 
 def lines(screen: pygame.Surface, x: float, room: float, title: str, text: str) -> None:
-    """A title and a smaller line below it, from x on."""
-    for said, size, face, color, y in ((title, LABEL, "head", WHITE, 34), (text, BODY, "body", MIST, 80)):
-        if said:
-            size = fit_size(said, size, room, face)
-            lit = word(said, size, color, face, 0.35 if face == "head" else 0.0)
-            lit.draw(screen, x + text_width(said, size, face) / 2, Y + y)
+    """A title and a smaller line below it, starting at x."""
+    for line, size, face, color, y in ((title, LABEL, "head", WHITE, 34), (text, BODY, "body", MIST, 80)):
+        if line:
+            size = fit_size(line, size, room, face)
+            lit = word(line, size, color, face, 0.35 if face == "head" else 0.0)
+            lit.draw(screen, x + text_width(line, size, face) / 2, Y + y)
 
 
 def stick(
     light: Batch, x: float, y: float, values: Mapping[tuple[int, int], float], held: MoveKey | None, color: Color
 ) -> None:
-    """Nine cells round (x, y), ahead is up. `values`: how good each is, -1..1; the one held has a white edge."""
+    """Nine cells round (x, y), ahead is up. `values`: -1..1 per cell; the held one has a white edge."""
     for linear in (1, 0, -1):
         for angular in (-1, 0, 1):
             here = held is not None and held[:2] == (linear, angular)
@@ -137,13 +137,13 @@ def stick(
 
 
 def put_on(screen: pygame.Surface, image: pygame.Surface, x: float, y: float) -> None:
-    """Add a box, whose corner without its margin is at (x, y)."""
+    """Add a box whose corner, without its margin, is at (x, y)."""
     screen.blit(image, (x - EDGE, y - EDGE), special_flags=pygame.BLEND_RGB_ADD)
 
 
 @cached
 def box(seat: int, w: int, named: bool) -> pygame.Surface:
-    """The outline of a box; `named`: with the badge of its robot and the sign of an AI."""
+    """The outline of a box; `named`: with the robot's badge and the AI sign."""
     ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
     ink.line(cut_box(0, 0, w, H), color, THIN, True)
     if named:
@@ -154,7 +154,7 @@ def box(seat: int, w: int, named: bool) -> pygame.Surface:
 
 @cached
 def bar(seat: int, chosen: bool, full: bool) -> Sprite:
-    """A wish, from the middle of its top: its light, or the empty frame."""
+    """A wish bar, full or empty, anchored at the middle of its top."""
     ink = GlowCanvas(BAR_W + 2 * EDGE, BAR_H + 2 * EDGE).to(EDGE + BAR_W / 2, EDGE)
     outline = cut_box(-BAR_W / 2, 0, BAR_W, BAR_H, 6)
     color = WHITE if chosen else dim(PLAYERS[seat], 0.75)
@@ -167,7 +167,7 @@ def bar(seat: int, chosen: bool, full: bool) -> Sprite:
 
 @cached
 def sign(name: str, color: Color) -> Sprite:
-    """What a wish is for: an icon, or a crate's state."""
+    """The sign of a wish: an icon, or a crate's state."""
     ink = GlowCanvas(96, 96, 3).to(48, 48)
     if name in CRATES:
         state_icon(ink, CRATES[name], 0, 0, 17, color)
@@ -178,7 +178,7 @@ def sign(name: str, color: Color) -> Sprite:
 
 @cached
 def cell(fill: Color, held: bool) -> Sprite:
-    """One position of a stick."""
+    """One cell of a stick."""
     half = CELL / 2 - 2
     ink = GlowCanvas(64, 64, 3).to(32, 32)
     ink.fill(cut_box(-half, -half, 2 * half, 2 * half, 5), fill)

@@ -1,6 +1,6 @@
-"""A rose of sixteen petals round a robot that looks up: for each direction how good it is there, and what it does.
+"""A rose of sixteen petals round a robot that faces up: value and action per direction.
 
-How long a petal is and its colour say how good; so good and bad differ in light too, for those who see few colours.
+Length and colour of a petal both show its value; good and bad also differ in brightness, for the colour-blind.
 """
 
 import math
@@ -14,19 +14,19 @@ from pigaming_app.ui.draw.surface_cache import cached
 
 PETALS = 16
 GOOD, BAD = (70, 214, 255), (255, 84, 60)
-LEVELS = 10  # lengths of a petal, each way
+LEVELS = 10  # petal lengths in each direction of the scale
 EMPTY = (30, 38, 50)
-SHORTEST = 0.2  # of a petal's room
-GLOW = 24  # px round a petal
-SIGN = 15  # px to each side of an action's sign
-SIGN_AT = 27  # px from the end of a petal's room to the middle of the sign
+SHORTEST = 0.2  # share of a petal's room
+GLOW = 24  # px of glow round a petal
+SIGN = 15  # half the size of an action's sign, px
+SIGN_AT = 27  # px from the outer radius to the middle of the sign
 SIGNS = ("shoot", "ahead", "behind", "turn_left", "turn_right", "stay", "unknown")
 
 
 def draw_petals(
     screen: pygame.Surface, x: float, y: float, levels: Sequence[int], inner: int = 50, outer: int = 140
 ) -> None:
-    """Petals round (x, y); `levels`: for each direction, clockwise from ahead, -LEVELS (bad) to LEVELS (good)."""
+    """Petals round (x, y); `levels`: per direction, clockwise from ahead, -LEVELS (bad) to LEVELS (good)."""
     batch: Batch = []
     for k, level in enumerate(levels):
         put(batch, petal(k, level, inner, outer), x, y)
@@ -34,7 +34,7 @@ def draw_petals(
 
 
 def draw_signs(screen: pygame.Surface, x: float, y: float, signs: Sequence[str], outer: int = 140) -> None:
-    """What it does in each direction: a name in SIGNS at the end of each petal; shooting is brighter."""
+    """The action per direction, a key of SIGNS, at the end of each petal; "shoot" is brighter."""
     batch: Batch = []
     for k, name in enumerate(signs):
         angle = middle(k)
@@ -43,7 +43,7 @@ def draw_signs(screen: pygame.Surface, x: float, y: float, signs: Sequence[str],
 
 
 def middle(k: int) -> float:
-    """The angle of the middle of a petal on the screen, rad."""
+    """The angle of the middle of petal `k` on the screen, rad."""
     return math.tau * k / PETALS - math.pi / 2
 
 
@@ -54,7 +54,7 @@ def tone(level: int) -> Color:
 
 @cached
 def petal(k: int, level: int, inner: int, outer: int) -> Sprite:
-    """One petal and the room it has, round the middle of the rose."""
+    """One petal and its outline, anchored at the middle of the rose."""
     room = _slice(k, inner, outer)
     left, top = min(x for x, _ in room) - GLOW, min(y for _, y in room) - GLOW
     w, h = max(x for x, _ in room) + GLOW - left, max(y for _, y in room) + GLOW - top
@@ -76,7 +76,7 @@ def sign(name: str, r: int = SIGN) -> Sprite:
 
 
 def _slice(k: int, inner: float, outer: float) -> Points:
-    """The outline of a petal between two radii."""
+    """The outline of petal `k` between two radii."""
     half, at = math.pi / PETALS - 0.03, middle(k)
     angles = [at + half * i / 4 for i in range(-4, 5)]
     ends = [(inner * math.cos(a), inner * math.sin(a)) for a in angles]

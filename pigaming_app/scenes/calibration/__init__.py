@@ -1,1 +1,1 @@
-"""The operator's pages that bring picture, mat and camera together: calibration, corner pin, drift."""
+"""Calibration pages: calibration of camera and projector, corner pin, drift check."""

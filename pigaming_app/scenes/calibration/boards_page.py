@@ -1,6 +1,6 @@
-"""The boards on the mat, and nothing else: a calibration looks at one, solves, and looks at another to verify.
+"""The boards page: shows calibration boards full screen, first to solve, then a held-out one to verify.
 
-In the margin below the markers a row of boxes shows how many pictures were taken; it is dark on the board's light.
+A row of boxes in the margin below the markers counts the pictures taken; it is dark on the board's light.
 """
 
 import pygame
@@ -17,12 +17,12 @@ from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Button, InputEvent
 
-BOX, GAP, FOOT = 26, 8, 1062  # px: of a box of the progress, between two, the line on which they are
+BOX, GAP, FOOT = 26, 8, 1062  # px: size and gap of the progress boxes, y of their row
 GREY, DONE = (150, 150, 150), (20, 20, 20)
 
 
 class BoardsPage:
-    """One calibration."""
+    """One run of the calibration."""
 
     def __init__(self, context: Context, site: CalibrationSite, number: int, measures: Measurements) -> None:
         self.context, self.site, self.number, self.measures = context, site, number, measures
@@ -30,15 +30,14 @@ class BoardsPage:
         self.work.begin()
 
     def entered(self) -> None:
-        """Quiet: nothing may move."""
         self.context.sounds.music(False)
 
     def left(self) -> None:
-        """Let go of the camera."""
+        """Release the camera."""
         self.work.close()
 
     def on(self, event: InputEvent) -> Turn:
-        """Only the way back."""
+        """BACK aborts."""
         if event.button is Button.BACK:
             self.context.sounds.play("back")
             self.left()
@@ -46,7 +45,7 @@ class BoardsPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Wait for the camera; then show what came out."""
+        """Poll the camera; switch to the result when done."""
         self.site.advance(seconds)
         self.work.pump()
         if not self.work.over:
@@ -62,7 +61,6 @@ class BoardsPage:
         return Swap(ResultPage(self.context, finding, self._again))
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the board, pure light, and how far it is."""
         board = self.work.board
         if board is None:
             screen.fill((0, 0, 0))
@@ -77,11 +75,11 @@ class BoardsPage:
         self.work.shown(board)
 
     def _again(self) -> Scene:
-        """The same calibration once more."""
+        """A page that repeats the calibration."""
         return BoardsPage(self.context, self.site, self.number, self.measures)
 
     def _draw_progress(self, screen: pygame.Surface) -> None:
-        """A box for every picture; what has been taken is filled."""
+        """One box per picture, filled when taken."""
         taken, whole = self.work.progress
         left = 960 - (whole * (BOX + GAP) - GAP) // 2
         for i in range(whole):
@@ -91,7 +89,7 @@ class BoardsPage:
 
 @cached
 def picture(board: CalibrationBoard) -> pygame.Surface:
-    """A board as it is projected. Raises OpenCVMissing."""
+    """A board as projected. Raises OpenCVMissing."""
     surface = grey_surface(board.picture())
     assert surface.get_at((0, 0))[0] == LIGHT
     return surface

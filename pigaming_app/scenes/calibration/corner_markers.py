@@ -1,6 +1,6 @@
-"""The four corner markers in the side margins of the picture, by which a camera or projector that moved is noticed.
+"""Corner markers in the side margins, by which a moved camera or projector is detected.
 
-They are painted whenever robots are driven by a camera; the robot session compares them with the calibration.
+Shown whenever robots are driven by a camera; the robot session compares them with the calibration.
 """
 
 import pygame
@@ -11,11 +11,10 @@ from pigaming_app.ui.draw.surface_cache import cached
 
 
 def draw_corners(screen: pygame.Surface) -> None:
-    """Paint the corner markers."""
     screen.blits(tiles())
 
 
 @cached
 def tiles() -> list[tuple[pygame.Surface, tuple[int, int]]]:
-    """The corner markers with their own light round them, and where each belongs."""
+    """The corner markers with a light border, and their positions."""
     return [(grey_surface(picture), (left, top)) for left, top, picture in corner_markers()]

@@ -1,6 +1,6 @@
-"""The corner pin by hand: four corners of a grid are pushed onto the mat, 1 or 10 px at a time; the picture follows.
+"""Manual corner pin: move the corners of a grid onto the mat in steps of 1 or 10 px, with live preview.
 
-What is saved is kept in the settings and holds for everything that the arcade shows.
+The result is saved in the settings and applies to the whole arcade.
 """
 
 import logging
@@ -44,23 +44,23 @@ from pigaming_app.ui.widgets.focus import WAYS
 STEPS = (10, 1)  # px
 CORNERS = ((0, 0), (1920, 0), (1920, 1080), (0, 1080))
 BOX = pygame.Rect(460, 316, 1000, 420)  # the black box in the middle
-SAID = 5.0  # seconds for which a sentence stays
-IDLE = 600.0  # seconds without a press until the title, unsaved
-CELL = 120  # px of the grid
-FARTHEST = 800  # px that a corner may be from its own place
+SENTENCE_SECONDS = 5.0  # seconds for which a sentence is shown
+IDLE = 600.0  # seconds without input until the title, unsaved
+CELL = 120  # px, grid spacing
+MAX_OFFSET = 800  # px, limit of a corner's displacement
 
 log = logging.getLogger("pigaming")
 
 
 class CornerPinPage:
-    """The page. What is pinned stays as it was unless it is saved."""
+    """The page. The previous pin is restored unless the new one is saved."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
         self.before = context.canvas.corners
         self.corners = [round(value) for value in self.before or STRAIGHT]
         self.chosen = self.step = 0
-        self.sentence, self.said = "", 0.0
+        self.sentence, self.sentence_left = "", 0.0
         self.prompts = context.prompts(
             [
                 (Button.FIRE, "pin.hint_next"),
@@ -74,15 +74,15 @@ class CornerPinPage:
         )
 
     def entered(self) -> None:
-        """Draw the picture as it is pinned; where that cannot be done, say so."""
+        """Apply the pin; on failure, show the reason."""
         self._pin()
 
     def left(self) -> None:
-        """Whoever leaves without saving leaves it as it was."""
+        """Discard unsaved changes."""
         self._restore()
 
     def on(self, event: InputEvent) -> Turn:
-        """Directions move the corner; FIRE takes the next one."""
+        """Directions move the corner; FIRE selects the next one."""
         event = self.prompts.as_button(event)
         match event.button:
             case Button.BACK:
@@ -102,21 +102,19 @@ class CornerPinPage:
                 self.context.sounds.play("accept")
                 self._pin()
             case Button.CLICK if event.at:
-                self._take(event.at)
+                self._select(event.at)
             case button if button in WAYS:
                 self._move(*WAYS[button])
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let a sentence fade."""
-        self.said -= seconds
+        self.sentence_left -= seconds
         if self.context.idle > IDLE:
             self._restore()
             return Home()
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the grid, and in its middle which corner is moved by how much."""
         words, x, y = self.context.words, BOX.centerx, BOX.y
         screen.blit(grid(), (0, 0))
         handle(self.chosen).draw(screen)
@@ -127,30 +125,28 @@ class CornerPinPage:
             screen, x, y + 252
         )
         text(words("pin.step", step=STEPS[self.step]), LABEL, MIST, "head").draw(screen, x, y + 340)
-        if self.said > 0.0:
+        if self.sentence_left > 0.0:
             caption(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
         self.prompts.draw(screen)
 
-    # ---- inside
-
     def _move(self, across: int, down: int) -> None:
-        """Move the corner, unless nothing would fit then."""
-        kept, step = list(self.corners), STEPS[self.step]
-        for i, by in ((0, across * step), (1, down * step)):
-            own = CORNERS[self.chosen][i]
-            moved = self.corners[2 * self.chosen + i] + by
-            self.corners[2 * self.chosen + i] = min(own + FARTHEST, max(own - FARTHEST, moved))
+        """Move the corner, unless the pin would become invalid."""
+        previous, step = list(self.corners), STEPS[self.step]
+        for i, delta in ((0, across * step), (1, down * step)):
+            corner = CORNERS[self.chosen][i]
+            moved = self.corners[2 * self.chosen + i] + delta
+            self.corners[2 * self.chosen + i] = min(corner + MAX_OFFSET, max(corner - MAX_OFFSET, moved))
         if not self._pin():
-            self.corners = kept
+            self.corners = previous
 
-    def _take(self, at: tuple[float, float]) -> None:
-        """A click takes the corner in whose quarter it is."""
+    def _select(self, at: tuple[float, float]) -> None:
+        """Select the corner of the clicked quadrant."""
         right, low = at[0] > 960, at[1] > 540
         self.chosen = (2 if right else 3) if low else int(right)
         self.context.sounds.play("move")
 
     def _pin(self) -> bool:
-        """Show the picture in these corners; false: it cannot be, and a sentence says why."""
+        """Apply the pin; on failure, show the reason and return false."""
         straight = self.corners == [round(value) for value in STRAIGHT]
         try:
             self.context.canvas.pin(None if straight else CornerPin(self.corners))
@@ -167,7 +163,7 @@ class CornerPinPage:
             log.warning("%s", english().explained(trouble.message))
 
     def _save(self) -> Turn:
-        """Keep it for good, or say that it cannot be kept."""
+        """Save the pin, or show that it could not be saved."""
         canvas, settings = self.context.canvas, self.context.settings
         settings.corners = [round(value) for value in canvas.corners]
         try:
@@ -181,19 +177,19 @@ class CornerPinPage:
         return Pop()
 
     def _say(self, sentence: str) -> None:
-        self.sentence, self.said = sentence, SAID
+        self.sentence, self.sentence_left = sentence, SENTENCE_SECONDS
         self.context.sounds.play("back")
 
 
 def signed(number: int) -> str:
-    """A number with its sign; the hyphen is no minus."""
+    """A signed number with a true minus sign."""
     return f"{number:+d}".replace("-", "−") if number else "0"
 
 
 @cached
 @resumable
 def grid() -> Steps[pygame.Surface]:
-    """A grid over the whole picture, the edge of the arena, and a black box in the middle."""
+    """A full-screen grid, the edge of the arena, and a black box in the middle."""
     layer = Layer(0, 0, 1920, 1080)
     for x in range(0, 1921, CELL):
         layer.canvas.crisp.line([(x, 0), (x, 1080)], dim(ICE, 0.35), HAIR)
@@ -217,7 +213,7 @@ def grid() -> Steps[pygame.Surface]:
 
 @cached
 def handle(corner: int) -> LitImage:
-    """The corner that is moved: a bright angle, and an arrow out to it."""
+    """Mark of the selected corner: a bright angle and an arrow pointing to it."""
     x, y = CORNERS[corner]
     across, down = (-1 if x else 1), (-1 if y else 1)  # from the corner into the picture
     layer = Layer(x - 300 * (across < 0), y - 300 * (down < 0), 300, 300)

@@ -1,4 +1,4 @@
-"""Does the calibration still hold? The corner markers are shown, and by how much they are not where they should be."""
+"""Drift check: compares the corner markers seen by the camera with the calibration."""
 
 from functools import partial
 
@@ -11,7 +11,7 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
-from pigaming_app.scenes.calibration.result_page import OFF
+from pigaming_app.scenes.calibration.result_page import MAX_SIZE_ERROR
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Turn
@@ -23,9 +23,9 @@ from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 
 BAR = pygame.Rect(560, 640, 800, 40)
-ROOM = 1040  # px between the spot for a robot and as much on the other side
-MOST = 20.0  # mm at the right end of the bar
-IDLE = 300.0  # seconds without a press until the title
+ROOM = 1040  # px, width of the text between the robot spot and its mirror image
+BAR_MM = 20.0  # mm at the right end of the bar
+IDLE = 300.0  # seconds without input until the title
 
 
 class DriftPage:
@@ -41,13 +41,13 @@ class DriftPage:
         self.prompts = context.prompts([(Button.BACK, "calibrate.hint_back")])
 
     def entered(self) -> None:
-        """Look."""
+        """Start the check."""
         if self.context.session is not None:
             self.context.session.close()
         self.work.begin()
 
     def left(self) -> None:
-        """Let go of the camera."""
+        """Release the camera."""
         self.work.close()
 
     def on(self, event: InputEvent) -> Turn:
@@ -59,14 +59,12 @@ class DriftPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Look on."""
         self.clock += seconds
         self.site.advance(seconds)
         self.work.pump()
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the markers, and between them what is known."""
         words, work = self.context.words, self.work
         screen.fill((0, 0, 0))
         text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
@@ -85,36 +83,36 @@ class DriftPage:
         self.prompts.draw(screen)
 
     def _draw_spot(self, screen: pygame.Surface) -> None:
-        """A robot here shows by its marker whether the width of the mat was measured well."""
+        """Show the size of a robot's marker here, a check of the measured mat width."""
         words, work = self.context.words, self.work
         x, y = LEFT + SPOT[0], TOP + SPOT[1]
         pygame.draw.circle(screen, GREY, (x, y), DISC)
-        said, color = words("calibrate.put"), MIST
+        sentence, color = words("calibrate.put"), MIST
         if work.marker_mm is not None and work.drift is not None:
-            true = work.drift.ground.marker
-            off = abs(work.marker_mm / true - 1.0) > OFF
-            key, color = ("marker_off", ALARM) if off else ("marker", ICE)
-            said = words(f"calibrate.{key}", mm=f"{work.marker_mm:.1f}", true=f"{true:.0f}")
-        for i, line in enumerate(paragraph(said, 330, 4, color, "c")):
+            marker_size = work.drift.ground.marker
+            wrong = abs(work.marker_mm / marker_size - 1.0) > MAX_SIZE_ERROR
+            key, color = ("marker_off", ALARM) if wrong else ("marker", ICE)
+            sentence = words(f"calibrate.{key}", mm=f"{work.marker_mm:.1f}", true=f"{marker_size:.0f}")
+        for i, line in enumerate(paragraph(sentence, 330, 4, color, "c")):
             line.draw(screen, x, y + 120 + 48 * i)
 
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
         text(self.context.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
         bar().draw(screen)
-        share = min(1.0, mm / MOST)
+        share = min(1.0, mm / BAR_MM)
         pygame.draw.rect(screen, color, (BAR.x + 6, BAR.y + 6, max(8, round((BAR.w - 12) * share)), BAR.h - 12))
         text(self.context.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
 
 
 @cached
 def bar() -> LitImage:
-    """The empty bar, with marks where it warns and where a match pauses."""
+    """The empty bar, with marks at the warning and pause limits."""
     layer = Layer(BAR.x, BAR.y - 20, BAR.w, 120)
     layer.glow.line(cut_box(BAR.x, BAR.y, BAR.w, BAR.h, 8), STEEL, 4, True)
     marks: tuple[tuple[float, Color], ...] = ((WARN, FOCUS), (PAUSE, ALARM))
     for mm, color in marks:
-        x = BAR.x + BAR.w * mm / MOST
+        x = BAR.x + BAR.w * mm / BAR_MM
         layer.glow.line([(x, BAR.y - 12), (x, BAR.bottom + 12)], color, LINE)
         layer.canvas.crisp.text(f"{mm:.0f} mm", BODY, x, BAR.bottom + 44, color, "body", "c")
     return layer.done()

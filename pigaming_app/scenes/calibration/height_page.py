@@ -1,4 +1,4 @@
-"""A robot is put on one bright spot after the other; where the camera sees it says how high the camera hangs."""
+"""The height page: a robot is placed on spot after spot, and its positions give the height of the camera."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,31 +16,31 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
 
-DISC = 72  # px: the light must fall on all of a lid, which is 70 mm up, aslant
+DISC = 72  # px: the light must cover a lid, 70 mm above the mat, at an angle
 GREY = (128, 128, 128)
-NEAR, FAR = 86, 128  # px from the middle, of the four lines that help to aim
+NEAR, FAR = 86, 128  # px from the middle: ends of the four aiming lines
 
 
 class HeightPage:
-    """The page. `finding`: a calibration that lacks only the camera's place; `again`: the page that repeats it."""
+    """The page. `finding`: a calibration without camera position; `again`: makes the page that repeats it."""
 
     def __init__(self, context: Context, finding: CalibrationResult, again: Callable[[], Scene]) -> None:
         assert finding.ground is not None
         self.context, self.finding, self.again = context, finding, again
         self.work = HeightProcedure(finding.site, finding.number, finding.ground)
         self.work.begin()
-        self.known = 0
+        self.seen_count = 0
         self.prompts = context.prompts([(Button.BACK, "calibrate.hint_stop")], 1040)
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        pass
 
     def left(self) -> None:
-        """Let go of the camera."""
+        """Release the camera."""
         self.work.close()
 
     def on(self, event: InputEvent) -> Turn:
-        """Only the way back."""
+        """BACK aborts."""
         if self.prompts.as_button(event).button is Button.BACK:
             self.context.sounds.play("back")
             self.left()
@@ -48,22 +48,23 @@ class HeightPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Wait for the robot on the next spot; after the last, show what came out."""
+        """Poll for the robot on the next spot; after the last, show the result."""
         work = self.work
         self.finding.site.advance(seconds)
         work.pump()
-        if len(work.seen) != self.known:
-            self.known = len(work.seen)
+        if len(work.seen) != self.seen_count:
+            self.seen_count = len(work.seen)
             self.context.sounds.play("accept")
         if work.place is not None:
             return None
         self.left()
         ground = work.found or self.finding.ground
-        found = replace(self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small)
-        return Swap(ResultPage(self.context, found, self.again))
+        result = replace(
+            self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small
+        )
+        return Swap(ResultPage(self.context, result, self.again))
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the spots, and what to do."""
         place, words = self.work.place, self.context.words
         screen.fill((0, 0, 0))
         for i, (x, y) in enumerate(PLACES):
@@ -85,7 +86,7 @@ class HeightPage:
 
 @cached
 def spot(here: bool, done: bool) -> LitImage:
-    """Four lines that help to put a robot in the middle; no light near its marker."""
+    """Four aiming lines; no light near the marker."""
     color = FOCUS if here else dim(ICE, 0.5) if done else STEEL
     ink = GlowCanvas(2 * FAR + 60, 2 * FAR + 60).to(FAR + 30, FAR + 30)
     for across, down in ((1, 0), (-1, 0), (0, 1), (0, -1)):

@@ -1,4 +1,4 @@
-"""The picture of what a calibration gets wrong: an arrow at every corner of the held-out board, much enlarged."""
+"""The residual plot: magnified error arrows at every corner of the held-out board."""
 
 import pygame
 
@@ -7,18 +7,18 @@ from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEE
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 
-AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the picture
+AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the plot
 SIDE = pygame.Rect(span(8, 4)[0] + 24, 226, span(8, 4)[1] - 24, 600)  # of the numbers beside it
-SCALE = 0.47  # px of the picture for a px of the canvas
-LONGEST = 40.0  # px, of the longest arrow
+SCALE = 0.47  # plot px per canvas px
+MAX_LENGTH = 40.0  # px, length of the longest arrow
 TIMES = (2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
 def arrows(residuals: Residuals) -> tuple[LitImage, int]:
-    """The picture, and how many times as large as on the mat the arrows are. Made once, not in a steady frame."""
+    """The plot and its magnification. Built once, not in a steady frame."""
     lengths = (residuals.misses**2).sum(axis=1) ** 0.5
     longest = max(float(lengths.max()) * SCALE, 1e-6)
-    times = max((one for one in TIMES if one * longest <= LONGEST), default=1)
+    times = max((factor for factor in TIMES if factor * longest <= MAX_LENGTH), default=1)
     mm = residuals.max_mm / max(float(lengths.max()), 1e-9)
     layer = Layer(*AREA)
     panel(layer.glow, *AREA)
@@ -36,20 +36,20 @@ def arrows(residuals: Residuals) -> tuple[LitImage, int]:
 
 
 def _at(x: float, y: float) -> tuple[float, float]:
-    """A place of the arena, px, on the page; the canvas lies round it."""
+    """Arena px as px on the page; the canvas extends beyond the arena."""
     return AREA.centerx + (x + 160 - 960) * SCALE, AREA.y + 12 + (y + 140) * SCALE
 
 
 @cached
-def figure(name: str, told: str, share: float, need: str) -> LitImage:
-    """One error as a number, and as a bar, full at twice the limit; `share` of the limit. Upper left at (0, 0)."""
+def figure(name: str, value: str, share: float, limit: str) -> LitImage:
+    """One error as a number and a bar, full at twice the limit; `share` of the limit. Upper left corner at (0, 0)."""
     layer = Layer(0, -20, SIDE.w, 190)
     color: Color = ICE if share <= 1.0 else ALARM
     layer.canvas.body(name, 0, 20, MIST)
-    layer.canvas.text(told, SUB, SIDE.w, 20, color, "head", "r")
+    layer.canvas.text(value, SUB, SIDE.w, 20, color, "head", "r")
     bar = SIDE.w
     layer.glow.line(cut_box(0, 74, bar, 26, 8), STEEL, THIN, True)
     layer.glow.fill(cut_box(4, 78, max(12.0, (bar - 8) * min(1.0, share / 2.0)), 18, 5), color)
     layer.glow.line([(bar / 2, 64), (bar / 2, 110)], ICE, LINE)
-    layer.canvas.body(need, SIDE.w, 142, MIST, "r", BODY - 8)
+    layer.canvas.body(limit, SIDE.w, 142, MIST, "r", BODY - 8)
     return layer.done()

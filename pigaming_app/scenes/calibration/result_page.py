@@ -1,6 +1,6 @@
-"""What a calibration is worth: the errors on the board that was held out, as numbers and as a picture of arrows.
+"""The calibration result: errors on the held-out board, as numbers and as a plot.
 
-What failed is said in one sentence, beside what the camera saw.
+A failure is shown as one sentence beside the camera's last picture.
 """
 
 import logging
@@ -29,18 +29,18 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
-HIGH = 84  # px, of a chip
-FOOT = 836  # px, their upper edge
-OFF = 0.04  # share by which a marker may seem larger or smaller than it is
-SAID = 6.0  # seconds for which a sentence stays
-IDLE = 600.0  # seconds without a press until the title
+HIGH = 84  # px, height of a chip
+FOOT = 836  # px, top of the chips
+MAX_SIZE_ERROR = 0.04  # tolerated relative error of a marker's size
+SENTENCE_SECONDS = 6.0  # seconds for which a sentence is shown
+IDLE = 600.0  # seconds without input until the title
 
 log = logging.getLogger("pigaming")
 
 
 @dataclass(frozen=True)
 class CalibrationResult:
-    """How a calibration went: with what, and what came out. `marker_mm`: of a robot's marker, if one was seen."""
+    """Inputs and result of a calibration. `marker_mm`: measured size of a robot's marker, 0 if none was seen."""
 
     site: CalibrationSite
     number: int  # of the camera
@@ -48,12 +48,12 @@ class CalibrationResult:
     ground: GroundPlane | None
     residuals: Residuals | None
     trouble: OperatorMessage | None = None
-    picture: Image | None = None  # what the camera saw last
+    picture: Image | None = None  # last picture of the camera
     marker_mm: float = 0.0
 
     @property
     def good(self) -> bool:
-        """Whether it may be saved."""
+        """True if it may be saved."""
         return self.trouble is None and self.residuals is not None and self.residuals.accepted
 
 
@@ -66,17 +66,17 @@ class ResultPage:
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
         self.arrows: tuple[LitImage, int] | None = None
         hints = [(Button.FIRE, "calibrate.hint_ok"), (Button.BACK, "calibrate.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
     def entered(self) -> None:
-        """It is what it is."""
+        """Log the errors."""
         if self.finding.residuals and not self.finding.trouble:
             log.info("calibration: %s", english().explained(self.finding.residuals.verdict))
 
     def on(self, event: InputEvent) -> Turn:
-        """Left and right choose, FIRE does it."""
+        """Left and right select, FIRE activates."""
         event = self.navigation.prompts.as_button(event)
         if turn := self.navigation.on(event):
             return turn
@@ -84,12 +84,10 @@ class ResultPage:
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
-        """Only the focus moves."""
         self.finding.site.advance(seconds)
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words, finding = self.context.words, self.finding
         screen.blit(backdrop(), (0, 0))
         title = "good" if finding.good else "failed" if finding.residuals is None or finding.trouble else "bad"
@@ -109,7 +107,7 @@ class ResultPage:
                 line.draw(screen, 960, 1046)
         self.navigation.prompts.draw(screen)
 
-    # ---- what is seen
+    # ---- drawing
 
     def _box(self, i: int) -> pygame.Rect:
         return pygame.Rect(AREA.x + 388 * i, FOOT, 368, HIGH)
@@ -124,9 +122,9 @@ class ResultPage:
         )
         y = SIDE.y
         for key, value, limit in (("mean", residuals.mean_mm, MEAN_MM), ("most", residuals.max_mm, MAX_MM)):
-            need = words("calibrate.limit", mm=f"{limit:g}")
-            told = words("calibrate.mm", mm=f"{value:.1f}")
-            figure(words(f"calibrate.{key}"), told, value / limit, need).draw(screen, SIDE.x, y)
+            limit_text = words("calibrate.limit", mm=f"{limit:g}")
+            value_text = words("calibrate.mm", mm=f"{value:.1f}")
+            figure(words(f"calibrate.{key}"), value_text, value / limit, limit_text).draw(screen, SIDE.x, y)
             y += 214
         if not finding.good:
             lines = paragraph(words.sentence(residuals.verdict), SIDE.w, 5)
@@ -140,15 +138,15 @@ class ResultPage:
             line.draw(screen, SIDE.x, y + 20 + 52 * i)
 
     def _marker(self) -> list[LitImage]:
-        """How large a robot's marker seems: it says whether the mat was measured well."""
+        """The measured size of a robot's marker, a check of the measured mat width."""
         finding, words = self.finding, self.context.words
         if not finding.marker_mm or finding.ground is None:
             return []
-        true = finding.ground.marker
-        off = abs(finding.marker_mm / true - 1.0) > OFF
-        key = "marker_off" if off else "marker"
-        said = words(f"calibrate.{key}", mm=f"{finding.marker_mm:.1f}", true=f"{true:.0f}")
-        return [*paragraph(said, SIDE.w, 3, ALARM if off else ICE)]
+        marker_size = finding.ground.marker
+        wrong = abs(finding.marker_mm / marker_size - 1.0) > MAX_SIZE_ERROR
+        key = "marker_off" if wrong else "marker"
+        sentence = words(f"calibrate.{key}", mm=f"{finding.marker_mm:.1f}", true=f"{marker_size:.0f}")
+        return [*paragraph(sentence, SIDE.w, 3, ALARM if wrong else ICE)]
 
     def _draw_failure(self, screen: pygame.Surface) -> None:
         words, trouble = self.context.words, self.finding.trouble
@@ -161,11 +159,11 @@ class ResultPage:
         if self.picture is not None:
             w, h = self.picture.get_size()
             scale = min(room.w / w, room.h / h)
-            grown = pygame.transform.smoothscale(self.picture, (round(w * scale), round(h * scale)))
-            screen.blit(grown, grown.get_rect(center=room.center))
+            scaled = pygame.transform.smoothscale(self.picture, (round(w * scale), round(h * scale)))
+            screen.blit(scaled, scaled.get_rect(center=room.center))
         pygame.draw.rect(screen, STEEL, room, 2)
 
-    # ---- what happens
+    # ---- actions
 
     def _do(self, name: str) -> Turn:
         finding = self.finding

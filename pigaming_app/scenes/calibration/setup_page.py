@@ -1,4 +1,4 @@
-"""The first page of the calibration: which display, which camera, what was measured; beside it what the camera sees."""
+"""The calibration setup: display, camera and measurements, with a live camera preview."""
 
 import logging
 
@@ -29,64 +29,64 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
-HASTE = ((40, 100), (14, 10), (0, 1))  # after so many presses of a held direction, steps of so many mm
-USUAL = 2500  # mm, a height to begin with
-IDLE = 600.0  # seconds without a press until the title
-EVERY = 2.0  # s between two looks for cameras that were plugged in
-SAID = 5.0  # seconds for which a sentence stays
+REPEAT_STEPS = ((40, 100), (14, 10), (0, 1))  # step in mm after this many auto-repeats
+DEFAULT_HEIGHT = 2500  # mm, initial height
+IDLE = 600.0  # seconds without input until the title
+SCAN_PERIOD = 2.0  # s between two scans for cameras
+SENTENCE_SECONDS = 5.0  # seconds for which a sentence is shown
 PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
 
 log = logging.getLogger("pigaming")
 
 
 def site_of(context: Context) -> CalibrationSite:
-    """What there is to calibrate: the emulated arena, if the arcade has one, else the world."""
+    """The calibration site: of the emulated arena, if the arcade has one, else the real one."""
     try:
         return context.session.site if context.session is not None else RealCalibrationSite()
     except RobotsUnavailable:
-        return RealCalibrationSite()  # without OpenCV there is nothing; the page says so
+        return RealCalibrationSite()  # without OpenCV there is none; the page shows the reason
 
 
 class CalibrationPage:
-    """The page. `camera`: one to begin with, else the one of the settings."""
+    """The page. `camera`: the initial one, else that of the settings."""
 
     def __init__(self, context: Context, site: CalibrationSite | None = None, camera: int | None = None) -> None:
         self.context, self.site = context, site or site_of(context)
         self.number = context.settings.camera if camera is None else camera
-        self.measures = self._measured()
+        self.measures = self._initial_measures()
         self.preview: CameraPreview | None = None
-        self.known = self.site.cameras()
+        self.cameras = self.site.cameras()
         self.state = ""
         self._state_of: tuple[int, int] = (0, 0)
-        self.asked = 0.0  # s since it was asked which cameras there are
-        self.held = 0
+        self.since_scan = 0.0  # s since the last scan for cameras
+        self.repeats = 0
         self._small: object = None
         self._picture: pygame.Surface | None = None
         self.focus = Focus(dials.spots(self._rows()))
         hints = [(Button.RIGHT, "calibrate.hint_change"), (Button.FIRE, "calibrate.hint_ok")]
         hints.append((Button.BACK, "calibrate.hint_back"))
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
 
     def entered(self) -> None:
-        """Look through the camera, also after a calibration."""
-        self.known = self.site.cameras()
-        if self.site.name == "real" and self.known and self.number not in [one.number for one in self.known]:
-            self.number = self.known[0].number
-        self._look()
+        """Open the camera, also when a calibration returns here."""
+        self.cameras = self.site.cameras()
+        if self.site.name == "real" and self.cameras and self.number not in [camera.number for camera in self.cameras]:
+            self.number = self.cameras[0].number
+        self._open_camera()
 
     def left(self) -> None:
-        """Let go of the camera."""
+        """Release the camera."""
         if self.preview is not None:
             self.preview.close()
 
     def on(self, event: InputEvent) -> Turn:
-        """Up and down choose a row, left and right change it; the last row begins."""
+        """Up and down select a row, left and right change it; the last row starts the calibration."""
         event = self.navigation.prompts.as_button(event)
         if turn := self.navigation.on(event):
             return turn
         by = dials.step_of(event, self.focus, self._value(self.focus.name))
         if by:
-            self.held = self.held + 1 if event.repeat else 0
+            self.repeats = self.repeats + 1 if event.repeat else 0
             self._change(self.focus.name, by)
         elif self.focus.chosen(event) is not None and event.button is not Button.CLICK:
             return self._accept(self.focus.name)
@@ -95,19 +95,17 @@ class CalibrationPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Look; leave when nobody is there."""
-        self.asked += seconds
-        if self.asked > EVERY:
-            self.asked, self.known = 0.0, self.site.cameras()
+        self.since_scan += seconds
+        if self.since_scan > SCAN_PERIOD:
+            self.since_scan, self.cameras = 0.0, self.site.cameras()
         self.site.advance(seconds)
         if self.preview is not None:
             self.preview.pump()
             if self.preview.size != self._state_of:
-                self._look_up(self.preview.size)
+                self._load_state(self.preview.size)
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("calibrate.title"), self.state).draw(screen)
@@ -127,10 +125,10 @@ class CalibrationPage:
             call_to_action(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
         self.navigation.prompts.draw(screen)
 
-    # ---- what is seen
+    # ---- drawing
 
     def _draw_camera(self, screen: pygame.Surface) -> None:
-        """The camera's picture, or why there is none."""
+        """The camera picture, or the reason for its absence."""
         preview, words = self.preview, self.context.words
         if preview is None:
             return
@@ -147,11 +145,11 @@ class CalibrationPage:
         if self._picture is not None:
             screen.blit(self._picture, self._picture.get_rect(center=PICTURE.center))
         w, h = preview.size
-        said = words("calibrate.rate", width=w, height=h, rate=round(preview.rate)) if preview.rate else f"{w} × {h}"
-        text(said, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below)
+        caption = words("calibrate.rate", width=w, height=h, rate=round(preview.rate)) if preview.rate else f"{w} × {h}"
+        text(caption, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below)
 
-    def _look_up(self, size: tuple[int, int]) -> None:
-        """Whether there is a calibration for this camera and display."""
+    def _load_state(self, size: tuple[int, int]) -> None:
+        """Show the state of the calibration for this camera and display."""
         self._state_of, words = size, self.context.words
         try:
             file = store.calibration_file(self.site.name)
@@ -161,7 +159,7 @@ class CalibrationPage:
             log.warning("%s", english().explained(trouble.message))
             self.state = words.sentence(trouble.message)
 
-    # ---- what the rows are
+    # ---- rows
 
     def _rows(self) -> tuple[str, ...]:
         return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
@@ -183,65 +181,65 @@ class CalibrationPage:
 
     def _camera(self) -> str:
         words = self.context.words
-        if not self.known:
+        if not self.cameras:
             return words("calibrate.no_cameras")
-        name = next((known.name for known in self.known if known.number == self.number), "")
+        name = next((camera.name for camera in self.cameras if camera.number == self.number), "")
         return words("calibrate.camera_name", number=self.number, name=name) if name else str(self.number)
 
     def _accept(self, name: str) -> Turn:
         if name == "begin":
             return self._begin()
         if name in ("display", "camera", "by"):
-            self._change(name, 1, around=True)
+            self._change(name, 1, wrap=True)
         return None
 
-    def _change(self, name: str, by: int, around: bool = False) -> None:
-        """The next value of a row, or the one before it."""
+    def _change(self, name: str, by: int, wrap: bool = False) -> None:
+        """Step a row's value."""
         measures, canvas = self.measures, self.context.canvas
         self.context.sounds.play("move")
         match name:
             case "display":
                 count = len(canvas.displays())
-                wanted = (canvas.display + by) % count if around else min(count - 1, max(0, canvas.display + by))
-                if wanted != canvas.display:
-                    self._show(wanted, canvas.fullscreen)
+                target = (canvas.display + by) % count if wrap else min(count - 1, max(0, canvas.display + by))
+                if target != canvas.display:
+                    self._show(target, canvas.fullscreen)
             case "camera":
                 self._next_camera(by)
             case "by":
-                robot = bool(measures.height) if around else by > 0
-                height = 0.0 if robot else measures.height or self.site.measures.height or USUAL
+                robot = bool(measures.height) if wrap else by > 0
+                height = 0.0 if robot else measures.height or self.site.measures.height or DEFAULT_HEIGHT
                 self.measures = Measurements(measures.width, height, measures.lid)
                 self.focus.place(dials.spots(self._rows()))
             case "width" | "lid" | "height":
                 self._measure(name, by)
-        self._keep()
+        self._save()
 
     def _measure(self, name: str, by: int) -> None:
-        """More or less of a length; faster, the longer the direction is held."""
+        """Step a length; faster, the longer the direction is held."""
         low, high = LIMITS[name]
-        step = next(step for held, step in HASTE if self.held >= held)
+        step = next(step for count, step in REPEAT_STEPS if self.repeats >= count)
         values = {"width": self.measures.width, "lid": self.measures.lid, "height": self.measures.height}
         values[name] = min(high, max(low, round(values[name] / step + by) * step))
         self.measures = Measurements(values["width"], values["height"], values["lid"])
 
     def _show(self, display: int, fullscreen: bool) -> None:
-        """Move the picture; a calibration belongs to where it is."""
+        """Move the picture; the calibration depends on the display."""
         canvas, settings = self.context.canvas, self.context.settings
         canvas.show(display, fullscreen)
         settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
         self._state_of = (0, 0)
 
     def _next_camera(self, by: int) -> None:
-        self.known = self.site.cameras()
-        numbers = [known.number for known in self.known] or [0]
+        self.cameras = self.site.cameras()
+        numbers = [camera.number for camera in self.cameras] or [0]
         here = numbers.index(self.number) if self.number in numbers else 0
         self.number = numbers[(here + by) % len(numbers)]
-        self._look()
+        self._open_camera()
 
-    # ---- what happens
+    # ---- actions
 
-    def _look(self) -> None:
-        """Look through the camera that is chosen, once the one before is free."""
+    def _open_camera(self) -> None:
+        """Open the selected camera, after closing the previous one."""
         self._state_of = (0, 0)
         if self.context.session is not None:
             self.context.session.close()
@@ -250,23 +248,23 @@ class CalibrationPage:
         self.preview.begin()
 
     def _begin(self) -> Turn:
-        """Show the boards on the whole display."""
+        """Start the calibration, full screen."""
         self.context.sounds.play("accept")
         self.left()
         canvas = self.context.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             self._show(canvas.display, True)
-        self._keep()
+        self._save()
         return Push(BoardsPage(self.context, self.site, self.number, self.measures))
 
-    def _measured(self) -> Measurements:
+    def _initial_measures(self) -> Measurements:
         settings = self.context.settings
         if self.site.name != "real":
             return self.site.measures
         return Measurements(settings.arena_mm, settings.camera_mm, settings.lid_mm)
 
-    def _keep(self) -> None:
-        """Remember what is chosen; an emulated arena is not worth it."""
+    def _save(self) -> None:
+        """Save the choices, except for an emulated arena."""
         settings, measures = self.context.settings, self.measures
         if self.site.name != "real":
             return

@@ -1,21 +1,21 @@
-"""Whose press counts.
+"""Access control: which devices may act on which screen.
 
-A device is seated when it drives a seat, or sits on one in the lobby, and is plugged in; every other one is free.
+A device is seated when it drives a seat, or holds one in the lobby, and is plugged in; all others are free.
 
 | screen          | seated device                      | free device                              |
 | lobby           | its seat, AIs, teams, begin        | FIRE, START: join                        |
 | setup           | everything                         | nothing                                  |
 | taking places   | begin, simulate, leave             | nothing                                  |
 | countdown, match| drive; START, Escape: pause        | FIRE held: take an AI's seat             |
-| pause           | who paused, for 20 s; then all     | nothing                                  |
+| pause           | its owner, for 20 s; then all      | nothing                                  |
 | pad unplugged   | AI now, menu                       | FIRE, START: take the seat               |
-| robot in trouble| simulate, menu, FIRE: release      | nothing                                  |
+| robot fault     | simulate, menu, FIRE: release      | nothing                                  |
 | results         | vote, START, change, tables, leave | FIRE: an absent person's seat; held: an AI's |
 | initials        | its own three letters              | nothing                                  |
 
-While nobody is seated, every device counts. The operator counts always: the mouse acts on what it points at, F1 stops
-robots, F4 shows thoughts, and Escape held for a second acts although the keyboard is free: it pauses a match, takes a
-pause over, and leaves any other screen.
+While nobody is seated, every device counts. The operator always counts: the mouse acts on the element under it, F1
+stops robots, F4 shows AI thoughts, and Escape held for a second acts even if the keyboard is free: it pauses a match,
+takes over a pause, and leaves any other screen.
 """
 
 from collections.abc import Callable, Collection, Sequence
@@ -25,16 +25,16 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 
-OWNED = 20.0  # seconds for which a pause belongs to whoever asked for it
+OWNED = 20.0  # seconds for which a pause belongs to its owner
 ESCAPE = 1.0  # seconds for which an operator holds Escape
 TAKE = 0.6  # seconds for which FIRE is held to take an AI's seat
-ALWAYS = (Button.FOUND, Button.LOST, Button.STOP, Button.POINT, Button.CLICK)  # from any device
+ALWAYS = (Button.FOUND, Button.LOST, Button.STOP, Button.POINT, Button.CLICK)  # accepted from any device
 
 Devices = Sequence[Device | None]
 
 
 class Access:
-    """Admits the presses that count on a page. `devices`: who sits on each seat, asked anew for every press."""
+    """Filters the input events of a page. `devices`: the device of each seat, called for every event."""
 
     def __init__(self, context: Context, devices: Callable[[], Devices]) -> None:
         self.controls, self.devices = context.controls, devices
@@ -42,16 +42,16 @@ class Access:
 
     @property
     def seated(self) -> list[Device]:
-        """The seated devices."""
+        """The seated devices that are plugged in."""
         return [device for device in self.devices() if device and self.controls.connected(device)]
 
     @property
     def acting(self) -> Collection[Device]:
-        """The devices whose presses count now; empty: those of all."""
+        """The devices that may act now; empty: all."""
         return self.seated
 
     def admit(self, event: InputEvent) -> InputEvent | None:
-        """The press as it counts, from the device that it counts for; None: it does not count."""
+        """The event, attributed to the acting device, or None if it does not count."""
         acting = self.acting
         if not acting or event.device.kind == "mouse" or event.button in ALWAYS or event.device in acting:
             return event
@@ -65,20 +65,20 @@ class Access:
         return None
 
     def update(self, seconds: float) -> InputEvent | None:
-        """Let time pass; the operator's BACK, at the moment at which Escape has been held long enough."""
-        held = self.escape.update(seconds)
-        return held[0] if held else None
+        """Advance the timers; returns the operator's BACK when Escape has been held long enough."""
+        events = self.escape.update(seconds)
+        return events[0] if events else None
 
     @property
     def voice(self) -> Device:
-        """The device whose buttons the hints name: the one used last, if its presses count."""
+        """The device whose buttons the hints show: the one used last, if it may act."""
         last = self.controls.last
         buttons = [device for device in self.acting if device.kind != "mouse"]
         return buttons[0] if buttons and last not in buttons else last
 
 
 class PauseAccess(Access):
-    """A pause belongs to the device that asked for it, for a while and as long as it is plugged in."""
+    """A pause belongs to its owner for a while, as long as the device is plugged in."""
 
     def __init__(self, context: Context, devices: Callable[[], Devices], owner: Device) -> None:
         super().__init__(context, devices)
@@ -93,13 +93,13 @@ class PauseAccess(Access):
 
     @property
     def owned(self) -> bool:
-        """Whether only the owner may choose now."""
+        """True while only the owner may act."""
         return self.left > 0.0 and self.controls.connected(self.owner)
 
     def update(self, seconds: float) -> InputEvent | None:
-        """Let time pass; the operator takes the pause over."""
+        """Advance the timers; an operator holding Escape becomes the owner."""
         self.left -= seconds
-        held = super().update(seconds)
-        if held:
-            self.owner, self.left = held.device, OWNED
-        return held
+        events = super().update(seconds)
+        if events:
+            self.owner, self.left = events.device, OWNED
+        return events

@@ -1,4 +1,4 @@
-"""The work that a match in each arena needs done once: reading the arena, and finding the racing line of a track."""
+"""One-time work for matches in each arena: parsing the arena and solving a track's racing line."""
 
 from contextlib import suppress
 
@@ -10,18 +10,18 @@ from pigaming_app.sim.arena import ArenaError
 
 
 def every_arena() -> list[tuple[str, str]]:
-    """Game and name of each."""
+    """Game and name of each arena."""
     return [(game, name) for game in games() for name in arenas(game)]
 
 
 def read(game: str, name: str) -> None:
-    """Read an arena; what the games cache of it is there afterwards. A broken one is reported where it is chosen."""
+    """Load an arena into the games' caches. An invalid one is reported when it is selected."""
     with suppress(ArenaError):
         load(game, name)
 
 
 def prepare(game: str, name: str) -> None:
-    """Seat AIs in an arena."""
+    """Seat AIs in an arena, which solves the racing line."""
     rules = games()[game]
     one, two, three, four = (Seat("hard", team) for team in rules.teams)
     setup = Setup(game, name, (one, two, three, four), rules.default_minutes, 1, rules.variants[0], rules.default_goal)

@@ -1,4 +1,4 @@
-"""What every scene may use: settings, scores, words, devices, sounds and the window."""
+"""The context shared by all scenes: settings, scores, texts, devices, sound and window."""
 
 import logging
 from collections.abc import Callable, Sequence
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Context:
-    """One of each, made once, handed to every scene."""
+    """Created once and passed to every scene."""
 
     settings: Settings
     scores: Scores
@@ -31,15 +31,15 @@ class Context:
     sounds: Sounds
     canvas: Canvas
     kiosk: bool = False
-    idle: float = 0.0  # seconds since anyone pressed anything
-    session: "RobotSession | None" = None  # where real robots drive
-    compiler: Compiler = field(default_factory=Compiler)  # of the Lab's training
+    idle: float = 0.0  # seconds since the last input
+    session: "RobotSession | None" = None  # of real robots
+    compiler: Compiler = field(default_factory=Compiler)  # for training in the Lab
     preloader: Preloader = field(default_factory=Preloader)
-    emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # each makes robots stand still, at once
+    emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # callbacks that stop robots at once
 
     @property
     def robots(self) -> bool:
-        """Whether real robots can be chosen for a match."""
+        """True if matches with real robots are available."""
         return self.session is not None and (self.session.emulated or self.settings.mat)
 
     def prompts(
@@ -50,11 +50,11 @@ class Context:
         solid: bool = False,
         voice: Callable[[], Device] | None = None,
     ) -> ButtonPrompts:
-        """The row of hints of a page, see `ButtonPrompts`."""
+        """A page's row of button prompts, see `ButtonPrompts`."""
         return ButtonPrompts(self.words, self.controls, items, y, room, solid, voice)
 
     def stop_all_robots(self) -> None:
-        """Stop every robot that a scene has started: when a scene failed, and whenever the arcade ends."""
+        """Stop all robots: after a scene failure, and when the arcade ends."""
         for stop in self.emergency_stops:
             try:
                 stop()

@@ -1,4 +1,4 @@
-"""The arenas that can be chosen, and the choice for the next match: what was chosen last is chosen again."""
+"""The playable arenas, and the match options, initially those of the last match."""
 
 import logging
 from functools import lru_cache
@@ -15,13 +15,13 @@ log = logging.getLogger(__name__)
 
 @lru_cache(maxsize=32)
 def load_cached(game: str, name: str) -> Arena:
-    """An arena, read once. Raises ArenaError."""
+    """An arena, cached. Raises ArenaError."""
     return load(game, name)
 
 
 @lru_cache(maxsize=4)
 def playable_arenas(game: str) -> tuple[str, ...]:
-    """The arenas of a game whose files are right; what is wrong with the others goes to the log."""
+    """The arenas of a game with valid files; errors of the others are logged."""
     names = []
     for name in arenas(game):
         try:
@@ -33,12 +33,12 @@ def playable_arenas(game: str) -> tuple[str, ...]:
 
 
 def arena_title(arena: Arena, language: str) -> str:
-    """What an arena is called."""
+    """An arena's title in a language."""
     return arena.title.get(language, arena.name)
 
 
 def last_choice(context: Context, game: str) -> Choice:
-    """What was chosen last, or the game's own where that is not there (any more)."""
+    """The options of the last match, or the game's defaults where those are no longer available."""
     rules, last, names = games()[game], context.settings.choice(game), playable_arenas(game)
     return Choice(
         arena=last.arena if last.arena in names else names[0],
@@ -50,6 +50,8 @@ def last_choice(context: Context, game: str) -> Choice:
 
 def choice_summary(context: Context, game: str) -> str:
     """Game, minutes or goal, and arena in one line."""
-    words, now = context.words, last_choice(context, game)
-    where = arena_title(load_cached(game, now.arena), words.language)
-    return "  ·  ".join((words(f"games.{game}"), match_length(words, games()[game], now.minutes, now.goal), where))
+    words, choice = context.words, last_choice(context, game)
+    arena = arena_title(load_cached(game, choice.arena), words.language)
+    return "  ·  ".join(
+        (words(f"games.{game}"), match_length(words, games()[game], choice.minutes, choice.goal), arena)
+    )

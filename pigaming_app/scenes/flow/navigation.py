@@ -1,4 +1,4 @@
-"""Navigation of a page with a list of choices: the focus, the hints, a sentence that fades, the ways out."""
+"""Navigation of a page with a list of choices: focus, prompts, a fading sentence, and the ways out."""
 
 from collections.abc import Callable, Sequence
 
@@ -9,7 +9,7 @@ from pigaming_app.ui.widgets.focus import Focus
 
 
 class Navigation:
-    """Part of a page. `idle`: seconds without a press until the title; `stay`: for how many a sentence is shown."""
+    """Part of a page. `idle`: seconds without input until the title; `stay`: seconds for which a sentence is shown."""
 
     def __init__(
         self,
@@ -22,16 +22,16 @@ class Navigation:
     ) -> None:
         self.context, self.focus, self.idle, self.stay = context, focus, idle, stay
         self.prompts = context.prompts(hints, voice=voice)
-        self._sentence, self._left = "", 0.0
+        self._sentence, self._remaining = "", 0.0
 
     @property
     def sentence(self) -> str:
-        """The sentence that is shown now; empty if there is none."""
-        return self._sentence if self._left > 0.0 else ""
+        """The visible sentence; empty if there is none."""
+        return self._sentence if self._remaining > 0.0 else ""
 
     def say(self, sentence: str) -> None:
         """Show a sentence for a while."""
-        self._sentence, self._left = sentence, self.stay
+        self._sentence, self._remaining = sentence, self.stay
 
     def on(self, event: InputEvent) -> Turn:
         """BACK leaves the page; directions and the mouse move the focus."""
@@ -43,7 +43,7 @@ class Navigation:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let focus and sentence move on; back to the title after a while without a press."""
+        """Animate; return to the title after a while without input."""
         self.focus.update(seconds)
-        self._left -= seconds
+        self._remaining -= seconds
         return Home() if self.context.idle > self.idle else None

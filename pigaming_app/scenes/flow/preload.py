@@ -1,6 +1,6 @@
-"""What takes long and needs no picture, done in a thread while the title is shown: modules, arenas, racing lines.
+"""Preloader: imports modules, loads arenas and solves racing lines in a thread while the title is shown.
 
-No frame waits for it. Afterwards the compiler of the Lab is started.
+No frame waits for it. The compiler of the Lab is started afterwards.
 """
 
 import logging
@@ -30,13 +30,13 @@ MODULES = (
     "pigaming_app.scenes.calibration.corner_pin_page",
     "pigaming_app.scenes.robots.fleet_page",
 )
-SWITCH = 0.001  # s for which the thread may keep the interpreter from the frames
+SWITCH_INTERVAL = 0.001  # s, interpreter switch interval while the thread runs
 
 log = logging.getLogger("pigaming")
 
 
 class Preloader:
-    """The thread; `then`, set before it starts, is called in it when all else is done."""
+    """The preloader thread; `then`, set before the start, is called in it at the end."""
 
     def __init__(self) -> None:
         self.then: Callable[[], None] = lambda: None
@@ -45,54 +45,54 @@ class Preloader:
         self._ready: set[tuple[str, str]] = set()
 
     def start(self) -> None:
-        """Begin, once."""
+        """Start the thread, once."""
         if self._thread is None:
             self._thread = threading.Thread(target=self._work, name="preloader", daemon=True)
             self._thread.start()
 
     def end(self) -> None:
-        """Stop within a moment; what has been begun is finished first."""
+        """Stop after the current step; waits at most 2 s."""
         self._ended = True
         if self._thread:
             self._thread.join(2.0)
 
     @property
     def begun(self) -> bool:
-        """Whether it has been started."""
+        """True once it has been started."""
         return self._thread is not None
 
     @property
     def busy(self) -> bool:
-        """Whether it is at work."""
+        """True while the thread runs."""
         return self._thread is not None and self._thread.is_alive()
 
     def ready(self, game: str, arena: str) -> bool:
-        """Whether a match can begin there at once, as far as that depends on this thread."""
+        """True if a match there can start at once, as far as it depends on this thread."""
         return (game, arena) in self._ready or not self.busy
 
     def _work(self) -> None:
-        before = sys.getswitchinterval()
-        sys.setswitchinterval(SWITCH)
+        old_interval = sys.getswitchinterval()
+        sys.setswitchinterval(SWITCH_INTERVAL)
         try:
             self._do()
         except Exception:
             log.exception("what a match needs could not be prepared in the background")
         finally:
-            sys.setswitchinterval(before)
+            sys.setswitchinterval(old_interval)
 
     def _do(self) -> None:
-        """Piece after piece, in the order in which they may be needed."""
-        arena_jobs = import_module("pigaming_app.scenes.flow.arena_preload")  # the title does not wait for it
-        there = arena_jobs.every_arena()
-        for one in there:
+        """All steps, in the order in which they are likely to be needed."""
+        arena_jobs = import_module("pigaming_app.scenes.flow.arena_preload")  # late: the title does not wait for it
+        all_arenas = arena_jobs.every_arena()
+        for arena in all_arenas:
             if not self._ended:
-                arena_jobs.read(*one)
+                arena_jobs.read(*arena)
         for module in MODULES:
             if not self._ended:
                 import_module(module)
-        for one in there:
+        for arena in all_arenas:
             if not self._ended:
-                arena_jobs.prepare(*one)
-                self._ready.add(one)
+                arena_jobs.prepare(*arena)
+                self._ready.add(arena)
         if not self._ended:
             self.then()

@@ -1,4 +1,4 @@
-"""Scenes lie on a stack; a scene answers a press with what shall become of the stack, and reaches for nothing."""
+"""The scene stack. Scenes handle input by returning a stack operation; they never touch the stack."""
 
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
@@ -12,48 +12,48 @@ class Scene(Protocol):
     """One screen."""
 
     def entered(self) -> None:
-        """The scene has become the top one: just pushed, or what lay above it has gone."""
+        """Called when the scene becomes the top one: after a push, or when the scene above is popped."""
 
     def on(self, event: InputEvent) -> "Turn":
-        """Answer a press."""
+        """Handle an input event."""
 
     def update(self, seconds: float) -> "Turn":
-        """Let `seconds` of real time pass."""
+        """Advance by `seconds` of real time."""
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the whole canvas, 1920 x 1080."""
+        """Draw the whole canvas, 1920 x 1080."""
 
 
 @runtime_checkable
 class Closable(Protocol):
-    """A scene that holds something, such as a camera, for as long as it lies on the stack."""
+    """A scene that holds a resource, such as a camera, while it is on the stack."""
 
     def left(self) -> None:
-        """Let go of it: the scene has been taken off the stack."""
+        """Release it: the scene was removed from the stack."""
 
 
 @dataclass(frozen=True)
 class Push:
-    """Put a scene on top."""
+    """Push a scene."""
 
     scene: Scene
 
 
 @dataclass(frozen=True)
 class Pop:
-    """Take the top scene away."""
+    """Pop the top scene."""
 
 
 @dataclass(frozen=True)
 class Swap:
-    """Put a scene in the place of the top one."""
+    """Replace the top scene."""
 
     scene: Scene
 
 
 @dataclass(frozen=True)
 class Home:
-    """Back to the lowest scene, or to `scene` on top of it."""
+    """Return to the lowest scene, with `scene` on top of it if given."""
 
     scene: Scene | None = None
 
@@ -67,7 +67,7 @@ Turn = Push | Pop | Swap | Home | Quit | None
 
 
 class Stack:
-    """The scenes that lie on each other; only the top one hears, moves and paints."""
+    """The scene stack; only the top scene gets input, updates and draws."""
 
     def __init__(self, first: Scene) -> None:
         self.scenes = [first]
@@ -78,7 +78,7 @@ class Stack:
         return self.scenes[-1]
 
     def turn(self, turn: Turn) -> None:
-        """Carry out what the top scene answered. An empty stack means: close."""
+        """Apply a stack operation. An empty stack closes the arcade."""
         if turn is None:
             return
         before = self.scenes[:]
@@ -98,13 +98,13 @@ class Stack:
             self.top.entered()
 
     def clear(self) -> None:
-        """Take every scene off. What one of them raises as it lets go is raised after all have."""
+        """Remove all scenes. Errors raised in `left` are raised after all scenes have been closed."""
         before = self.scenes[:]
         self.scenes.clear()
         self._leave(before)
 
     def _leave(self, before: list[Scene]) -> None:
-        """Let the scenes that are gone let go, the topmost first; then raise the first error among them."""
+        """Close the removed scenes, topmost first; then raise the first error among them."""
         errors: list[Exception] = []
         for scene in reversed(before):
             if scene not in self.scenes and isinstance(scene, Closable):

@@ -1,4 +1,4 @@
-"""What the pictures share: a closed way to drive round on, light that is added, and a robot with its treads."""
+"""Shared parts of the lesson pictures: closed paths, additive sprites, a robot with its treads."""
 
 import math
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ TREADS, TREAD_GAP = 16, 18.0  # marks behind the robot, and px between them
 
 @dataclass(frozen=True)
 class Loop:
-    """A closed way, clockwise round (0, 0): straights of a box of `w` x `h` px, joined by arcs of radius `bend`."""
+    """A closed path, clockwise round (0, 0): the sides of a `w` x `h` px box, joined by arcs of radius `bend`."""
 
     w: float
     h: float
@@ -24,22 +24,22 @@ class Loop:
 
     @property
     def straights(self) -> tuple[float, float]:
-        """Lengths of the upper (or lower) and of the right (or left) straight, px."""
+        """Lengths of the horizontal and of the vertical straights, px."""
         return self.w - 2 * self.bend, self.h - 2 * self.bend
 
     @property
     def length(self) -> float:
-        """Of the whole way, px."""
+        """Perimeter, px."""
         return 2 * sum(self.straights) + math.tau * self.bend
 
     def at(self, way: float) -> tuple[float, float, float, bool]:
-        """Place, heading and whether it turns, `way` px from the left end of the upper straight."""
+        """x, y, heading (rad) and whether it turns, `way` px from the left end of the upper straight."""
         across, down = self.straights
         way %= self.length
         corners = ((1, -1), (1, 1), (-1, 1), (-1, -1))
         for i, straight in enumerate((across, down, across, down)):
             heading = i * math.pi / 2
-            cx, cy = corners[i][0] * across / 2, corners[i][1] * down / 2  # centre of the bend that follows
+            cx, cy = corners[i][0] * across / 2, corners[i][1] * down / 2  # centre of the following bend
             nx, ny = math.sin(heading) * self.bend, -math.cos(heading) * self.bend
             if way < straight:
                 back = straight - way
@@ -52,21 +52,21 @@ class Loop:
         return nx, ny, 0.0, False
 
     def outline(self, out: float, points: int = 120) -> list[Point]:
-        """The loop that lies `out` px outside of this one."""
-        found = []
+        """The path offset outwards by `out` px, as `points` points."""
+        outline_points = []
         for i in range(points):
             x, y, heading, _ = self.at(i * self.length / points)
-            found.append((x + out * math.sin(heading), y - out * math.cos(heading)))
-        return found
+            outline_points.append((x + out * math.sin(heading), y - out * math.cos(heading)))
+        return outline_points
 
 
 def add(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
-    """Add a sprite of light where it belongs."""
+    """Add a light sprite with its anchor at (x, y)."""
     screen.blit(sprite.image, (round(x + sprite.dx), round(y + sprite.dy)), special_flags=ADD)
 
 
 def drive_round(screen: pygame.Surface, player: int, loop: Loop, x: float, y: float, way: float) -> bool:
-    """A robot with its treads and its light, `way` px along a loop round (x, y); whether it turns."""
+    """Draw a robot with treads and light, `way` px along a loop round (x, y); true if it is turning."""
     for i in range(TREADS, 0, -1):
         tx, ty, heading, _ = loop.at(way - 20 - i * TREAD_GAP)
         level = max(1, effects.TREAD_LEVELS * (TREADS - i) // TREADS)
@@ -78,7 +78,7 @@ def drive_round(screen: pygame.Surface, player: int, loop: Loop, x: float, y: fl
 
 
 def drive_by(screen: pygame.Surface, player: int, x: float, y: float, way: float) -> None:
-    """A robot that drives to the right and has come `way` px so far, at (x, y), with its treads."""
+    """Draw a robot at (x, y) that has driven `way` px to the right, with its treads."""
     for i in range(min(TREADS, int(way / TREAD_GAP)), 0, -1):
         level = max(1, effects.TREAD_LEVELS * (TREADS - i) // TREADS)
         add(screen, effects.tread(player, 0, level), x - 20 - i * TREAD_GAP, y)

@@ -1,4 +1,4 @@
-"""How to play Robot Factory: lift a pallet, machine A and then B, deliver, mind people."""
+"""How to play Robot Factory: lift a pallet, machine A, then B, deliver, avoid people."""
 
 import math
 from itertools import pairwise
@@ -18,17 +18,17 @@ from pigaming_app.ui.draw.sprites import HEADINGS
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
 
-SHELF, PITCH, FORK = -128, 88, 64  # px: the warehouse's middle, from slot to slot, from a robot to what it carries
-FAR, NEAR = 116.0, float(SHELF + FORK)  # px: where a robot comes from, and where it lifts and sets down
-DRIVE, WAIT, REST = 1.3, 0.7, 1.2  # seconds: there (or back), standing at the slot, with nothing to see
+SHELF, PITCH, FORK = -128, 88, 64  # px: x of the warehouse, slot pitch, distance from a robot to its load
+FAR, NEAR = 116.0, float(SHELF + FORK)  # px: x of a robot's start, and of its stop for lifting and setting down
+DRIVE, WAIT, REST = 1.3, 0.7, 1.2  # seconds: drive (one way), stop at the slot, pause off screen
 LEFT = HEADINGS // 2  # the heading
 MACHINE, SLOT = 105, 126  # px from the middle to a machine, and from a machine to its slots
 FEED, PROCESS, CARRY, SHOW = 0.8, 2.4, 1.3, 1.4  # seconds
-MEET, FREEZE, WHOLE = 1.1, 3.0, 6.2  # seconds: until a robot meets somebody, that it stands still, of it all
+MEET, FREEZE, WHOLE = 1.1, 3.0, 6.2  # seconds: until the meeting, stop, whole loop
 
 
 def lift(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """A robot fetches a pallet; the button is pressed while it stands before it."""
+    """A robot fetches a pallet; the button is pressed while it stops at the slot."""
     share, pressed, after = _there_and_back(seconds)
     for i in range(4):
         if i != 1 or not after:
@@ -41,7 +41,7 @@ def lift(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | No
 
 
 def deliver(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """A robot brings what is done to its team's exit."""
+    """A robot takes a finished pallet to its team's exit."""
     share, _, after = _there_and_back(seconds)
     for i in range(3 if after else 2):
         blit_sprite(screen, crates.crate(ICE, DELIVERED), x + SHELF, y + (i - 1.5) * PITCH)
@@ -55,7 +55,7 @@ def deliver(screen: pygame.Surface, x: float, y: float, seconds: float) -> str |
 
 
 def work(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """A pallet goes through both machines; somebody works at them."""
+    """A pallet passes through both machines, operated by a person."""
     now = seconds % (2 * (FEED + PROCESS) + CARRY + SHOW)
     _machines().draw(screen, round(x), round(y))
     first = now - FEED
@@ -82,7 +82,7 @@ def work(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | No
 
 
 def people(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """A robot that drives over somebody stands still for three seconds; the person walks on."""
+    """A robot that drives over a person stops for three seconds; the person walks on."""
     now = seconds % WHOLE
     frozen = 0.0 <= now - MEET < FREEZE
     way = min(now, MEET) + max(0.0, now - MEET - FREEZE)
@@ -103,7 +103,7 @@ def people(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | 
 
 
 def _there_and_back(seconds: float) -> tuple[float, bool, bool]:
-    """How far a robot has come to the slot, 0..1; whether the button is down; whether it has been."""
+    """Progress of a robot towards the slot, 0..1; whether the button is down; whether it has been pressed."""
     now = seconds % (2 * DRIVE + WAIT + REST)
     go = min(1.0, now / DRIVE) if now < DRIVE + WAIT else max(0.0, 1.0 - (now - DRIVE - WAIT) / DRIVE)
     since = now - DRIVE - 0.3
@@ -111,7 +111,7 @@ def _there_and_back(seconds: float) -> tuple[float, bool, bool]:
 
 
 def _carrier(screen: pygame.Surface, x: float, y: float, state: int | None) -> None:
-    """Robot 1 of ICE, heading left, with what it carries."""
+    """Robot 1 of team ICE, heading left, with its load."""
     add(screen, crates.forks(ICE, LEFT), x, y)
     blit_sprite(screen, tank(0, LEFT), x, y)
     if state is not None:
@@ -124,7 +124,7 @@ def _at_work(screen: pygame.Surface, x: float, y: float, kind: int, share: float
 
 
 def _carried(share: float) -> tuple[float, float]:
-    """Where a pallet is on its way from machine A to machine B."""
+    """Position of a pallet on its way from machine A to machine B."""
     corners = [(SLOT, -MACHINE), (SLOT, 0), (-SLOT, 0), (-SLOT, MACHINE)]
     way = share * sum(math.dist(a, b) for a, b in pairwise(corners))
     for (ax, ay), (bx, by) in pairwise(corners):
@@ -147,7 +147,7 @@ def _warehouse() -> LitImage:
 
 @cached
 def _machines() -> LitImage:
-    """Both machines with their slots, and the way from one to the other."""
+    """Both machines with their slots, and the path between them."""
     glow, crisp = GlowCanvas(460, 460).to(230, 230), GlowCanvas(460, 460).to(230, 230)
     for kind, y in ((A, -MACHINE), (B, MACHINE)):
         draw_machine((glow, crisp), kind, 0, y)
@@ -169,7 +169,6 @@ def _lorry() -> LitImage:
 
 @cached
 def _button(pressed: bool) -> LitImage:
-    """A button that is pressed now and then."""
     ink = GlowCanvas(140, 140).to(70, 70)
     ink.ring(0, 0, 36, FOCUS if pressed else STEEL, THIN)
     if pressed:

@@ -1,6 +1,6 @@
-"""The moving pictures of "how to play": each paints itself round a point for a moment of time, and repeats for ever.
+"""The animated lessons of "how to play": each draws one moment of a loop, centred on a point.
 
-They are made of the very sprites that the games show. A picture may answer the key of a word to put under it.
+They use the sprites of the games. A picture may return the text key of a word to show under it.
 """
 
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from pigaming_app.scenes.howto import factory, pitanks, race
 
 LessonPicture = Callable[[pygame.Surface, float, float, float], str | None]
 
-LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the names are those of the texts below the pictures
+LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the inner keys are text keys of the captions
     "pitanks": {
         "drive": pitanks.drive,
         "shoot": pitanks.shoot,

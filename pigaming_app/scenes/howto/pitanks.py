@@ -16,14 +16,14 @@ from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
 
-ROUND, SPEED = Loop(236.0, 300.0, 78.0), 190.0  # px, px/s of the lap in the first picture
-DUEL, FLIGHT = 2.0, 0.42  # seconds from shot to shot; that a shot flies
-SHOT, SHOTS = 0.75, 7  # seconds from shot to shot at the wall; the last two find nothing left
-POWER = 1.3  # seconds for each pick-up
+ROUND, SPEED = Loop(236.0, 300.0, 78.0), 190.0  # px, px/s: the lap in the first picture
+DUEL, FLIGHT = 2.0, 0.42  # seconds: interval between shots; flight of a shot
+SHOT, SHOTS = 0.75, 7  # seconds between shots at the wall; number of shots, of which the last two pass
+POWER = 1.3  # seconds per pick-up
 
 
 def drive(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """A robot drives round a stick that shows how."""
+    """A robot drives round a stick that shows the matching deflection."""
     turning = drive_round(screen, 0, ROUND, x, y, seconds * SPEED)
     _stick().draw(screen, round(x), round(y))
     knob = (0.7, -0.7) if turning else (0.0, -1.0)
@@ -32,7 +32,7 @@ def drive(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
 
 
 def shoot(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """Two robots hit each other in turn: the points rise from them."""
+    """Two robots hit each other in turn, with their score changes."""
     places = ((x - 104, y + 118), (x + 104, y - 118))
     turn, since = divmod(seconds, DUEL)
     shooter = int(turn) % 2
@@ -55,21 +55,21 @@ def shoot(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
 
 
 def _hit(screen: pygame.Surface, shooter: int, places: tuple[Point, Point], since: float) -> None:
-    """The shock on the one that was hit, and the points of both."""
+    """The shock wave on the robot hit, and the score changes of both."""
     stage = int(since / 0.45 * effects.WAVE_STEPS)
     if stage < effects.WAVE_STEPS:
         add(screen, effects.wave(PLAYERS[1 - shooter], stage), *places[1 - shooter])
     if since < 1.1:
         level = things.POPUP_LEVELS if since < 0.7 else max(1, round(things.POPUP_LEVELS * (1.1 - since) / 0.4))
         rise = 60 * (1 - (1 - min(1.0, since / 0.8)) ** 2)
-        for seat, said in ((shooter, "+1"), (1 - shooter, "−1")):
+        for seat, change in ((shooter, "+1"), (1 - shooter, "−1")):
             px, py = places[seat]
             side = 96 if seat == 0 else -96
-            blit_sprite(screen, things.popup(said, seat, level), px + side, py + 30 - rise)
+            blit_sprite(screen, things.popup(change, seat, level), px + side, py + 30 - rise)
 
 
 def walls(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """Five shots, and the wall is gone."""
+    """Five shots destroy a wall."""
     shot, since = divmod(seconds, SHOT)
     number = int(shot) % SHOTS
     ax, bx = x - 128, x + 108
@@ -93,7 +93,7 @@ def walls(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
 
 
 def pickups(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """All six, one of them called by its name."""
+    """All six pick-ups, one highlighted and named."""
     named, since = divmod(seconds, POWER)
     chosen = int(named) % len(POWERS)
     for i, name in enumerate(POWERS):

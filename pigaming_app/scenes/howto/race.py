@@ -1,4 +1,4 @@
-"""How to play Robot Race: laps, four lines in order, whose line ends a lap, mud."""
+"""How to play Robot Race: laps, four lines in order, the line that ends a lap, mud."""
 
 import math
 
@@ -15,18 +15,18 @@ from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import word
 
-ROUND, ROAD = Loop(254.0, 310.0, 127.0), 46.0  # px: the middle of the road, and half its width
+ROUND, ROAD = Loop(254.0, 310.0, 127.0), 46.0  # px: centre line and half width of the road
 SPEED, LAPS = 300.0, 3  # px/s
-WIDE = 200  # px: half of what a picture may use of its panel
-STRAIGHT, YOURS, THEIRS = 104.0, 92.0, -74.0  # px: half a road, and where the lines of two players cross it
-APART = 100.0  # px from the edge of the mud to either robot
+WIDE = 200  # px: half the usable width of a panel
+STRAIGHT, YOURS, THEIRS = 104.0, 92.0, -74.0  # px: half the width of the straight road; x of the lines of two players
+APART = 100.0  # px from the edge of the mud to each robot
 SLOW = 1.0 / 3.0
-BIG = 150  # size of the lap's number
+BIG = 150  # font size of the lap number
 PINK: Color = mix(ALARM, (255, 255, 255), 0.45)
 
 
 def laps(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """A robot drives its laps, which are counted in the middle."""
+    """A robot drives laps, counted in the middle."""
     way = seconds * SPEED
     _round(False).draw(screen, round(x), round(y))
     word(str(int(way / ROUND.length) % LAPS + 1), BIG, ICE).draw(screen, round(x), round(y))
@@ -35,7 +35,7 @@ def laps(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | No
 
 
 def lines(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """Each line that a robot crosses lights up."""
+    """Each line lights up when crossed."""
     way = seconds * SPEED * 0.8
     passed = int(4 * (way % ROUND.length) / ROUND.length)
     _round(True).draw(screen, round(x), round(y))
@@ -48,7 +48,7 @@ def lines(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
 
 
 def finish(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """Another's line does nothing; at the own one a lap is counted."""
+    """Another player's line has no effect; one's own counts a lap."""
     _own().draw(screen, round(x), round(y))
     whole = 2 * WIDE + 320
     way = seconds * SPEED % whole
@@ -66,7 +66,7 @@ def finish(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | 
 
 
 def mud(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """The same robot on the road and off it."""
+    """The same robot on the road and in the mud."""
     _edge().draw(screen, round(x), round(y))
     for share, down in ((1.0, -APART), (SLOW, APART)):
         way = (seconds * SPEED * share) % (2 * WIDE + 180)
@@ -84,7 +84,7 @@ def mud(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | Non
 
 @cached
 def _round(lined: bool) -> LitImage:
-    """A road all round; with the lines of all four players across it."""
+    """A ring road, with one line or the lines of all four players."""
     glow, crisp = _sheets()
     for out in (-ROAD, ROAD):
         glow.neon(ROUND.outline(out), EDGE, 5, True)
@@ -109,7 +109,7 @@ def _own() -> LitImage:
 
 @cached
 def _edge() -> LitImage:
-    """Where the road ends, and contour lines of mud below."""
+    """The edge of the road, and contour lines of mud below it."""
     glow, crisp = _sheets()
     glow.neon([(-WIDE, 0), (WIDE, 0)], EDGE, 5)
     for row in range(6):
@@ -126,7 +126,7 @@ def _post(line: int, lit: bool) -> LitImage:
 
 
 def _sheets() -> tuple[GlowCanvas, GlowCanvas]:
-    """What glows and what does not, for a picture round (0, 0)."""
+    """A glowing and a crisp canvas, centred on (0, 0)."""
     side = 2 * WIDE + 60
     return GlowCanvas(side, side + 40).to(side / 2, side / 2), GlowCanvas(side, side + 40).to(side / 2, side / 2)
 

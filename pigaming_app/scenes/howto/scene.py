@@ -1,4 +1,4 @@
-"""How to play, in four moving pictures a game: one idea each, a few words under it, keys of the device used last."""
+"""How to play: four animated pictures per game with captions, and the buttons of the device used last."""
 
 from collections.abc import Sequence
 
@@ -30,41 +30,39 @@ from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_w
 
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
-IDLE = 90.0  # seconds without a press until the title
+IDLE = 90.0  # seconds without input until the title
 LEAVE = (Button.FIRE, Button.BACK, Button.START, Button.CLICK)
 
 
 class HowTo:
-    """The page of one game; left and right, or a click on a name, show another's, almost any other press leaves."""
+    """The page of one game; left and right, or a click on a name, switch games, most other buttons leave."""
 
     def __init__(self, context: Context, game: str = "pitanks") -> None:
         self.context, self.game = context, game
         self.clock = 0.0
 
     def entered(self) -> None:
-        """Begin all pictures."""
+        """Restart the animations."""
         self.clock = 0.0
 
     def on(self, event: InputEvent) -> Turn:
-        """Show another game, or leave."""
-        named = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
+        """Switch games, or leave."""
+        clicked = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
         if event.button in (Button.LEFT, Button.RIGHT):
             games = list(LESSONS)
             self._show(games[(games.index(self.game) + (1 if event.button is Button.RIGHT else -1)) % len(games)])
-        elif event.button is Button.CLICK and named:
-            self._show(named)
+        elif event.button is Button.CLICK and clicked:
+            self._show(clicked)
         elif event.button in LEAVE:
             self.context.sounds.play("back")
             return Pop()
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the pictures move."""
         self.clock += seconds
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint panels, pictures and keys."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("title.howto")).draw(screen)
@@ -75,14 +73,14 @@ class HowTo:
         black_out(screen, *boxes)
         for i, (box, (name, picture)) in enumerate(zip(boxes, LESSONS[self.game].items(), strict=True)):
             screen.set_clip(box.inflate(-8, -8))
-            said = picture(screen, box.centerx, TOP + 268, self.clock)
+            key = picture(screen, box.centerx, TOP + 268, self.clock)
             screen.set_clip(None)
             frame(i + 1, box.w).draw(screen, *box.topleft)
-            if said:
-                text(words(said), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
+            if key:
+                text(words(key), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
-        said = limits_line(words, self.game, last_minutes(self.context.settings, self.game))
-        text(said, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
+        limits = limits_line(words, self.game, last_minutes(self.context.settings, self.game))
+        text(limits, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
         keys(self._keys()).draw(screen)
 
     def _show(self, game: str) -> None:
@@ -91,7 +89,7 @@ class HowTo:
             self.game, self.clock = game, 0.0
 
     def _names(self) -> list[tuple[str, pygame.Rect]]:
-        """The games by name and where these stand, at the right end of the heading."""
+        """The games and the rectangles of their names, at the right end of the heading."""
         boxes, right = [], RIGHT
         for game in reversed(LESSONS):
             w = chip_width(self.context.words(f"games.{game}"))
@@ -100,24 +98,24 @@ class HowTo:
         return boxes[::-1]
 
     def _keys(self) -> tuple[tuple[str, str], ...]:
-        """What is printed on the device used last, and what it does; the last one stands at the right end."""
+        """(label, action) pairs for the device used last; the last pair is right-aligned."""
         words, controls = self.context.words, self.context.controls
         device = controls.last
         turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
-        found = [
+        pairs = [
             (controls.moves(device) or "<>", words("howto.hint_drive")),
             (controls.label(device, turbo), words("howto.hint_turbo")),
             (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
         if self.game in FIRES:
-            found.insert(1, (words.printed(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
-        return tuple((label, what) for label, what in found if label)
+            pairs.insert(1, (words.printed(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
+        return tuple((label, action) for label, action in pairs if label)
 
 
 @cached
 @resumable
 def frame(number: int, w: int) -> Steps[LitImage]:
-    """An empty panel with its number; upper left at (0, 0)."""
+    """An empty panel with its number; upper left corner at (0, 0)."""
     layer = Layer(0, 0, w, HIGH)
     panel(layer.glow, 0, 0, w, HIGH, STEEL)
     layer.glow.fill(regular_polygon(40, 32, 0, w / 2, 0), ICE)
@@ -127,9 +125,9 @@ def frame(number: int, w: int) -> Steps[LitImage]:
 
 
 @cached
-def caption(said: str, room: int) -> LitImage:
-    """A few words in lines of about the same length, their middle at (0, 0)."""
-    lines = wrap_balanced(said, len(wrap(said, BODY, room)))
+def caption(sentence: str, room: int) -> LitImage:
+    """A caption in lines of similar length, centred on (0, 0)."""
+    lines = wrap_balanced(sentence, len(wrap(sentence, BODY, room)))
     layer = Layer(-room / 2, -70, room, 140)
     for i, line in enumerate(lines):
         size = fit_size(line, BODY, room, "body")
@@ -140,16 +138,16 @@ def caption(said: str, room: int) -> LitImage:
 @cached
 @resumable
 def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
-    """The row at the foot: all but the last from the left, the last at the right end."""
+    """The row at the foot: left-aligned, except for the last item at the right end."""
     layer = Layer(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
-    for i, (label, what) in enumerate(items):
+    for i, (label, action) in enumerate(items):
         if i == len(items) - 1:
-            x = RIGHT - _width(label) - 10 - text_width(what, BODY, "body")
+            x = RIGHT - _width(label) - 10 - text_width(action, BODY, "body")
         for part in label.split():
             x += button(layer.canvas, x, FOOT_Y, part) + 8
-        layer.canvas.body(what, x + 10, FOOT_Y, MIST)
-        x += 10 + text_width(what, BODY, "body") + 56
+        layer.canvas.body(action, x + 10, FOOT_Y, MIST)
+        x += 10 + text_width(action, BODY, "body") + 56
     yield
     return (yield from layer.lighting())
 

@@ -1,6 +1,6 @@
-"""Pads and keys as the test of the controls draws them: still pictures, and the lights that go on over them.
+"""Drawings of pads and keys for the controls test: static images and highlights.
 
-A card is W x H px, its upper left at (0, 0).
+A card is W x H px, with its upper left corner at (0, 0).
 """
 
 import pygame
@@ -29,7 +29,7 @@ from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button
 
 W, H = span(0, 3)[1], 340
-STICK, REACH = (112, 188), 58  # the middle of a stick, and how far its knob goes, px
+STICK, REACH = (112, 188), 58  # px: centre of the stick, and reach of its knob
 KEY = 70
 KEYS = {
     Button.UP: pygame.Rect(104, 28, KEY, KEY),
@@ -46,19 +46,19 @@ START_LINE = cut_box(START.x, START.y, START.w, START.h, 10)
 
 
 @cached
-def no_pad(said: str, line: str) -> LitImage:
-    """A place where a pad could be."""
+def no_pad(title: str, hint: str) -> LitImage:
+    """The placeholder of a pad."""
     layer = Layer(0, 0, W, H)
     layer.glow.dashes(cut_box(0, 0, W, H, 20), STEEL, THIN, 22, 16)
     icon(layer.glow, "pad", W / 2, 118, 62, STEEL, THIN)
-    layer.canvas.body(said, W / 2, 222, MIST, "c", fit_size(said, BODY, W - 40, "body"))
-    layer.canvas.body(line, W / 2, 276, dim(MIST, 0.7), "c", fit_size(line, BODY, W - 40, "body"))
+    layer.canvas.body(title, W / 2, 222, MIST, "c", fit_size(title, BODY, W - 40, "body"))
+    layer.canvas.body(hint, W / 2, 276, dim(MIST, 0.7), "c", fit_size(hint, BODY, W - 40, "body"))
     return layer.done()
 
 
 @cached
 def pad(name: str, labels: tuple[str, ...]) -> LitImage:
-    """A pad of that name; `labels` of fire, back, extra, alt and start."""
+    """A pad with its name and the labels of FIRE, BACK, X, Y and START."""
     layer = Layer(0, 0, W, H)
     panel(layer.glow, 0, 0, W, H, STEEL)
     icon(layer.glow, "pad", 62, 56, 34, MIST, THIN)
@@ -66,7 +66,7 @@ def pad(name: str, labels: tuple[str, ...]) -> LitImage:
     layer.glow.ring(*STICK, REACH + 20, STEEL, LINE)
     for (x, y), label in zip(DIAMOND.values(), labels, strict=False):
         layer.glow.ring(x, y, 30, STEEL, THIN)
-        _printed(layer.glow, label, x, y, MIST)
+        _draw_label(layer.glow, label, x, y, MIST)
     if labels[-1]:
         layer.glow.line(START_LINE, STEEL, THIN, True)
         size = fit_size(labels[-1], 30, START.w - 16)
@@ -76,7 +76,7 @@ def pad(name: str, labels: tuple[str, ...]) -> LitImage:
 
 @cached
 def pad_light(button: Button, label: str) -> LitImage:
-    """A pressed button of a pad, over its card."""
+    """The highlight of a pressed pad button, to draw over its card."""
     if button is Button.START:
         layer = Layer(*START)
         layer.glow.fill(START_LINE, dim(FOCUS, 0.35)).line(START_LINE, FOCUS, THIN, True)
@@ -84,19 +84,19 @@ def pad_light(button: Button, label: str) -> LitImage:
     x, y = DIAMOND[button]
     layer = Layer(x - 32, y - 32, 64, 64)
     layer.glow.disc(x, y, 30, dim(FOCUS, 0.35)).ring(x, y, 30, FOCUS, THIN)
-    _printed(layer.glow, label, x, y, FOCUS)
+    _draw_label(layer.glow, label, x, y, FOCUS)
     return layer.done()
 
 
 @cached
 def knob() -> LitImage:
-    """The head of a stick, round (0, 0)."""
+    """The knob of a stick, centred on (0, 0)."""
     return LitImage(GlowCanvas(96, 96).disc(48, 48, 20, FOCUS).lit(1.0), (-48, -48))
 
 
 @cached
 def cap(label: str, w: int, h: int, down: bool) -> LitImage:
-    """A key, held down or not."""
+    """A key, pressed or not."""
     layer = Layer(0, 0, w, h)
     edge = FOCUS if down else STEEL
     if down:
@@ -110,8 +110,8 @@ def cap(label: str, w: int, h: int, down: bool) -> LitImage:
     return layer.done()
 
 
-def _printed(ink: GlowCanvas, label: str, x: float, y: float, color: Color) -> None:
-    """A letter, or the shape that stands for one."""
+def _draw_label(ink: GlowCanvas, label: str, x: float, y: float, color: Color) -> None:
+    """A letter, or the icon for its label."""
     if label in SIGNS:
         icon(ink, SIGNS[label], x, y, 17, color, THIN)
     else:

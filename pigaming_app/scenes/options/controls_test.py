@@ -1,7 +1,7 @@
-"""Test the controls: every pad, every cluster of keys and the mouse, live. What is pressed lights up.
+"""Controls test: every pad, key cluster and the mouse, live, with pressed buttons highlighted.
 
-Each keyboard cluster drives a little robot of its own. Escape or the hint leaves the page; on a pad B is held for a
-second, because a short press of it is what one wants to see here.
+Each key cluster drives a small robot. Escape or the prompt leaves the page; on a pad B is held for a second, because
+short presses are being tested.
 """
 
 import math
@@ -24,14 +24,14 @@ from pigaming_app.ui.widgets.labels import black_out, blit_sprite, heading
 PLACES = 4
 PADS_Y, KEYS_Y = 216, 580
 HOLD = 0.8  # seconds
-LIT = 0.25  # seconds for which a short press stays lit
-IDLE = 120.0  # seconds without a press until the title
+LIT = 0.25  # seconds for which a short press stays highlighted
+IDLE = 120.0  # seconds without input until the title
 TURN = 3.0  # rad/s
 BUTTONS = (Button.FIRE, Button.BACK, Button.X, Button.Y, Button.START)
 
 
 class ControlsTest:
-    """The page. `lit`: seconds for which a button of a device still shows that it was pressed."""
+    """The page. `lit`: remaining seconds of each highlighted button."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -39,18 +39,18 @@ class ControlsTest:
         self.held = 0.0
         self.lit: dict[tuple[Device, Button], float] = {}
         self.headings = [-math.pi / 2] * PLACES
-        self.clicks: list[tuple[float, float, float]] = []  # x, y, seconds since
+        self.clicks: list[tuple[float, float, float]] = []  # x, y, age in seconds
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        pass
 
     def on(self, event: InputEvent) -> Turn:
-        """Light up; Escape, the hint, and B after a while, leave."""
-        meant = self._prompts().as_button(event)
-        if meant.button is Button.BACK and meant.device.kind != "pad":
+        """Highlight the button; Escape, the prompt, and B held, leave."""
+        action = self._prompts().as_button(event)
+        if action.button is Button.BACK and action.device.kind != "pad":
             return self._leave()
-        if meant.button is Button.BACK:
-            self.holding, self.held = meant.device, 0.0
+        if action.button is Button.BACK:
+            self.holding, self.held = action.device, 0.0
         if event.button is Button.CLICK and event.at:
             self.clicks = [*self.clicks[-5:], (*event.at, 0.0)]
         if event.button is Button.LOST:
@@ -59,10 +59,10 @@ class ControlsTest:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Turn the robots, let lights go out, notice that B is held."""
+        """Turn the robots, fade highlights, check for B held."""
         controls = self.context.controls
         self.lit = {key: left - seconds for key, left in self.lit.items() if left > seconds}
-        self.clicks = [(x, y, since + seconds) for x, y, since in self.clicks if since < 0.45]
+        self.clicks = [(x, y, age + seconds) for x, y, age in self.clicks if age < 0.45]
         for i in range(PLACES):
             self.headings[i] += TURN * controls.drive(Device("keys", i)).angular * seconds
         if self.holding and controls.drive(self.holding).turbo:
@@ -74,7 +74,7 @@ class ControlsTest:
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint every device as it is held now."""
+        """Draw the current state of every device."""
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("padtest.title"), words("padtest.line")).draw(screen)
@@ -87,12 +87,10 @@ class ControlsTest:
             else:
                 gadgets.no_pad(words("padtest.none"), words("padtest.plug")).draw(screen, x, PADS_Y)
             self._cluster(screen, x, KEYS_Y, i)
-        for x_, y_, since in self.clicks:
-            wave = effects.wave(ICE, min(effects.WAVE_STEPS - 1, int(since / 0.45 * effects.WAVE_STEPS)))
+        for x_, y_, age in self.clicks:
+            wave = effects.wave(ICE, min(effects.WAVE_STEPS - 1, int(age / 0.45 * effects.WAVE_STEPS)))
             screen.blit(wave.image, (round(x_ + wave.dx), round(y_ + wave.dy)), special_flags=ADD)
         self._prompts().draw(screen)
-
-    # ---- inside
 
     def _prompts(self) -> ButtonPrompts:
         pad = self.context.controls.last.kind == "pad"
@@ -116,9 +114,9 @@ class ControlsTest:
 
     def _cluster(self, screen: pygame.Surface, x: int, y: int, number: int) -> None:
         device = Device("keys", number)
-        drive, printed = self.context.controls.drive(device), CLUSTERS[number].printed
+        drive, labels = self.context.controls.drive(device), CLUSTERS[number].printed
         for button, box in gadgets.KEYS.items():
-            label = self.context.words.printed(printed[button])
+            label = self.context.words.printed(labels[button])
             gadgets.cap(label, *box.size, _down(drive, button)).draw(screen, x + box.x, y + box.y)
         heading = self.headings[number]
         ahead = 10 * drive.linear
@@ -133,7 +131,7 @@ class ControlsTest:
 
 
 def _down(drive: StickState, button: Button) -> bool:
-    """Whether the key of a cluster that means `act` is held."""
+    """True if the key of a cluster is held."""
     return {
         Button.UP: drive.linear > 0,
         Button.DOWN: drive.linear < 0,

@@ -1,6 +1,6 @@
-"""The options: what they change is changed at once, and kept on disk at once.
+"""Options page: changes apply and are saved immediately.
 
-In a kiosk the page offers only what children may touch; the operator's page offers everything.
+In a kiosk the page offers only what children may change; the operator's page offers everything.
 """
 
 import logging
@@ -27,10 +27,10 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-IDLE = 90.0  # seconds without a press until the title
-SAID = 3.0  # seconds for which a sentence stays
-CLEAR = 2.0  # seconds for which a button is held to empty the tables
-AHEAD = 2.0  # ms of a frame for pieces that a move of the focus will need
+IDLE = 90.0  # seconds without input until the title
+SENTENCE_SECONDS = 3.0  # seconds for which a sentence is shown
+CLEAR = 2.0  # seconds for which a button is held to clear the high scores
+PREWARM_MS = 2.0  # ms per frame for prewarming
 FLASHES = ("off", "soft", "full")
 ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "robots", "reset")
 FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
@@ -39,7 +39,7 @@ log = logging.getLogger("pigaming")
 
 
 class OptionsPage:
-    """The options; `operator`: everything, also in a kiosk."""
+    """The options; `operator`: all rows, also in a kiosk."""
 
     def __init__(self, context: Context, operator: bool = False) -> None:
         self.context, self.operator = context, operator
@@ -50,19 +50,19 @@ class OptionsPage:
         self.cleared = False
         self.clearing = HoldTimers(context.controls, CLEAR)
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(self.rows)])
-        self.ahead = PrewarmQueue(self._ahead())
+        self.prewarm = PrewarmQueue(self._prewarm_jobs())
         hints = [
             (Button.RIGHT, "options.hint_change"),
             (Button.FIRE, "options.hint_ok"),
             (Button.BACK, "options.hint_back"),
         ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SAID)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
 
     def entered(self) -> None:
-        """Shown, or come back to from the test of the controls."""
+        pass
 
     def on(self, event: InputEvent) -> Turn:
-        """Up and down choose a row, left and right change it, fire changes it too or does what it says."""
+        """Up and down select a row, left and right change it, FIRE changes or activates it."""
         event = self.navigation.prompts.as_button(event)
         match event.button:
             case Button.LEFT | Button.RIGHT:
@@ -80,15 +80,13 @@ class OptionsPage:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let sentences fade; leave when nobody is there."""
         self.clock += seconds
         if self.clearing.update(seconds):
             self._clear()
-        self.ahead.work(AHEAD)
+        self.prewarm.work(PREWARM_MS)
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words, focus = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
         heading(words("options.operator" if self.operator else "options.title")).draw(screen)
@@ -104,40 +102,40 @@ class OptionsPage:
             call_to_action(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
         self.navigation.prompts.draw(screen)
 
-    # ---- what is seen
+    # ---- drawing
 
     def _box(self, i: int) -> pygame.Rect:
-        """Where the i-th row is."""
+        """The rectangle of row `i`."""
         x, w = span(0, 8)
         pitch = min(96.0, (BOTTOM - TOP - HIGH) / max(1, len(self.rows) - 1))
-        high = min(HIGH, int(pitch))  # rows that overlap could not be told apart by the focus
+        high = min(HIGH, int(pitch))  # overlapping rows would be ambiguous for the focus
         return pygame.Rect(x, round(TOP + pitch * i) - high // 2, w, high)
 
-    def _ahead(self) -> Iterator[Callable[[], object]]:
-        """Pieces that a move of the focus will need: one is made in each frame, so that no move has to wait for it."""
+    def _prewarm_jobs(self) -> Iterator[Callable[[], object]]:
+        """Jobs for the widgets that the next focus move needs, so that it need not wait for them."""
         words = self.context.words
         for name in self.rows:
             yield partial(dials.label, words(f"options.{name}"), True)
-            yield partial(self._piece, name)
+            yield partial(self._focused_value, name)
             yield partial(dials.description, words(f"options.{name}"), words(f"options.{name}_line"))
             yield partial(pictures.drawn, name, self._value(name).chosen)
 
-    def _piece(self, name: str) -> object:
+    def _focused_value(self, name: str) -> object:
         value = self._value(name)
         return dials.value(value.kind, value.options, value.chosen, True)
 
-    # ---- what the rows are
+    # ---- rows
 
     def _value(self, name: str) -> SettingValue:
         settings, words, canvas = self.context.settings, self.context.words, self.context.canvas
         off_on = (words("options.off"), words("options.on"))
         match name:
             case "language":
-                return SettingValue("toggle", tuple(NAMES[one] for one in LANGUAGES), LANGUAGES.index(words.language))
+                return SettingValue("toggle", tuple(NAMES[code] for code in LANGUAGES), LANGUAGES.index(words.language))
             case "music" | "sounds":
                 return SettingValue("meter", (), settings.music if name == "music" else settings.sounds)
             case "flashes":
-                flashes = tuple(words(f"options.{one}") for one in FLASHES)
+                flashes = tuple(words(f"options.{code}") for code in FLASHES)
                 return SettingValue("toggle", flashes, FLASHES.index(settings.flashes))
             case "shake":
                 return SettingValue("toggle", off_on, int(settings.shake))
@@ -151,17 +149,17 @@ class OptionsPage:
         return SettingValue("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
 
     def _change(self, name: str, by: int) -> None:
-        """The next value of a row, or the one before it."""
+        """Step a row's value."""
         value = self._value(name)
-        most = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
-        self._take(name, max(0, min(most, value.chosen + by)))
+        limit = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
+        self._set(name, max(0, min(limit, value.chosen + by)))
 
     def _do(self, name: str, event: InputEvent) -> Turn:
-        """Fire: the next value, round and round; or the deed."""
+        """FIRE: the next value, cyclically, or the action."""
         value = self._value(name)
         if value.kind != "deed":
             count = 11 if value.kind == "meter" else len(value.options)
-            self._take(name, (value.chosen + 1) % count)
+            self._set(name, (value.chosen + 1) % count)
             return None
         self.context.sounds.play("move" if name == "reset" else "accept")
         if name == "close":
@@ -187,11 +185,11 @@ class OptionsPage:
             return self._do(name, event)
         hit = dials.value_at(value.kind, value.options, value.chosen, event.at[0] - self.focus.rect(name).x)
         if hit is not None:
-            self._take(name, hit)
+            self._set(name, hit)
         return None
 
-    def _take(self, name: str, chosen: int) -> None:
-        """Make a value so, at once."""
+    def _set(self, name: str, chosen: int) -> None:
+        """Set a value and apply it."""
         if chosen == self._value(name).chosen:
             return
         context, settings, canvas = self.context, self.context.settings, self.context.canvas
@@ -199,7 +197,7 @@ class OptionsPage:
             case "language":
                 settings.language = LANGUAGES[chosen]
                 context.words.switch(settings.language)
-                self.ahead = PrewarmQueue(self._ahead())
+                self.prewarm = PrewarmQueue(self._prewarm_jobs())
             case "music" | "sounds":
                 setattr(settings, name, chosen)
                 context.sounds.volume(settings.music, settings.sounds)
@@ -211,21 +209,21 @@ class OptionsPage:
                 canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
                 settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
         context.sounds.play("hit" if name == "sounds" else "move")
-        self._keep()
+        self._save()
 
     def _clear(self) -> None:
-        """Empty the tables of scores."""
+        """Clear the high scores and ghosts."""
         self.context.scores.reset()
         self.cleared = True
         self.context.sounds.play("accept")
-        self._keep(scores=True)
+        self._save(scores=True)
         try:
             forget(folders().data)
         except OSError as trouble:
             log.warning("%s", trouble)
 
-    def _keep(self, scores: bool = False) -> None:
-        """Save, or say in one sentence that it could not be saved."""
+    def _save(self, scores: bool = False) -> None:
+        """Save settings or scores; on failure, show a sentence."""
         try:
             if scores:
                 self.context.scores.save(folders().data)

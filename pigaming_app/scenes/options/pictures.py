@@ -1,4 +1,4 @@
-"""The moving picture beside the options that shows what the row in focus means."""
+"""The animated picture beside the options that illustrates the focused row."""
 
 import math
 
@@ -26,13 +26,13 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
 from pigaming_app.ui.widgets.setting_row import CENTRE
 
-RING_R, RING_STEPS = 150, 24  # px, and pictures of the ring
+RING_R, RING_STEPS = 150, 24  # px, and images of the ring
 
 
 def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> None:
-    """The moving picture in the panel."""
+    """Draw the picture in the panel."""
     x, y = CENTRE
-    since, jolt = seconds % 1.4, 0  # the robot of the picture is hit every 1.4 seconds
+    since, jolt = seconds % 1.4, 0  # the pictured robot is hit every 1.4 seconds
     if name == "flashes" and since < 0.6:
         _burst(chosen, int(since * 10)).draw(screen, x, y)
     if name == "shake" and chosen and since < 0.35:
@@ -44,14 +44,14 @@ def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> No
 
 
 def ring(screen: pygame.Surface, share: float) -> None:
-    """What is being held down, round the picture in the panel: `share` of the time has passed, 0..1."""
+    """The progress of a held button, round the picture: `share` in 0..1."""
     image, dx, dy = filling(math.ceil(share * RING_STEPS))
     screen.blit(image, (CENTRE[0] + dx, CENTRE[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
 
 
 @cached
 def filling(step: int) -> Sprite:
-    """A ring, `step` of RING_STEPS full, round (0, 0)."""
+    """A ring filled to `step` of RING_STEPS, centred on (0, 0)."""
     half = RING_R + 22
     ink = GlowCanvas(2 * half, 2 * half)
     ink.arc(half, half, RING_R, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), ALARM, LINE)
@@ -85,7 +85,7 @@ def _burst(strength: int, stage: int) -> LitImage:
 def _speaker(loud: int, wave: int) -> LitImage:
     ink = GlowCanvas(400, 320).to(200, 160)
     ink.line([(-92, -26), (-56, -26), (-10, -68), (-10, 68), (-56, 26), (-92, 26)], FOCUS, LINE, True)
-    reach = (loud + 3) // 4  # of three waves
+    reach = (loud + 3) // 4  # number of waves lit, of three
     for i, r in enumerate((46, 82, 118)):
         lit = i < reach
         bright = 1.0 if wave == i or wave == 3 else 0.7
@@ -95,7 +95,7 @@ def _speaker(loud: int, wave: int) -> LitImage:
 
 @cached
 def _note(loud: int, beat: int) -> LitImage:
-    """Bars that dance, as high as the music is loud."""
+    """Bouncing bars, as high as the music volume."""
     ink = GlowCanvas(440, 320).to(220, 160)
     for i in range(8):
         share = 0.35 + 0.65 * abs(math.sin(1.7 * i + beat * math.pi / 4))
@@ -113,11 +113,11 @@ def _note(loud: int, beat: int) -> LitImage:
 def _drawn(name: str, chosen: int, beat: int) -> LitImage:
     ink = GlowCanvas(480, 340).to(240, 170)
     if name == "language":
-        for i, said in enumerate(("EN", "PT")):
+        for i, code in enumerate(("EN", "PT")):
             lit: Color = FOCUS if i == chosen else STEEL
             x, y = (-88, -40) if i == 0 else (72, 40)
             _bubble(ink, x, y, -1 if i == 0 else 1, lit)
-            ink.text(said, LABEL, x, y, lit, "head", "c")
+            ink.text(code, LABEL, x, y, lit, "head", "c")
     elif name in ("display", "fullscreen"):
         _monitor(ink, bool(chosen) if name == "fullscreen" else False, beat)
     elif name == "padtest":

@@ -1,4 +1,4 @@
-"""Three, two, one, go: the big signs over an arena, before a match and after every interruption."""
+"""Countdown: large signs over the arena, before a match and after every interruption."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -15,17 +15,17 @@ from pigaming_app.ui.draw.theme import CAPITALS
 
 CENTRE = (960, 590)  # of the arena, on the canvas
 GO = 0.7  # seconds for which GO! is shown
-POP = 0.16  # seconds in which a sign shrinks to its size
-POPS = 5  # sizes kept of each sign
+POP = 0.16  # seconds in which a sign shrinks to its final size
+POPS = 5  # cached sizes of each sign
 HUGE = 300
-LEVELS = 8  # brightnesses of a sign that goes
-MOAT = 14  # px
-CLEAR_X, CLEAR_Y = 390, 290  # px by which a number stands away from a robot and what is said about it
+LEVELS = 8  # brightnesses of a fading sign
+OUTLINE = 14  # px of black outline
+CLEAR_X, CLEAR_Y = 390, 290  # px of clearance between a number and a robot with its caption
 SHIFTS = sorted(((x, y) for x in range(-480, 481, 60) for y in range(-180, 181, 60)), key=lambda at: math.hypot(*at))
 
 
 class Countdown:
-    """Locks motion while it runs. `step`: seconds for each number; `lead`: seconds before the first."""
+    """Blocks motion while it runs. `step`: seconds per number; `lead`: seconds before the first."""
 
     def __init__(self, step: float = 1.0, lead: float = 0.0) -> None:
         self.step, self.left, self.since = step, 3 * step + lead, 0.0
@@ -33,16 +33,16 @@ class Countdown:
 
     @property
     def locked(self) -> bool:
-        """Nothing may move yet."""
+        """True while robots may not move."""
         return self.left > 0.0
 
     @property
     def shown(self) -> bool:
-        """There is still a sign to draw."""
+        """True while there is a sign to draw."""
         return self.locked or self.since < GO
 
     def update(self, seconds: float) -> str | None:
-        """Let time pass; answers the name of the sound that is due."""
+        """Advance by `seconds`; returns the name of the sound to play, if any."""
         if not self.locked:
             self.since += seconds
             return None
@@ -58,7 +58,7 @@ class Countdown:
         return None
 
     def draw(self, screen: pygame.Surface, go: str, at: tuple[int, int] = CENTRE) -> None:
-        """Paint the number, or `go`, round a place on the canvas."""
+        """Draw the number, or the text `go`, centred on a canvas position."""
         pop = min(POPS - 1, int(self.since / POP * POPS))
         if not self.locked:
             if self.since < GO:
@@ -70,9 +70,9 @@ class Countdown:
 
 
 def signs(go: str, *ends: str) -> Iterator[Job]:
-    """A job for every sign of a match, in the order in which they are shown.
+    """Jobs that build the signs of a match, in order of appearance.
 
-    Those of the end come again and again, which keeps them in the cache until they are needed.
+    The ending signs are requested in a loop, which keeps them cached until needed.
     """
     for number in (3, 2, 1):
         yield partial(arcs, number)
@@ -82,11 +82,11 @@ def signs(go: str, *ends: str) -> Iterator[Job]:
 
 
 def popped(text: str, color: Color, pop: int, level: int = LEVELS) -> Sprite:
-    """A huge word round (0, 0), the larger the smaller `pop`, 0..POPS - 1, is; a black moat keeps it legible."""
+    """A huge word centred on (0, 0) with a black outline; larger for a smaller `pop`, 0..POPS - 1."""
     sign = _word(text, color)
     if pop < POPS - 1:
         scale = 1.0 + 0.7 * (1 - (pop + 1) / POPS) ** 2
-        image = pygame.transform.smoothscale_by(sign.image, scale)  # half a millisecond
+        image = pygame.transform.smoothscale_by(sign.image, scale)  # 0.5 ms
         sign = Sprite(image, round(sign.dx * scale), round(sign.dy * scale))
     return sign if level == LEVELS else faded(sign, level / LEVELS)
 
@@ -100,7 +100,7 @@ def _word(text: str, color: Color) -> Steps[Sprite]:
     top = h / 2 - font("hero", HUGE).get_ascent() + CAPITALS * HUGE / 2
     for i in range(24):
         angle = i * math.tau / 24
-        out.blit(edge, (64 + MOAT * math.cos(angle), top + MOAT * math.sin(angle)))
+        out.blit(edge, (64 + OUTLINE * math.cos(angle), top + OUTLINE * math.sin(angle)))
     yield
     light = yield from GlowCanvas(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lighting(0.8)
     out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
@@ -109,7 +109,7 @@ def _word(text: str, color: Color) -> Steps[Sprite]:
 
 
 def clear_of(robots: Sequence[tuple[float, float]]) -> tuple[int, int]:
-    """The place nearest to the middle of the arena where a number hides no robot; the middle where there is none."""
+    """The position nearest to the arena's centre where a number covers no robot; the centre if there is none."""
     for dx, dy in SHIFTS:
         x, y = CENTRE[0] + dx, CENTRE[1] + dy
         if all(abs(x - robot[0]) > CLEAR_X or abs(y - robot[1]) > CLEAR_Y for robot in robots):
@@ -118,14 +118,14 @@ def clear_of(robots: Sequence[tuple[float, float]]) -> tuple[int, int]:
 
 
 def show(screen: pygame.Surface, sign: Sprite, at: tuple[int, int] = CENTRE) -> None:
-    """Paint a sign round a place on the canvas, the middle of the arena if nothing else is said."""
+    """Draw a sign centred on a canvas position."""
     screen.blit(sign.image, (at[0] + sign.dx, at[1] + sign.dy), special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
 @cached
 @resumable
 def arcs(count: int) -> Steps[Sprite]:
-    """Three arcs round a number, of which `count` are still lit."""
+    """Three arcs round a number, `count` of them lit."""
     half = 270
     ink = GlowCanvas(2 * half, 2 * half).to(half, half)
     for i in range(3):

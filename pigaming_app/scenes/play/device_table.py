@@ -1,4 +1,4 @@
-"""Who drives with what, in a pause: for each seat its device, the keys that steer, fire and turbo."""
+"""The device table of a pause: for each seat its device and the keys for steering, fire and turbo."""
 
 from collections.abc import Sequence
 from itertools import chain
@@ -19,7 +19,7 @@ NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 530, LEFT + 1000, LEFT + 1370
 
 
 class DeviceTable:
-    """One row for every seat that a device drives; None: an AI, or nobody. `access`: whose presses count."""
+    """One row per seat driven by a device; None: an AI or nobody. `access`: which devices may act."""
 
     def __init__(self, context: Context, devices: Sequence[Device | None], access: Access) -> None:
         self.context, self.access = context, access
@@ -29,7 +29,7 @@ class DeviceTable:
         self.prompts = context.prompts([(Button.BACK, "pause.hint_back")], voice=lambda: access.voice)
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        pass
 
     def on(self, event: InputEvent) -> Turn:
         """Any button leads back."""
@@ -40,12 +40,10 @@ class DeviceTable:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Nothing moves, but a pause belongs to somebody only for a while."""
         self.access.update(seconds)
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the table."""
         for _ in self.making:
             budget.pause()
         screen.blit(backdrop(), (0, 0))
@@ -54,7 +52,7 @@ class DeviceTable:
         self.prompts.draw(screen)
 
     def _make(self) -> Steps[None]:
-        """Make one piece of the page after the other."""
+        """Build the page layer by layer."""
         panes = (self._row(i, *row) for i, row in enumerate(self.rows))
         for layer in chain([self._heading()], panes):
             yield
@@ -78,8 +76,8 @@ class DeviceTable:
         name = words(f"devices.{controls.name(device)}")
         layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, 264, "body"))
         self._moves(layer, device, y)
-        for x, act, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
-            wide = button(layer.canvas, x, y, words.printed(controls.label(device, act)))
+        for x, function, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
+            wide = button(layer.canvas, x, y, words.printed(controls.label(device, function)))
             layer.canvas.body(words(name), x + wide + 18, y, MIST)
         return layer
 

@@ -1,45 +1,45 @@
-"""A child who walks off: a seat at which nothing moves for a while is asked, then an AI drives on.
+"""Idle seats: a seat without input for a while is asked, then an AI takes over.
 
-Only time in which the match runs counts. The device keeps its claim: any button of it takes the seat back at once.
+Only running match time counts. The device keeps its claim: any button takes the seat back at once.
 """
 
 from collections.abc import Collection
 
 from pigaming_app.ui.input.events import Device
 
-REST = 15.0  # seconds with the stick at rest and no button down until the seat is asked
-ASK = 5.0  # seconds in which it may answer
+IDLE_LIMIT = 15.0  # seconds without any input until the seat is asked
+ANSWER_LIMIT = 5.0  # seconds to answer
 
 
 class IdleSeats:
-    """How long nothing has moved at each seat, and whose seats AIs hold."""
+    """Idle time of each seat, and the claims of devices that went idle."""
 
     def __init__(self) -> None:
-        self.rest: dict[int, float] = {}
-        self.away: dict[Device, int] = {}  # devices that have left their seats, and which
+        self.idle_for: dict[int, float] = {}
+        self.claims: dict[Device, int] = {}  # seat by idle device
 
-    def alive(self, seat: int) -> None:
-        """Something has moved at a seat."""
-        self.rest[seat] = 0.0
+    def touch(self, seat: int) -> None:
+        """Input at a seat."""
+        self.idle_for[seat] = 0.0
 
-    def asked(self) -> dict[int, float]:
-        """The seats that are asked, and how many seconds each has left."""
-        return {seat: REST + ASK - rest for seat, rest in self.rest.items() if rest >= REST}
+    def prompted(self) -> dict[int, float]:
+        """Remaining seconds of the seats being asked."""
+        return {seat: IDLE_LIMIT + ANSWER_LIMIT - idle for seat, idle in self.idle_for.items() if idle >= IDLE_LIMIT}
 
     def update(self, seconds: float, driven: Collection[int]) -> list[int]:
-        """Let time pass at the seats that people drive; those at which nobody has answered."""
-        self.rest = {seat: self.rest.get(seat, 0.0) + seconds for seat in driven}
-        return [seat for seat, rest in self.rest.items() if rest >= REST + ASK]
+        """Advance the seats in `driven`; returns those that did not answer."""
+        self.idle_for = {seat: self.idle_for.get(seat, 0.0) + seconds for seat in driven}
+        return [seat for seat, idle in self.idle_for.items() if idle >= IDLE_LIMIT + ANSWER_LIMIT]
 
     def leave(self, device: Device, seat: int) -> None:
-        """An AI drives on for a device."""
-        self.away[device] = seat
+        """An AI takes over for a device."""
+        self.claims[device] = seat
 
-    def settle(self, seat: int, device: Device | None) -> None:
-        """A seat has changed hands: all claims to it are void, and so is that of its new driver to another one."""
-        self.alive(seat)
-        self.away = {one: left for one, left in self.away.items() if left != seat and one != device}
+    def reassign(self, seat: int, device: Device | None) -> None:
+        """A seat has a new driver: drops all claims to it and the driver's claims to other seats."""
+        self.touch(seat)
+        self.claims = {claimant: left for claimant, left in self.claims.items() if left != seat and claimant != device}
 
     def forget(self, device: Device) -> None:
-        """A device was unplugged."""
-        self.away.pop(device, None)
+        """Drop the claim of an unplugged device."""
+        self.claims.pop(device, None)

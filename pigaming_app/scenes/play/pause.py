@@ -1,7 +1,7 @@
-"""The page over a match that stands still: who paused, and what now. The match is one dark picture behind it.
+"""The pause page over a halted match: its owner and a menu. The match is a dark picture behind it.
 
-Whoever paused chooses alone for a while (see `access`); a ring shows for how long. To restart or end the match takes a
-second press within a few seconds.
+The owner may act alone for a while (see `access`), shown by a ring. Restarting or ending the match takes a second
+press within a few seconds.
 """
 
 import math
@@ -42,9 +42,9 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 ITEMS = ("continue", "restart", "controls", "end")
 PITCH, ITEM_H = 74, 66
 ITEM_W = 620
-ASKED = ("restart", "end")  # items that have to be chosen twice
-SURE = 3.0  # seconds in which the second press counts
-WAITS = 2.0  # seconds for which somebody whose press did not count is told why
+NEED_CONFIRMATION = ("restart", "end")  # items that need a confirming press
+SURE = 3.0  # seconds for the confirming press
+EXPLAIN_SECONDS = 2.0  # seconds for which a rejected press is explained
 RING = X + W - 112, Y + 116
 
 
@@ -55,44 +55,44 @@ class PausedMatch(Protocol):
     devices: list[Device | None]
 
     def picture(self) -> pygame.Surface:
-        """The match as it lies behind a page."""
+        """The match as drawn behind a page."""
 
     def think_aloud(self) -> None:
-        """Show what the next AI thinks."""
+        """Show the thoughts of the next AI."""
 
     def restart(self) -> None:
-        """Begin anew."""
+        """Restart the match."""
 
     def stop(self) -> None:
         """End the match now."""
 
     @property
     def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
-        """What else the pause offers: by its name, a page for those whose presses count there."""
+        """Additional menu items: page factories by name, given the access of the pause."""
 
     @property
     def access(self) -> Access:
-        """Whose presses count in the match."""
+        """Access control of the match."""
 
     def welcome(self, event: InputEvent) -> bool:
-        """Give its seat back to a device that has walked off."""
+        """Return its seat to an idle device; true if done."""
 
     def hold(self, seconds: float) -> None:
-        """Let time pass under a page."""
+        """Advance by `seconds` while a page is open."""
 
     def shine(self, screen: pygame.Surface) -> None:
-        """Paint what no page may hide."""
+        """Draw overlays that must not be hidden by a page."""
 
 
 class Pause:
-    """A pause that `device` has asked for."""
+    """A pause requested by `device`."""
 
     def __init__(self, match: PausedMatch, device: Device) -> None:
         self.match, self.context = match, match.context
         self.player = match.devices.index(device) if device in match.devices else None
         self.access = PauseAccess(match.context, lambda: match.devices, device)
         self.picture: pygame.Surface | None = None
-        self.sure = self.waits = 0.0
+        self.sure = self.explain_left = 0.0
         self.focus = Focus(menu_spots((ITEMS[0], *match.extras, *ITEMS[1:])))
         hints = [
             (Button.FIRE, "pause.hint_ok"),
@@ -102,18 +102,17 @@ class Pause:
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
 
     def entered(self) -> None:
-        """Quiet."""
         self.context.sounds.music(False)
 
     def on(self, event: InputEvent) -> Turn:
-        """START and BACK go on; so does F4, or Y of a pad, with a look into an AI; FIRE takes what has the focus."""
+        """START, BACK and F4 (Y on a pad), which also shows an AI's thoughts, continue; FIRE activates the item."""
         event = self.prompts.as_button(event)
         if event.button is Button.Y:
             event = replace(event, button=Button.BRAIN)
         admitted = self.access.admit(event)
         acting = self.access.acting
         if admitted is None or (event.button is Button.BRAIN and acting and admitted.device not in acting):
-            self.waits = WAITS
+            self.explain_left = EXPLAIN_SECONDS
             return None
         event = admitted
         if event.button is Button.BRAIN:
@@ -124,23 +123,22 @@ class Pause:
             self.sure = 0.0
             self.context.sounds.play("move")
         chosen = self.focus.chosen(event)
-        if chosen in ASKED and self.sure <= 0.0:
+        if chosen in NEED_CONFIRMATION and self.sure <= 0.0:
             self.sure = SURE
             self.context.sounds.play("move")
             return None
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
-        """The focus moves, questions and the pause's ownership run out."""
+        """Animate the focus; expire the confirmation and the ownership."""
         self.match.hold(seconds)
         self.access.update(seconds)
         self.focus.update(seconds)
         self.sure -= seconds
-        self.waits -= seconds
+        self.explain_left -= seconds
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page, painted once, and the item in focus."""
         if self.picture is None:
             color = ICE if self.player is None else PLAYERS[self.player]
             self.picture = overlay(self.match.picture(), color, self._paint)
@@ -155,28 +153,26 @@ class Pause:
         else:
             word(self.context.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
         self._draw_owned(screen)
-        if self.waits > 0.0:
-            caption(self._why(), FOCUS).draw(screen, 960, PROMPTS)
+        if self.explain_left > 0.0:
+            caption(self._rejection(), FOCUS).draw(screen, 960, PROMPTS)
         else:
             self.prompts.draw(screen)
         self.match.shine(screen)
 
-    # ---- inside
-
     def _button(self) -> str:
-        """What is printed on the button that takes what has the focus."""
+        """The label of the button that activates the focused item."""
         return self.context.words.printed(self.context.controls.label(self.access.voice, Button.FIRE))
 
     def _draw_owned(self, screen: pygame.Surface) -> None:
-        """For how long the pause belongs to whoever asked for it."""
+        """The ring with the remaining seconds of ownership."""
         if not self.access.owned or len(self.access.seated) < 2:
             return
         image, dx, dy = timer_ring(FOCUS, math.ceil(12 * self.access.left / OWNED) * 4, 46, LINE)
         screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
         word(str(math.ceil(self.access.left)), LABEL, FOCUS, "head").draw(screen, *RING)
 
-    def _why(self) -> str:
-        """Why a press did not count."""
+    def _rejection(self) -> str:
+        """The reason for which a press was rejected."""
         if self.player is None or not self.access.owned:
             return self.context.words("pause.wait")
         return self.context.words("pause.wait_for", player=self.player + 1)
@@ -203,7 +199,7 @@ class Pause:
 
 
 def menu_spots(names: Sequence[str] = ITEMS) -> list[FocusSpot]:
-    """Where the items of a menu are."""
+    """The spots of the menu items."""
     pitch = min(PITCH, (FOOT - HEAD - 8) // len(names))
     high = pitch - PITCH + ITEM_H
     top = HEAD + (FOOT - HEAD - pitch * len(names)) // 2 + (pitch - high) // 2
@@ -213,9 +209,9 @@ def menu_spots(names: Sequence[str] = ITEMS) -> list[FocusSpot]:
 
 
 @cached
-def sure(said: str, label: str) -> LitImage:
-    """A question that a second press answers, round (0, 0); {button} in it is the button."""
-    before, _, after = said.partition("{button}")
+def sure(sentence: str, label: str) -> LitImage:
+    """A confirmation prompt centred on (0, 0); "{button}" in the text is replaced by the drawn button."""
+    before, _, after = sentence.partition("{button}")
     wide = button_width(label) + 36
     size = fit_size(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
     ends = [text_width(part.strip(), size) for part in (before, after)]
@@ -228,7 +224,7 @@ def sure(said: str, label: str) -> LitImage:
 
 
 def sheet_title(layer: Layer, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
-    """The head of a sheet: a badge, if it is about somebody, and one line that ends before `right`."""
+    """The head of a dialog: an optional badge and one line that ends before x = `right`."""
     x = X + 72
     if player is not None:
         badge(layer.glow, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)

@@ -1,4 +1,4 @@
-"""Two pages that hold a match up for a while: a pad is gone, or nobody is there. A ring says for how long."""
+"""Two pages that halt a match for a while: a pad was unplugged, or nobody responds. A ring shows the time left."""
 
 import math
 from typing import Protocol
@@ -16,38 +16,38 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
 
 WAIT = 15.0  # seconds
-DEAF = 1.0  # seconds in which presses are ignored: the others are still playing
+IGNORED = 1.0  # seconds in which presses are ignored: other players are still pressing buttons
 RING = X + 398, Y + 468
 PAD = X + 184, Y + 376
 TEXT_X, TEXT_W = X + 352, W - 352 - 56
 
 
 class OpenMatch(PausedMatch, Protocol):
-    """A match whose seats can change hands."""
+    """A match whose seats can be reassigned."""
 
     @property
     def lost(self) -> list[int]:
-        """Seats whose device is gone."""
+        """Seats whose device is unplugged."""
 
     def free(self, device: Device) -> bool:
-        """Nobody drives with this device."""
+        """True if this device drives no seat."""
 
     def hand(self, seat: int, device: Device | None) -> None:
-        """Give a seat to a device, or to an AI."""
+        """Assign a seat to a device, or to an AI."""
 
 
 class Reconnect:
-    """The device of `seat` is gone: a free one takes over with FIRE, or an AI does when the ring has run out."""
+    """The device of `seat` is unplugged: a free one takes over with FIRE, an AI after the timeout."""
 
     def __init__(self, match: OpenMatch, seat: int) -> None:
         self.match, self.context, self.seat = match, match.context, seat
-        self.age, self.found = 0.0, False
+        self.age, self.replugged = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
         hints = [(Button.X, "pause.hint_ai"), (Button.BACK, "pause.hint_menu")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
 
     def entered(self) -> None:
-        """Say that something is wrong."""
+        """Play the error sound."""
         self.context.sounds.music(False)
         self.context.sounds.play("error")
 
@@ -56,13 +56,13 @@ class Reconnect:
         event = self.prompts.as_button(event)
         admitted = self.match.access.admit(event)
         if event.button is Button.FOUND:
-            self.found = True
+            self.replugged = True
             self.context.sounds.play("move")
         elif event.button is Button.LOST:
-            self.found = False
+            self.replugged = False
         elif event.button in (Button.FIRE, Button.START) and self.match.free(event.device):
             return self._hand(event.device)
-        elif admitted is None or self.age < DEAF:
+        elif admitted is None or self.age < IGNORED:
             return None
         elif admitted.button is Button.X:
             return self._hand(None)
@@ -71,7 +71,7 @@ class Reconnect:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """The ring runs out."""
+        """Hand the seat to an AI after the timeout."""
         self.match.hold(seconds)
         self.age += seconds
         if held := self.match.access.update(seconds):
@@ -79,13 +79,14 @@ class Reconnect:
         return self._hand(None) if self.age >= WAIT else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page, the ring, the plug."""
-        if self.found not in self.pictures:
-            self.pictures[self.found] = overlay(self.match.picture(), PLAYERS[self.seat], self._paint, self.found)
-        screen.blit(self.pictures[self.found], (0, 0))
-        gap = 0 if self.found else round(4 + 4 * math.sin(self.age * math.tau / 1.4))
-        plug(MIST if not self.found else GREEN, self.found).draw(screen, PAD[0], PAD[1] - gap)
-        if not self.found and self.age % 1.4 < 0.7:
+        if self.replugged not in self.pictures:
+            self.pictures[self.replugged] = overlay(
+                self.match.picture(), PLAYERS[self.seat], self._paint, self.replugged
+            )
+        screen.blit(self.pictures[self.replugged], (0, 0))
+        gap = 0 if self.replugged else round(4 + 4 * math.sin(self.age * math.tau / 1.4))
+        plug(MIST if not self.replugged else GREEN, self.replugged).draw(screen, PAD[0], PAD[1] - gap)
+        if not self.replugged and self.age % 1.4 < 0.7:
             bolt().draw(screen, *PAD)
         ring(screen, WAIT - self.age, WAIT)
         self.prompts.draw(screen)
@@ -102,12 +103,12 @@ class Reconnect:
         icon(ink, "pad", x, y + 34, 100, PLAYERS[self.seat], LINE)
         ink.line([(x, y - 16), (x, y - 46)], PLAYERS[self.seat], LINE)
         ink.line([(x - 16, y - 46), (x + 16, y - 46)], PLAYERS[self.seat], LINE)
-        say(layer, words("pause.found" if self.found else "pause.how"), FOCUS if self.found else ICE)
+        say(layer, words("pause.found" if self.replugged else "pause.how"), FOCUS if self.replugged else ICE)
         after(layer, words("pause.then_ai"))
 
 
 class StillThere:
-    """Nobody has touched anything: any press goes on; when the ring has run out, back to the title."""
+    """No input for a while: any button continues, the timeout leads to the title."""
 
     def __init__(self, match: PausedMatch) -> None:
         self.match, self.context = match, match.context
@@ -116,24 +117,23 @@ class StillThere:
         self.prompts = self.context.prompts([(Button.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
 
     def entered(self) -> None:
-        """Ask."""
+        """Play the error sound."""
         self.context.sounds.music(False)
         self.context.sounds.play("error")
 
     def on(self, event: InputEvent) -> Turn:
-        """Whatever is pressed, the match goes on, and whoever has walked off has the seat back."""
+        """Any button continues; an idle device gets its seat back."""
         if event.button in (Button.LOST, Button.FOUND, Button.POINT):
             return None
         return Pop() if self.match.welcome(event) or self.match.access.admit(event) else None
 
     def update(self, seconds: float) -> Turn:
-        """The ring runs out."""
+        """Return to the title after the timeout."""
         self.match.hold(seconds)
         self.age += seconds
         return Home() if self.age >= WAIT else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page and the ring."""
         if self.picture is None:
             self.picture = overlay(self.match.picture(), FOCUS, self._paint)
         screen.blit(self.picture, (0, 0))
@@ -150,7 +150,7 @@ class StillThere:
 
 
 def say(layer: Layer, text: str, color: Color) -> None:
-    """What to do, in up to three lines beside the picture of a sheet."""
+    """Instructions in up to three lines, right of the dialog's picture."""
     lines = wrap(text, BODY, TEXT_W)
     top = HEAD + (54 if len(lines) > 2 else 80)
     for i, line in enumerate(lines):
@@ -158,13 +158,13 @@ def say(layer: Layer, text: str, color: Color) -> None:
 
 
 def after(layer: Layer, text: str) -> None:
-    """What happens when the ring has run out."""
+    """The consequence of the timeout, beside the ring."""
     room = TEXT_W - 120
     layer.canvas.body(text, X + 472, RING[1], MIST, "l", fit_size(text, BODY, room, "body"))
 
 
 def ring(screen: pygame.Surface, left: float, whole: float) -> None:
-    """The ring and the seconds in it."""
+    """Draw the ring and the seconds left."""
     image, dx, dy = timer_ring(FOCUS, max(0, min(48, math.ceil(48 * left / whole))), 46, LINE)
     empty().draw(screen, *RING)
     screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
@@ -173,7 +173,7 @@ def ring(screen: pygame.Surface, left: float, whole: float) -> None:
 
 @cached
 def empty() -> LitImage:
-    """The ground of a ring."""
+    """The empty ring."""
     layer = Layer(-50, -50, 100, 100)
     layer.canvas.crisp.ring(0, 0, 46, (34, 44, 64), LINE)
     return layer.done()
@@ -181,7 +181,7 @@ def empty() -> LitImage:
 
 @cached
 def plug(color: Color, joined: bool) -> LitImage:
-    """The end of a cable over the pad whose middle is (0, 0)."""
+    """A cable plug above the pad centred on (0, 0)."""
     layer = Layer(-40, -120, 80, 120)
     dy = 36 if joined else 0
     layer.glow.line([(-16, dy - 84), (16, dy - 84)], color, LINE).line([(0, dy - 84), (0, -112)], color, LINE)
@@ -190,7 +190,7 @@ def plug(color: Color, joined: bool) -> LitImage:
 
 @cached
 def bolt() -> LitImage:
-    """Two dashes where plug and pad should meet."""
+    """Two dashes between plug and pad."""
     layer = Layer(-60, -80, 120, 30)
     for side in (-1, 1):
         layer.glow.line([(26 * side, -65), (52 * side, -65)], FOCUS, LINE)

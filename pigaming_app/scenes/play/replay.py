@@ -1,4 +1,4 @@
-"""Watching a replay: pause, three speeds, from the start again, and who sits where."""
+"""Replay viewer: pause, three speeds, restart, and captions."""
 
 import pygame
 
@@ -14,27 +14,27 @@ from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
 
 SPEEDS = (1, 2, 4)
-SHOWN = 4.0  # seconds for which the hints stay after a press
-NOTICE, NOTICE_Y = 6.0, 990  # seconds of the match, px: of the notice that another engine recorded it
-LINE_Y, LINE_LEFT, LINE_RIGHT = 1060, 160, 1760  # of the time line, px
+HINTS_SECONDS = 4.0  # seconds for which the hints stay after an input
+NOTICE, NOTICE_Y = 6.0, 990  # seconds of the match for which the other-engine notice is shown, and its y in px
+LINE_Y, LINE_LEFT, LINE_RIGHT = 1060, 160, 1760  # px, of the timeline
 
 
 class ReplayScene:
-    """A replay on the screen."""
+    """The screen of a replay."""
 
     def __init__(self, context: Context, replay: Replay) -> None:
         self.context, self.replay = context, replay
         self.length = len(replay.ticks) // BYTES_PER_TICK * DT
-        self.speed, self.shown, self.playing = 0, SHOWN, True
+        self.speed, self.hints_left, self.playing = 0, HINTS_SECONDS, True
         self.runner, self.warm = MatchRunner(context, to_match(replay)), False
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        pass
 
     def on(self, event: InputEvent) -> Turn:
-        """FIRE holds and goes on, LEFT and RIGHT change the speed, X begins again, BACK leaves."""
+        """FIRE pauses and resumes, LEFT and RIGHT change the speed, X restarts, BACK leaves."""
         event = self.hints.as_button(event)
-        self.shown = SHOWN
+        self.hints_left = HINTS_SECONDS
         match event.button:
             case Button.FIRE | Button.START:
                 if self.ended:
@@ -54,8 +54,7 @@ class ReplayScene:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the match run as fast as it is wished."""
-        self.shown -= seconds
+        self.hints_left -= seconds
         self.warm = self.warm or self.runner.warm(4.0)
         if self.playing and not self.ended:
             self.runner.advance(seconds, SPEEDS[self.speed])
@@ -64,10 +63,10 @@ class ReplayScene:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The match; in the margins its time line, how fast it runs, and what can be pressed."""
+        """Draw the match; in the margins the timeline, the speed and the hints."""
         self.runner.draw(screen)
         words, seconds = self.context.words, self.runner.match.seconds
-        if seconds < SHOWN or not self.playing:
+        if seconds < HINTS_SECONDS or not self.playing:
             self.runner.captions(screen, [None] * len(self.replay.setup.seats))
         x = LINE_LEFT + (LINE_RIGHT - LINE_LEFT) * min(1.0, seconds / max(DT, self.length))
         pygame.draw.line(screen, STEEL, (LINE_LEFT, LINE_Y), (LINE_RIGHT, LINE_Y), 4)
@@ -75,22 +74,22 @@ class ReplayScene:
         pygame.draw.circle(screen, FOCUS, (x, LINE_Y), 9)
         if self.ended:
             caption(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
-        elif not self.playing or self.speed or seconds < SHOWN:
-            said = words("replay.title") if self.playing else words("replay.hint_pause")
-            side_note(said, f"{SPEEDS[self.speed]}×").draw(screen)
+        elif not self.playing or self.speed or seconds < HINTS_SECONDS:
+            label = words("replay.title") if self.playing else words("replay.hint_pause")
+            side_note(label, f"{SPEEDS[self.speed]}×").draw(screen)
         if self.replay.other_engine and seconds < NOTICE:
             caption(words("replay.other_engine"), FOCUS).draw(screen, 960, NOTICE_Y)
-        if self.shown > 0.0 or not self.playing or self.ended:
+        if self.hints_left > 0.0 or not self.playing or self.ended:
             self.hints.draw(screen)
 
     @property
     def hints(self) -> SideHints:
-        """The hints, where they hide nothing."""
+        """The hints, in the margin."""
         return SideHints(self.prompts)
 
     @property
     def prompts(self) -> ButtonPrompts:
-        """What the buttons do now; at the end there is nothing to hold and nothing to hurry."""
+        """The current button prompts; at the end there is no pause or speed."""
         hints = [(Button.FIRE, "replay.hint_again"), (Button.BACK, "replay.hint_back")]
         if not self.ended:
             fire = "replay.hint_pause" if self.playing else "replay.hint_play"
@@ -99,7 +98,7 @@ class ReplayScene:
 
     @property
     def ended(self) -> bool:
-        """Nothing more was recorded."""
+        """True at the end of the recording."""
         match = self.runner.match
         return match.over or match.seconds >= self.length
 

@@ -1,6 +1,6 @@
-"""A running match on the screen: real time goes in, ticks, pictures and sounds come out.
+"""Runs a match on the screen: real time in, ticks, pictures and sounds out.
 
-What a match, a demonstration and a replay have in common; who drives and what may be pressed is up to the scene.
+Shared by matches, demonstrations and replays; input and drivers belong to the scene.
 """
 
 from collections.abc import Sequence
@@ -21,84 +21,84 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import Caption, caption
 
-BEHIND = 72  # of 255: how bright a match is behind a page
-LAST = 10  # seconds before the end in which each second is heard
-BESIDE = 104  # px from a robot to what is said about it
+BEHIND = 72  # of 255: brightness of a match behind a page
+TICK_SOUNDS = 10  # seconds at the end with a tick sound each
+CAPTION_GAP = 104  # px from a robot to its caption
 
 
 class MatchRunner:
-    """A match and its view. `loud`: its sounds are heard."""
+    """A match and its view. `loud`: play its sounds."""
 
     def __init__(self, context: Context, match: Match, loud: bool = True) -> None:
         self.context, self.match, self.loud = context, match, loud
-        self.players = [seat.brain for seat in match.setup.seats]  # who drives; may be changed
+        self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
         kind = VIEWS[match.setup.game]
-        with self._making():
+        with self._tag_sprites():
             self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
         self.brain = BrainOverlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
-        self.unseen = 0.0  # seconds of real time since the last picture
-        self.second = LAST + 1
+        self.undrawn = 0.0  # seconds of real time since the last picture
+        self.second = TICK_SOUNDS + 1
 
     def warm(self, milliseconds: float) -> bool:
-        """Build sprites for so long; true when all are there."""
-        with self._making():
+        """Prewarm sprites for up to `milliseconds`; true when done."""
+        with self._tag_sprites():
             return bool(self.view.warm(milliseconds))
 
     def advance(self, seconds: float, speed: float = 1.0) -> None:
-        """Let the match run on for `seconds` of real time."""
-        self.unseen += seconds
+        """Advance the match by `seconds` of real time."""
+        self.undrawn += seconds
         for _ in range(self.timestep.due(seconds, speed)):
             if self.match.over:
                 break
             self.match.tick()
-            with self._making():
-                heard = self.view.watch(self.match.state)
-            for name, player, x in heard:
+            with self._tag_sprites():
+                sounds = self.view.watch(self.match.state)
+            for name, player, x in sounds:
                 if self.loud:
                     self.context.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
         self._count_down()
 
     def wait(self, seconds: float) -> None:
-        """Let real time pass in which the match stands still; its sparks and lights move on."""
-        self.unseen += seconds
+        """Advance only the effects of the view: the match is halted."""
+        self.undrawn += seconds
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the match, between its last two ticks."""
+        """Draw the match, interpolated between its last two ticks."""
         blend = 1.0 if self.match.over else self.timestep.blend
-        unseen, self.unseen = self.unseen, 0.0
-        with self._making():
-            self.view.draw(screen, self.match.state, blend, unseen)
-            self.brain.draw(screen, blend, unseen)
+        undrawn, self.undrawn = self.undrawn, 0.0
+        with self._tag_sprites():
+            self.view.draw(screen, self.match.state, blend, undrawn)
+            self.brain.draw(screen, blend, undrawn)
 
     def picture(self) -> pygame.Surface:
-        """The match as it stands, as dark as it lies behind a page."""
+        """The current match, darkened, as drawn behind a page."""
         canvas = pygame.Surface((1920, 1080))
         self.draw(canvas)
         canvas.fill((BEHIND, BEHIND, BEHIND), special_flags=pygame.BLEND_RGB_MULT)
         return canvas
 
     def robots(self) -> list[tuple[float, float]]:
-        """Where the robots stand on the canvas."""
+        """Positions of the robots on the canvas."""
         return [(LEFT + robot.x, TOP + robot.y) for robot in self.match.state.robots if robot.present]
 
     def captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
-        """Who drives with what, beside each robot."""
+        """Draw the driver's caption beside each robot."""
         for seat, robot in enumerate(self.match.state.robots):
             if robot.present:
                 name, sign = self.driver(seat, devices[seat])
                 self.beside(screen, seat, caption(name, PLAYERS[seat], sign=sign))
 
     def beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
-        """Paint something beside a robot, on the side where the arena has more room."""
+        """Draw a caption above or below a robot, where the arena has more room."""
         robot = self.match.state.robots[seat]
         margin = LEFT + 24 + sheet.width / 2
         x = min(max(LEFT + robot.x, margin), 1920 - margin)
-        beside = self.view.reach(seat, BESIDE)
-        sheet.draw(screen, x, TOP + robot.y + (beside if robot.y < HEIGHT / 2 else -beside))
+        offset = self.view.reach(seat, CAPTION_GAP)
+        sheet.draw(screen, x, TOP + robot.y + (offset if robot.y < HEIGHT / 2 else -offset))
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
-        """What drives a seat, in words, and the icon for it."""
+        """Name and icon of a seat's driver."""
         words = self.context.words
         if device and device.kind == "pad":
             return words(f"devices.{self.context.controls.name(device)}"), "pad"
@@ -111,12 +111,12 @@ class MatchRunner:
             return words("match.player", player=seat + 1), "pad"
         return (words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else brain.upper()), "ai"
 
-    def _making(self) -> AbstractContextManager[None]:
-        """Sprites that are made within are released once the game is over and the title is back."""
+    def _tag_sprites(self) -> AbstractContextManager[None]:
+        """Tag new sprites with the game, to release them when the title returns."""
         return surfaces.made_for(self.match.setup.game)
 
     def _count_down(self) -> None:
         second = int(self.match.seconds_left) + 1
-        if second < self.second and second <= LAST and not self.match.over and self.loud:
+        if second < self.second and second <= TICK_SOUNDS and not self.match.over and self.loud:
             self.context.sounds.play("tick")
         self.second = second

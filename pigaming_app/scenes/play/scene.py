@@ -1,8 +1,8 @@
-"""A match: three, two, one, go; people and AIs drive; time is up; the results.
+"""The match scene: countdown, driving, time up, results.
 
-Only here devices meet seats. A seat whose device is gone asks for it, and when nobody comes an AI drives on until
-somebody presses FIRE for it; so does a seat at which nothing moves (see `walkoff`). Any free device takes the seat of
-an AI by holding FIRE (see `access`).
+Devices are assigned to seats here only. A seat whose device is unplugged asks for a new one; without an answer an AI
+drives until somebody presses FIRE. The same happens at idle seats (see `idle_seats`). Any free device takes the seat
+of an AI by holding FIRE (see `access`).
 """
 
 import math
@@ -35,20 +35,20 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.caption import RING_STEPS, Caption, caption, hold_ring
 
-LEAD = 0.8  # seconds in which one looks round before the countdown
-RESUME = 0.5  # seconds for each number after an interruption
+LEAD = 0.8  # seconds before the countdown, to look round
+RESUME = 0.5  # seconds per number after an interruption
 FREEZE = 1.5  # seconds between the last tick and the results
-STILL = 60.0  # seconds without a hand on anything
-NOTICE = 3.0  # seconds for which a line over the match stays
-WARM = 7.0  # ms of a frame for sprites while nobody moves
-STAND_IN = "normal"  # the brain that drives on for somebody
+STILL = 60.0  # seconds without any input until the match is halted
+NOTICE = 3.0  # seconds for which a notice is shown
+WARM = 7.0  # ms per frame for prewarming while motion is locked
+STAND_IN = "normal"  # the brain that takes over for a person
 
 
 class MatchScene:
-    """One match, from its countdown to its results. `devices`: who drives each seat; None: an AI, or nobody yet.
+    """One match, from its countdown to its results. `devices`: the device of each seat; None: an AI, or nobody yet.
 
-    `humans`: the seats of people, of whom some may be away; `helped`: those for whom an AI has driven for a while;
-    `open`: whether a free device may take the seat of an AI. `game_choice`: see `Results`.
+    `humans`: seats of people, present or away; `helped`: those for whom an AI has driven for a while; `open`: true if a
+    free device may take the seat of an AI. `game_choice`: see `Results`.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class MatchScene:
         self.spot = CENTRE
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.warm = self.stopped = self.repeated = False
-        self.idle = self.frozen = self.noticed = 0.0
+        self.idle = self.frozen = self.notice_left = 0.0
         self.notice: Caption | None = None
         self.results: Results | None = None
         self.access = Access(context, lambda: self.devices)
@@ -82,10 +82,10 @@ class MatchScene:
         if self.humans:
             self.runner.view.for_real(folders().data)
 
-    # ---- what happens to it
+    # ---- lifecycle
 
     def entered(self) -> None:
-        """Begin, or go on after an interruption."""
+        """Start, or resume after an interruption."""
         self.context.sounds.music(True)
         self.context.controls.forget_taps()
         self.joining.clear()
@@ -95,7 +95,7 @@ class MatchScene:
         self.idle = 0.0
 
     def on(self, event: InputEvent) -> Turn:
-        """START or Escape of a seated device pauses; a free one takes a seat that an AI holds."""
+        """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
         if self.match.over:
             return None
         if event.button is Button.LOST:
@@ -104,12 +104,12 @@ class MatchScene:
             return None
         admitted = self.access.admit(event)
         if event.button is Button.FIRE and self.free(event.device):
-            self._knock(event)
+            self._request_seat(event)
         if admitted is None:
             return None
         self.idle = 0.0
         if admitted.device in self.devices:
-            self.idle_seats.alive(self.devices.index(admitted.device))
+            self.idle_seats.touch(self.devices.index(admitted.device))
         if event.button is Button.BRAIN:
             self.think_aloud()
         if event.button is Button.START or (event.button is Button.BACK and self._escapes(admitted.device)):
@@ -117,8 +117,7 @@ class MatchScene:
         return None
 
     def update(self, seconds: float) -> Turn:
-        """Let the match run on."""
-        self.noticed -= seconds
+        self.notice_left -= seconds
         if self.repeated:
             return Swap(self.again(self.context, self.setup, self.devices))
         if self.match.over or self.stopped:
@@ -138,14 +137,14 @@ class MatchScene:
             self.runner.wait(seconds)
             return None
         self.idle += seconds
-        self._miss(seconds)
+        self._replace_idle(seconds)
         self.runner.advance(seconds, self.speed)
         if self.humans and self.idle > STILL:
             return Push(StillThere(self))
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The arena, and over it what has to be said."""
+        """Draw the arena, and the countdown, captions and notices over it."""
         self.runner.draw(screen)
         words = self.context.words
         if self.match.over and not self.stopped:
@@ -159,26 +158,26 @@ class MatchScene:
                 self.runner.captions(screen, self.devices)
                 self.spot = clear_of(self.runner.robots())
             self.count.draw(screen, words("match.go"), self.spot)
-        for seat, left in self.idle_seats.asked().items():
-            said = words("match.still", seconds=max(1, math.ceil(left)))
-            self.runner.beside(screen, seat, caption(said, PLAYERS[seat], player=seat))
+        for seat, left in self.idle_seats.prompted().items():
+            sentence = words("match.still", seconds=max(1, math.ceil(left)))
+            self.runner.beside(screen, seat, caption(sentence, PLAYERS[seat], player=seat))
         self._draw_joining(screen)
-        if self.notice and self.noticed > 0.0:
+        if self.notice and self.notice_left > 0.0:
             self.notice.draw(screen, 960, 206)
 
     def _draw_laps(self, screen: pygame.Surface) -> None:
-        """How many laps the race has, in the place of its clock, which stands still."""
+        """Show the number of laps in place of the stopped clock."""
         box = self.runner.view.clock
         screen.fill("black", box)
         lines = wrap(tagline(self.context.words, "race", self.match.setup.goal), LABEL, box.w, "head")
         for i, line in enumerate(lines):
             text(line, LABEL, FOCUS, "head", room=box.w).draw(screen, box.centerx, 80 + 58 * i - 29 * (len(lines) - 1))
 
-    # ---- what the pages above it may do
+    # ---- interface for the pages above
 
     @property
     def lost(self) -> list[int]:
-        """Seats whose device is gone and for whom nobody drives."""
+        """Seats whose device is unplugged and that have no driver."""
         gone = [(i, device) for i, device in enumerate(self.devices) if device]
         return [i for i, device in gone if not self.context.controls.connected(device)]
 
@@ -188,69 +187,69 @@ class MatchScene:
         return [i for i in self.humans if self.devices[i] is None]
 
     def free(self, device: Device) -> bool:
-        """Nobody drives with this device."""
+        """True if this device drives no seat."""
         return device.kind != "mouse" and device not in self.devices
 
     def hand(self, seat: int, device: Device | None) -> None:
-        """Give a seat to a device, or to an AI that drives until somebody comes."""
+        """Assign a seat to a device, or to an AI until somebody takes it."""
         self._sit(seat, device)
-        self.idle_seats.settle(seat, device)
+        self.idle_seats.reassign(seat, device)
         name, sign = self.runner.driver(seat, device)
         name = name if device else self.context.words("match.back_in")
-        self.notice, self.noticed = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
+        self.notice, self.notice_left = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.context.sounds.play("join", seat)
 
     def welcome(self, event: InputEvent) -> bool:
-        """Give its seat back to a device that has walked off and now presses something; true if it did."""
-        if event.device not in self.idle_seats.away or event.button in (Button.STOP, Button.BRAIN):
+        """Return its seat to an idle device on any press; true if done."""
+        if event.device not in self.idle_seats.claims or event.button in (Button.STOP, Button.BRAIN):
             return False
         self.idle = 0.0
-        self.hand(self.idle_seats.away[event.device], event.device)
+        self.hand(self.idle_seats.claims[event.device], event.device)
         return True
 
     def think_aloud(self) -> None:
-        """Show what the next AI thinks, after the last one none; if there is no AI, say so."""
+        """Show the thoughts of the next AI, after the last none; show a notice if there is no AI."""
         if not self.runner.brain.seats:
-            self.notice, self.noticed = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
+            self.notice, self.notice_left = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
         self.runner.brain.next()
 
     def picture(self) -> pygame.Surface:
-        """The match as it lies behind a page."""
+        """The match as drawn behind a page."""
         return self.runner.picture()
 
     def stop(self) -> None:
-        """End the match now; the results are what they are."""
+        """End the match now, with the current score."""
         self.stopped = True
 
     def restart(self) -> None:
-        """Begin anew, with another seed."""
+        """Restart with another seed."""
         self.repeated = True
 
     def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
-        """The same match with other luck."""
+        """The same match with another seed."""
         return MatchScene(context, rematch_setup(setup, devices), devices, game_choice=self.game_choice)
 
     @property
     def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
-        """What else the pause offers: by its name, a page for those whose presses count there."""
+        """Additional pause items: page factories by name, given the access of the pause."""
         return {}
 
     @property
     def stuck(self) -> bool:
-        """Whether it waits for something that may never come."""
+        """True if the match waits for an event that may never come."""
         return False
 
     def hold(self, seconds: float) -> None:
-        """Let time pass under a page."""
+        """Advance by `seconds` while a page is open."""
 
     def shine(self, screen: pygame.Surface) -> None:
-        """Paint what no page may hide."""
+        """Draw overlays that must not be hidden by a page."""
 
-    # ---- inside
+    # ---- internals
 
     @property
     def takeable(self) -> list[int]:
-        """The seats that AIs drive, in the order in which a free device gets them: first those of absent people."""
+        """Seats driven by AIs, in the order of assignment to free devices: those of absent people first."""
         if not self.open:
             return self.stood_in
         robots = self.match.state.robots
@@ -258,17 +257,17 @@ class MatchScene:
         return [*self.stood_in, *reversed(ais)]
 
     def _escapes(self, device: Device) -> bool:
-        """Whether BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
+        """True if BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
         return device.kind != "pad" or not self.access.seated
 
-    def _knock(self, event: InputEvent) -> None:
-        """FIRE on a free device: a seat that nobody has a claim to is taken at once, any other one after a while."""
-        claimed = self.idle_seats.away.values()
+    def _request_seat(self, event: InputEvent) -> None:
+        """FIRE on a free device: take an unclaimed seat at once, any other after holding."""
+        claimed = self.idle_seats.claims.values()
         if vacant := [seat for seat in self.stood_in if seat not in claimed]:
             self.hand(vacant[0], event.device)
         elif self.takeable:
             self.joining.begin(event)
-            self.notice, self.noticed = caption(self.context.words("match.hold"), sign="ai"), NOTICE
+            self.notice, self.notice_left = caption(self.context.words("match.hold"), sign="ai"), NOTICE
 
     def _join(self, device: Device) -> None:
         """Give a device the seat of an AI."""
@@ -281,18 +280,18 @@ class MatchScene:
             self.hand(seat, device)
 
     def _draw_joining(self, screen: pygame.Surface) -> None:
-        """A ring that fills beside each robot that is about to be taken."""
+        """A filling ring beside each robot that is about to be taken."""
         for (device, share), seat in zip(self.joining.shares.items(), self.takeable, strict=False):
             if self.free(device):
                 self.runner.beside(screen, seat, hold_ring(seat, math.ceil(share * RING_STEPS)))
 
-    def _miss(self, seconds: float) -> None:
-        """Let an AI drive on for everybody who has walked off."""
+    def _replace_idle(self, seconds: float) -> None:
+        """Replace people at idle seats by AIs."""
         controls = self.context.controls
         driven = {seat: device for seat in self.humans if (device := self.devices[seat])}
         for seat, device in driven.items():
             if controls.touched(device):
-                self.idle_seats.alive(seat)
+                self.idle_seats.touch(seat)
         for seat in self.idle_seats.update(seconds, driven):
             self.hand(seat, None)
             self.idle_seats.leave(driven[seat], seat)
@@ -301,20 +300,20 @@ class MatchScene:
         self.devices[seat] = device
         if device is None:
             self.helped.add(seat)
-        brain = HumanPlayer(lambda: self._held(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        brain = HumanPlayer(lambda: self._read(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else STAND_IN
 
-    def _held(self, seat: int, device: Device) -> StickState:
-        """How a device is held on the tick that acts on it."""
+    def _read(self, seat: int, device: Device) -> StickState:
+        """The state of a device for this tick."""
         drive = self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
-            self.idle_seats.alive(seat)
+            self.idle_seats.touch(seat)
         return drive
 
     def _end(self, seconds: float) -> Turn:
-        """The last picture stands while the results are made."""
+        """Build the results while the last picture stays on the screen."""
         if self.results is None:
             finished = self.match.over and not self.stopped
             helped = self.helped if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
@@ -339,12 +338,12 @@ class MatchScene:
 
 
 def rematch_setup(setup: Setup, devices: Sequence[Device | None]) -> Setup:
-    """The same match with other luck, and people on all seats that now have a device."""
+    """The same match with another seed; seats with a device become human."""
     drivers = [*devices, None, None, None, None]
     one, two, three, four = (replace(seat, brain="human") if drivers[i] else seat for i, seat in enumerate(setup.seats))
     return replace(setup, seats=(one, two, three, four), seed=new_seed())
 
 
 def new_seed() -> int:
-    """A seed that nobody can foresee."""
+    """An unpredictable seed."""
     return secrets.randbelow(2**31 - 1) + 1

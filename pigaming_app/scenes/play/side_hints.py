@@ -1,4 +1,4 @@
-"""Hints in the margins beside an arena, one below the other, where they hide nothing of a match."""
+"""Hints in the margins beside the arena, stacked, so that they cover no part of a match."""
 
 from dataclasses import replace
 
@@ -14,10 +14,10 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 
 ROOM = 136  # px of the 160 px between the arena and the edge of the picture
-X = LEFT + WIDTH + (1920 - LEFT - WIDTH) // 2  # middle of the right margin; that of the left one is 1920 - X
-TOP, LINE, APART = 170, 50, 44  # px: of the column; from line to line and from hint to hint, before they are shrunk
-LONGEST = 230  # px of a line, before it is shrunk
-LARGEST = 0.8  # of the size that hints have elsewhere
+X = LEFT + WIDTH + (1920 - LEFT - WIDTH) // 2  # middle of the right margin; the left one is at 1920 - X
+TOP, LINE, GAP = 170, 50, 44  # px, before scaling: top of the column, line pitch, gap between hints
+MAX_LINE = 230  # px, length of a line before scaling
+MAX_SCALE = 0.8  # maximum scale, relative to hints elsewhere
 
 
 class SideHints:
@@ -27,54 +27,53 @@ class SideHints:
         self.prompts = prompts
 
     def as_button(self, event: InputEvent) -> InputEvent:
-        """A click on one of the hints as the press that it stands for; any other press as it is."""
+        """A click on a hint as a press of its button; any other event unchanged."""
         if event.button is not Button.CLICK or event.at is None:
             return event
-        for act, box in zip(self.prompts.buttons, boxes(self.prompts.said), strict=True):
+        for hint_button, box in zip(self.prompts.buttons, boxes(self.prompts.said), strict=True):
             if box.collidepoint(event.at):
-                return replace(event, button=act)
+                return replace(event, button=hint_button)
         return event
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Add the column to the screen."""
         column(self.prompts.said).draw(screen)
 
 
-def boxes(said: tuple[tuple[str, str], ...]) -> list[pygame.Rect]:
-    """Where each hint stands."""
-    k, y, found = shrunk(said), float(TOP), []
-    for _, text in said:
-        high = k * (60 + LINE * len(wrap(text, BODY, LONGEST)))
-        found.append(pygame.Rect(X - ROOM // 2, round(y), ROOM, round(high)))
-        y += high + k * APART
-    return found
+def boxes(prompts: tuple[tuple[str, str], ...]) -> list[pygame.Rect]:
+    """The rectangle of each hint."""
+    k, y, rects = scale_to_fit(prompts), float(TOP), []
+    for _, text in prompts:
+        high = k * (60 + LINE * len(wrap(text, BODY, MAX_LINE)))
+        rects.append(pygame.Rect(X - ROOM // 2, round(y), ROOM, round(high)))
+        y += high + k * GAP
+    return rects
 
 
-def shrunk(said: tuple[tuple[str, str], ...]) -> float:
-    """How much smaller hints are drawn here so that the widest fits."""
-    lines = [text_width(line, BODY, "body") for _, text in said for line in wrap(text, BODY, LONGEST)]
-    return min(LARGEST, ROOM / max(*lines, *(button_width(label) for label, _ in said)))
+def scale_to_fit(prompts: tuple[tuple[str, str], ...]) -> float:
+    """The scale at which the widest hint fits."""
+    lines = [text_width(line, BODY, "body") for _, text in prompts for line in wrap(text, BODY, MAX_LINE)]
+    return min(MAX_SCALE, ROOM / max(*lines, *(button_width(label) for label, _ in prompts)))
 
 
 @cached
-def column(said: tuple[tuple[str, str], ...]) -> LitImage:
-    """Each button over its text."""
-    k, places = shrunk(said), boxes(said)
+def column(prompts: tuple[tuple[str, str], ...]) -> LitImage:
+    """The rendered column: each button above its text."""
+    k, places = scale_to_fit(prompts), boxes(prompts)
     layer = Layer(X - ROOM / 2, TOP, ROOM, places[-1].bottom - TOP)
-    for (label, text), box in zip(said, places, strict=True):
+    for (label, text), box in zip(prompts, places, strict=True):
         for ink in (layer.canvas.glow, layer.canvas.soft, layer.canvas.crisp):
             ink.to(box.centerx - layer.at[0], box.top - layer.at[1], 0.0, k)
         button(layer.canvas, -button_width(label) / 2, 30, label)
-        for i, line in enumerate(wrap(text, BODY, LONGEST)):
+        for i, line in enumerate(wrap(text, BODY, MAX_LINE)):
             layer.canvas.body(line, 0, 60 + LINE * (i + 0.5), MIST, "c")
     return layer.done()
 
 
 @cached
-def side_note(said: str, figure: str) -> LitImage:
-    """A word over a figure, in the left margin."""
-    size = min(BODY, round(BODY * ROOM / text_width(said, BODY)))
+def side_note(label: str, figure: str) -> LitImage:
+    """A word above a number, in the left margin."""
+    size = min(BODY, round(BODY * ROOM / text_width(label, BODY)))
     layer = Layer(1920 - X - ROOM / 2, TOP, ROOM, 140)
-    layer.canvas.text(said, size, 1920 - X, TOP + 24, ICE, "head", "c")
+    layer.canvas.text(label, size, 1920 - X, TOP + 24, ICE, "head", "c")
     layer.canvas.text(figure, LABEL, 1920 - X, TOP + 84, FOCUS, "head", "c")
     return layer.done()

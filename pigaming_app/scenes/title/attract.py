@@ -1,5 +1,4 @@
-"""Attract mode: for one game after the other an AI match, how to play, the best scores. Any input ends it, and does
-nothing else."""
+"""Attract mode: an AI match, the lesson and the high scores of each game in turn. Any input only ends it."""
 
 import secrets
 from collections.abc import Callable
@@ -22,15 +21,15 @@ from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 
-MINUTES = 1.0  # of a match
-AFTER = 2.5  # seconds for which its end is shown
-PAGE = 12.0  # seconds for a page
-PROMPT_Y, PAGE_PROMPT_Y = 984, 1020  # px; a page's own row ends above
+MINUTES = 1.0  # length of a match
+END_SECONDS = 2.5  # seconds for which the end of a match is shown
+PAGE = 12.0  # seconds per page
+PROMPT_Y, PAGE_PROMPT_Y = 984, 1020  # px; above PAGE_PROMPT_Y lies a page's own row
 LEVELS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """Three shows for each game, round and round, from a random game on; opened over the title when nobody is there."""
+    """Three shows per game, cyclically, from a random game; pushed over the title when idle."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -45,25 +44,25 @@ class Attract:
         self._next()
 
     def entered(self) -> None:
-        """Quiet: nobody is listening."""
+        """Stop the music."""
         self.context.sounds.music(False)
 
     def on(self, event: InputEvent) -> Turn:
-        """Whatever is pressed, back to the title, where it counts for nothing; F4 shows what the AIs think."""
+        """Any input returns to the title without further effect; F4 shows the thoughts of the AIs."""
         if event.button is Button.BRAIN and isinstance(self.show, DemoMatch):
             self.show.runner.brain.next()
             return None
         return None if event.button is Button.LOST else Home()
 
     def update(self, seconds: float) -> Turn:
-        """Let the show go on, or begin the next one."""
+        """Advance the show, or start the next one."""
         self.age += seconds
         if self.show is None or self.show.update(seconds) is not None:
             self._next()
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The show, and what to press."""
+        """Draw the show and the prompt."""
         if self.show:
             self.show.draw(screen)
         level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
@@ -86,16 +85,16 @@ class Attract:
         return TimedPage(page, page.draw)
 
     def _best(self, game: str) -> Scene | None:
-        """Tables of the game in which somebody has scored."""
-        there = [one for one in contests(self.context.scores) if one.game == game]
-        if not there:
+        """High scores of the game; None if there are none."""
+        tables = [table for table in contests(self.context.scores) if table.game == game]
+        if not tables:
             return None
-        best = HighScores(self.context, secrets.choice(there))
+        best = HighScores(self.context, secrets.choice(tables))
         return TimedPage(best, best.paint)
 
 
 class DemoMatch:
-    """AIs play for a minute."""
+    """An AI match of one minute."""
 
     def __init__(self, context: Context, game: str) -> None:
         rules = games()[game]
@@ -108,42 +107,39 @@ class DemoMatch:
         self.over = 0.0
 
     def entered(self) -> None:
-        """Nothing to begin."""
+        pass
 
     def on(self, event: InputEvent) -> Turn:
-        """Nobody is asked."""
+        return None
 
     def update(self, seconds: float) -> Turn:
-        """Play; then stand for a moment."""
+        """Play; end a moment after the match."""
         self.warm = self.warm or self.runner.warm(3.0)
         self.runner.advance(seconds)
         self.over += seconds * self.runner.match.over
-        return Home() if self.over > AFTER else None
+        return Home() if self.over > END_SECONDS else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The match."""
         self.runner.draw(screen)
 
 
 class TimedPage:
-    """A page that is only looked at."""
+    """A page shown for a limited time."""
 
     def __init__(self, page: Scene, paint: Callable[[pygame.Surface], None]) -> None:
         self.page, self.paint, self.age = page, paint, 0.0
 
     def entered(self) -> None:
-        """Begin it."""
         self.page.entered()
 
     def on(self, event: InputEvent) -> Turn:
-        """Nobody is asked."""
+        return None
 
     def update(self, seconds: float) -> Turn:
-        """Stay a while."""
+        """End after PAGE seconds."""
         self.age += seconds
         self.page.update(seconds)
         return Home() if self.age > PAGE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """The page, as `paint` shows it."""
         self.paint(screen)

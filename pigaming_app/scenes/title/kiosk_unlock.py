@@ -1,7 +1,7 @@
-"""How an operator comes to the operator's page of a kiosk: by holding what no child holds for so long.
+"""The hidden combination that opens a kiosk's operator page, unlikely to be held by a child.
 
-On the title, one device is held straight ahead with its turbo button down (a shoulder button of a pad; a cluster's
-turbo key), and without fire, for five seconds. Nothing on the screen tells of it.
+On the title, one device is held straight ahead with its turbo button (a shoulder button of a pad; a cluster's turbo
+key) and without fire for five seconds. Nothing on the screen mentions it.
 """
 
 from pigaming_app.scenes.flow.context import Context
@@ -13,20 +13,20 @@ AHEAD = 0.9
 
 
 class KioskUnlock:
-    """Watches every device; outside a kiosk it never opens anything."""
+    """Watches all devices; inactive outside a kiosk."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
-        self.since = 0.0
+        self.held_for = 0.0
 
-    def held(self, seconds: float) -> bool:
-        """Let time pass; true at the moment in which the combination has been held long enough."""
+    def unlocked(self, seconds: float) -> bool:
+        """Advance by `seconds`; true at the moment the combination has been held long enough."""
         if not self.context.kiosk:
             return False
-        self.since = self.since + seconds if any(map(self._holds, self._devices())) else 0.0
-        if self.since < HOLD:
+        self.held_for = self.held_for + seconds if any(map(self._holds, self._devices())) else 0.0
+        if self.held_for < HOLD:
             return False
-        self.since = 0.0
+        self.held_for = 0.0
         return True
 
     def _devices(self) -> list[Device]:

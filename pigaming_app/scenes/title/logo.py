@@ -1,4 +1,4 @@
-"""What the title is drawn of: the name in tubes of light, four robots that draw its underline, a picture of a game."""
+"""Drawing of the title: the name in neon tubes, and the paths of the four robots that underline it."""
 
 from pigaming_app.ui.draw import (
     FOCUS,
@@ -8,7 +8,7 @@ from pigaming_app.ui.draw import (
     Point,
 )
 
-LETTERS: dict[str, tuple[float, list[list[Point]]]] = {  # width, strokes on a grid four wide and six high
+LETTERS: dict[str, tuple[float, list[list[Point]]]] = {  # width, strokes on a grid of 4 x 6
     "P": (4, [[(0, 6), (0, 0), (3, 0), (4, 1), (4, 2.6), (3, 3.6), (0, 3.6)]]),
     "i": (0, [[(0, 2.1), (0, 6)]]),
     "G": (4, [[(4, 1), (3, 0), (1, 0), (0, 1), (0, 5), (1, 6), (3, 6), (4, 5), (4, 3.2), (2.2, 3.2)]]),
@@ -21,7 +21,7 @@ ENDS = ((1716, 100), (1640, 172), (1764, 244), (1590, 316))  # of the four trail
 
 
 def logo(ink: GlowCanvas, x: float, y: float, u: float) -> GlowCanvas:
-    """PiGAMING in tubes, its i without a dot. (x, y): the P's upper left, u: a sixth of the height, px."""
+    """PiGAMING in neon tubes, its i without a dot. (x, y): upper left of the P; u: a sixth of the height, px."""
     strokes: list[tuple[list[Point], Color]] = []
     at = x
     for i, letter in enumerate("PiGAMING"):
@@ -38,11 +38,11 @@ def logo(ink: GlowCanvas, x: float, y: float, u: float) -> GlowCanvas:
 
 
 def trail_path(player: int, y: float = 312) -> list[Point]:
-    """The way of a robot that draws its part of the underline: in from the left, up, and off to the right; px."""
+    """The path of a robot that draws its part of the underline: in from the left, up, off to the right; px."""
     (x1, y1), y0, x0 = ENDS[player], y + 16 * player, 1388 + 7 * player
     return [(-80, y0), (x0, y0), (x0 + y0 - y1, y1), (x1, y1), (2000, y1)]
 
 
 def dot_of(x: float, y: float, u: float) -> Point:
-    """Where the robot is that dots the i of the logo."""
+    """Position of the robot that dots the i."""
     return x + (LETTERS["P"][0] + 1.9) * u, y + 0.3 * u

@@ -1,4 +1,4 @@
-"""The robots of the title: each drives in, draws a line under the name, looks about, drives off, and comes again."""
+"""The title's parade: each robot drives in, underlines the name, looks round, drives off, and repeats."""
 
 import math
 from itertools import pairwise
@@ -15,34 +15,34 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
 
 COMING, STAYING, LEAVING = 1.9, 16.0, 1.3  # seconds
-APART = 0.22  # seconds between one robot and the next
-SPARK_EVERY, SPARK_SPEED = 4.0, 1500.0  # seconds, px/s: light that runs along the lines
-LOOKS = (0.0, -0.45, 0.0, 0.5, 0.15, -0.3)  # rad, where a waiting robot looks, one after the other
+STAGGER = 0.22  # seconds between successive robots
+SPARK_EVERY, SPARK_SPEED = 4.0, 1500.0  # seconds, px/s: period and speed of the sparks along the lines
+LOOK_ANGLES = (0.0, -0.45, 0.0, 0.5, 0.15, -0.3)  # rad, headings of a waiting robot in turn
 LOOK_EVERY, LOOK_TURN = 1.7, 0.3  # seconds
-FAR = 2080.0  # px along x: out of sight
+FAR = 2080.0  # px along x: off screen
 
 
 def parade(screen: pygame.Surface, seconds: float) -> None:
-    """Paint lines and robots as they are so long after the title has come."""
+    """Draw lines and robots, `seconds` after the title appeared."""
     for player in range(4):
-        own = seconds - APART * player
-        head, tail = _reach(own, player)
+        age = seconds - STAGGER * player
+        head, tail = _reach(age, player)
         if head > tail:
             lit = line(player)
             left = max(0, round(tail) - lit.at[0])
             area = (left, 0, round(head) - lit.at[0] - left, lit.image.get_height())
             screen.blit(lit.image, (lit.at[0] + left, lit.at[1]), area, special_flags=ADD)
-            _spark(screen, player, own, tail, head)
+            _spark(screen, player, age, tail, head)
     for player in range(4):
-        own = seconds - APART * player
-        head, _ = _reach(own, player)
+        age = seconds - STAGGER * player
+        head, _ = _reach(age, player)
         if head < FAR:
             x, y, heading = _at(player, head)
-            blit_sprite(screen, tank(player, step(heading + _look(own, player), HEADINGS)), x, y)
+            blit_sprite(screen, tank(player, step(heading + _look(age, player), HEADINGS)), x, y)
 
 
 def dot_robot(seconds: float, scale: float) -> Sprite:
-    """The robot that dots the i, looking about."""
+    """The robot that dots the i, looking round."""
     return _dot_robot(step(-0.5 + 1.3 * _look(seconds + 0.6, 2), HEADINGS), scale)
 
 
@@ -54,7 +54,7 @@ def _dot_robot(turn: int, scale: float) -> Sprite:
 @cached
 @resumable
 def line(player: int) -> Steps[LitImage]:
-    """The whole line that a robot draws."""
+    """The complete line of a robot."""
     path = trail_path(player)
     ys = [y for _, y in path]
     layer = Layer(0, min(ys), 1920, max(ys) - min(ys))
@@ -71,23 +71,23 @@ def _light(player: int) -> LitImage:
     return LitImage(ink.disc(64, 32, 5, WHITE).lit(1.2), (-64, -32))
 
 
-def _reach(own: float, player: int) -> tuple[float, float]:
-    """How far the robot and the end of its line have come along x, px."""
+def _reach(age: float, player: int) -> tuple[float, float]:
+    """x of a robot and of the tail of its line, px."""
     stop = trail_path(player)[3][0]
-    if own < 0.0:
+    if age < 0.0:
         return -80.0, -80.0
-    own %= COMING + STAYING + LEAVING + 0.7
-    if own < COMING:
-        return -80.0 + (stop + 80.0) * (1.0 - (1.0 - own / COMING) ** 2.2), -80.0
-    own -= COMING + STAYING
-    if own < 0.0:
+    age %= COMING + STAYING + LEAVING + 0.7
+    if age < COMING:
+        return -80.0 + (stop + 80.0) * (1.0 - (1.0 - age / COMING) ** 2.2), -80.0
+    age -= COMING + STAYING
+    if age < 0.0:
         return stop, -80.0
-    gone = own / LEAVING
+    gone = age / LEAVING
     return min(FAR, stop + (FAR - stop) * gone**2 * 1.6), -80.0 + (FAR + 80.0) * min(1.0, gone) ** 1.5
 
 
 def _at(player: int, x: float) -> tuple[float, float, float]:
-    """Place and heading on the line, x px from the left."""
+    """Position and heading on the path at x px."""
     path = trail_path(player)
     for (ax, ay), (bx, by) in pairwise(path):
         if x <= bx:
@@ -96,7 +96,7 @@ def _at(player: int, x: float) -> tuple[float, float, float]:
 
 
 def _bend(path: list[Point], x: float) -> float:
-    """The heading near a corner turns within 40 px of it."""
+    """The heading, smoothed within 40 px of a corner."""
     return -math.pi / 4 * (_ramp(x - path[1][0]) - _ramp(x - path[2][0]))
 
 
@@ -104,21 +104,21 @@ def _ramp(x: float) -> float:
     return max(0.0, min(1.0, 0.5 + x / 80.0))
 
 
-def _look(own: float, player: int) -> float:
-    """How far a waiting robot has turned away; 0 while it drives."""
-    waiting = own % (COMING + STAYING + LEAVING + 0.7) - COMING
-    if not 0.0 < waiting < STAYING or own < 0.0:
+def _look(age: float, player: int) -> float:
+    """Rotation of a waiting robot, rad; 0 while it drives."""
+    waiting = age % (COMING + STAYING + LEAVING + 0.7) - COMING
+    if not 0.0 < waiting < STAYING or age < 0.0:
         return 0.0
     turns, into = divmod(min(waiting, STAYING - LOOK_EVERY * 0.6) + 0.4 * player, LOOK_EVERY)
     ends = waiting > STAYING - LOOK_EVERY
-    now = LOOKS[(int(turns) * (player + 1)) % len(LOOKS)]
-    then = 0.0 if ends else LOOKS[((int(turns) + 1) * (player + 1)) % len(LOOKS)]
+    now = LOOK_ANGLES[(int(turns) * (player + 1)) % len(LOOK_ANGLES)]
+    then = 0.0 if ends else LOOK_ANGLES[((int(turns) + 1) * (player + 1)) % len(LOOK_ANGLES)]
     share = max(0.0, min(1.0, (into - LOOK_EVERY + LOOK_TURN) / LOOK_TURN))
     return now + (then - now) * share * share * (3.0 - 2.0 * share)
 
 
-def _spark(screen: pygame.Surface, player: int, own: float, tail: float, head: float) -> None:
-    x = ((own + 1.3 * player) % SPARK_EVERY) * SPARK_SPEED - 80.0
+def _spark(screen: pygame.Surface, player: int, age: float, tail: float, head: float) -> None:
+    x = ((age + 1.3 * player) % SPARK_EVERY) * SPARK_SPEED - 80.0
     if tail < x < head - 40.0:
         _, y, heading = _at(player, x)
         if heading == 0.0:

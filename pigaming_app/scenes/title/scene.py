@@ -1,6 +1,6 @@
-"""The title: the name in light, four robots that underline it, a tile for each game, and what else there is to do.
+"""The title: name, underlining robots, a tile per game, and the menu.
 
-When nobody is there for a while, an AI match begins.
+After a while without input, attract mode starts.
 """
 
 import pygame
@@ -42,27 +42,27 @@ LOGO = (LEFT + 16, 84, 30)
 
 
 class Title:
-    """The lowest scene: what the arcade comes back to."""
+    """The lowest scene of the stack."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
         self.clock = 0.0
-        self.combination = KioskUnlock(context)
+        self.kiosk_unlock = KioskUnlock(context)
         self.focus = Focus(self._spots())
-        self.game = next(iter(games()))  # whose tile had the focus last
+        self.game = next(iter(games()))  # the game whose tile was focused last
         self.lab: Scene | None = None
 
     def entered(self) -> None:
-        """Shown, or shown again; the sprites of matches are released."""
+        """Release the sprites of matches and start the music."""
         surfaces.release_matches()
         self.context.idle = 0.0
         self.context.sounds.music(True)
         self.focus.place(self._spots())
 
     def on(self, event: InputEvent) -> Turn:
-        """Directions and the mouse move the focus; FIRE, START or a click choose; Y changes the language."""
+        """Directions and the mouse move the focus; FIRE, START or a click activate; Y changes the language."""
         if event.button is Button.Y:
-            self._speak(self.context.words.other)
+            self._set_language(self.context.words.other)
         elif self.focus.on(event):
             self.context.sounds.play("move")
         self.game = self.focus.name if self.focus.name in games() else self.game
@@ -70,10 +70,10 @@ class Title:
         return self._open(chosen) if chosen else None
 
     def update(self, seconds: float) -> Turn:
-        """Let the robots drive; after a while without anybody, show a match."""
+        """Animate; start attract mode when idle."""
         self.clock += seconds
         self.focus.update(seconds)
-        if self.combination.held(seconds):
+        if self.kiosk_unlock.unlocked(seconds):
             from pigaming_app.scenes.options.page import OptionsPage
 
             self.context.sounds.play("accept")
@@ -85,7 +85,6 @@ class Title:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the page."""
         words = self.context.words
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
@@ -98,18 +97,18 @@ class Title:
         self._foot(screen)
         self.focus.draw(screen)
 
-    # ---- inside
+    # ---- internals
 
     def _open(self, name: str) -> Turn:
         if name in LANGUAGES:
-            self._speak(name)
+            self._set_language(name)
             return None
         scene = self._scene(name)
         self.context.sounds.play("accept")
         return Push(scene) if scene else Quit()
 
     def _scene(self, name: str) -> Scene | None:
-        """The page of a place; pages are imported when they are wanted, so that the title comes at once."""
+        """The page of a menu item; imported late, so that the title appears at once."""
         if name in games():
             from pigaming_app.scenes.lobby.scene import Lobby
 
@@ -127,13 +126,13 @@ class Title:
         return None
 
     def _lab(self) -> Scene:
-        """The Lab as it was left: the robot is still there."""
+        """The Lab in its last state: its robot is kept."""
         from pigaming_app.scenes.lab.scene import Lab
 
         self.lab = self.lab or Lab(self.context)
         return self.lab
 
-    def _speak(self, language: str) -> None:
+    def _set_language(self, language: str) -> None:
         if language != self.context.words.language:
             self.context.words.switch(language)
             self.context.settings.language = language
@@ -155,38 +154,38 @@ class Title:
         return spots
 
     def _menu(self) -> tuple[str, ...]:
-        there = "howto", "lab", "options"
-        return there if self.context.kiosk else (*there, "quit")
+        items = "howto", "lab", "options"
+        return items if self.context.kiosk else (*items, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:
-        """The line that asks for a press, and says what it opens, between arrows that run towards it."""
-        said, label = self.asked
-        call_to_action(said, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
-        reach = call_to_action_width(said, label, SUB) / 2 + 44
+        """The call to action, between arrows that run towards it."""
+        sentence, label = self.call_text
+        call_to_action(sentence, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
+        reach = call_to_action_width(sentence, label, SUB) / 2 + 44
         for k in range(3):
             level = (3, 5, 8)[(k + int(self.clock * 4)) % 3]
             sign("right", 24, FOCUS, LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
             sign("left", 24, FOCUS, LINE, level).draw(screen, round(960 + reach + 34 * (2 - k)), PROMPT_Y)
 
     @property
-    def asked(self) -> tuple[str, str]:
-        """The line that asks for a press, and the label of the button in it."""
+    def call_text(self) -> tuple[str, str]:
+        """The call to action and the label of its button."""
         words, name = self.context.words, self.focus.name
         label = words.printed(self.context.controls.label(None, Button.FIRE))
         if name in games():
             return words("title.press", button="{button}"), label
-        return words("title.choose", button="{button}", what=self._what(name)), label
+        return words("title.choose", button="{button}", what=self._item_name(name)), label
 
-    def _what(self, name: str) -> str:
-        """What a chip opens, as its label says."""
+    def _item_name(self, name: str) -> str:
+        """The name of a menu item."""
         return NAMES[name] if name in LANGUAGES else self.context.words(f"title.{name}")
 
     def _foot(self, screen: pygame.Surface) -> None:
         words = self.context.words
         for name in (*self._menu(), *LANGUAGES):
             lit = name == words.language if name in LANGUAGES else name == self.focus.name
-            said, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
-            chip(said, box.w, "on" if lit else "off").draw(screen, *box.topleft)
+            word, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
+            chip(word, box.w, "on" if lit else "off").draw(screen, *box.topleft)
         label = self.context.controls.label(None, Button.Y)
         if label:
             button_label(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
@@ -195,7 +194,7 @@ class Title:
 @cached
 @resumable
 def ground() -> Steps[pygame.Surface]:
-    """What never changes: the floor's dots, the name, and black where the tiles are."""
+    """The static part: floor dots, the name, and black behind the tiles."""
     layer = Layer(LEFT, 54, 1210, 260)
     logo(layer.glow, *LOGO)
     name = yield from layer.lighting()

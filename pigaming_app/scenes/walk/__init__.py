@@ -1,1 +1,1 @@
-"""A scripted walk through the whole arcade, for measuring it."""
+"""A scripted walk through the whole arcade, for performance measurements."""

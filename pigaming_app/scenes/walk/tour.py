@@ -1,4 +1,4 @@
-"""Where the walk through the arcade leads: every screen, in both languages."""
+"""The route of the walk: every screen, in both languages."""
 
 from functools import partial
 from typing import Any, Protocol
@@ -11,11 +11,11 @@ from pigaming_app.sim.world import HZ
 from pigaming_app.ui.i18n import LANGUAGES
 
 MENU = 3  # spots of the title before those of its foot
-BRAINS = 5  # presses of F4 that go round all AIs of a match
+BRAINS = 5  # presses of F4 to cycle through all AIs of a match
 
 
 class TourWalker(Protocol):
-    """Who walks; see walker.py."""
+    """Interface of the walker, see walker.py."""
 
     app: Any
     context: Any
@@ -23,19 +23,19 @@ class TourWalker(Protocol):
     @property
     def top(self) -> Any: ...
 
-    def on(self, kind: str) -> bool: ...
+    def on(self, class_name: str) -> bool: ...
 
     def at(self, screen: str) -> None: ...
 
     def wait(self, seconds: float) -> None: ...
 
-    def until(self, true: Any) -> None: ...
+    def until(self, condition: Any) -> None: ...
 
     def press(self, *keys: str, pause: float = 0.1) -> None: ...
 
 
 def tour(walker: TourWalker) -> None:
-    """All of it. The second language sees the first arena of each game only."""
+    """The whole tour. In the second language only the first arena of each game."""
     for language in LANGUAGES:
         lessons(walker)
         options(walker)
@@ -48,7 +48,7 @@ def tour(walker: TourWalker) -> None:
 
 
 def home(walker: TourWalker) -> None:
-    """Back to the title."""
+    """Return to the title."""
     for _ in range(12):
         if walker.on("Title"):
             break
@@ -59,7 +59,7 @@ def home(walker: TourWalker) -> None:
 
 
 def choose(walker: TourWalker, name: str) -> None:
-    """Put the focus of the title on something and open it."""
+    """Focus and open an item of the title."""
     focus = walker.top.focus
     for _ in range(20):
         names = [spot.name for spot in focus.spots]
@@ -74,7 +74,7 @@ def choose(walker: TourWalker, name: str) -> None:
 
 
 def lessons(walker: TourWalker) -> None:
-    """How to play each game."""
+    """The how-to page of each game."""
     walker.at("how to play")
     choose(walker, "howto")
     for _ in games():
@@ -84,7 +84,7 @@ def lessons(walker: TourWalker) -> None:
 
 
 def options(walker: TourWalker) -> None:
-    """The options, each row, and the pages below them."""
+    """The options, row by row, and the pages below them."""
     walker.at("options")
     choose(walker, "options")
     walker.wait(0.5)
@@ -103,7 +103,7 @@ def options(walker: TourWalker) -> None:
 
 
 def robots(walker: TourWalker) -> None:
-    """The pages of real robots, as far as they go without any."""
+    """The pages of real robots, as far as possible without any."""
     for spot in [*walker.top.focus.spots]:
         walker.at(f"robots: {spot.name}")
         walker.press("space", pause=1.5)
@@ -117,7 +117,7 @@ def robots(walker: TourWalker) -> None:
 
 
 def play(walker: TourWalker, game: str, every_arena: bool) -> None:
-    """From the lobby to the rematch; then a moment in each of the other arenas."""
+    """From the lobby to the rematch; then briefly each of the other arenas."""
     lobby(walker, game)
     setup(walker, game)
     arenas = len(walker.top.arenas)
@@ -145,7 +145,7 @@ def join(walker: TourWalker, game: str) -> None:
 
 
 def lobby(walker: TourWalker, game: str) -> None:
-    """A person joins, AIs come and go, teams are formed; then the person is ready."""
+    """Join, add and remove AIs, form teams, get ready."""
     join(walker, game)
     walker.press(*["tab"] * 6, "x", "d", "a", "x")
     walker.wait(3.0)
@@ -155,7 +155,7 @@ def lobby(walker: TourWalker, game: str) -> None:
 
 
 def setup(walker: TourWalker, game: str) -> None:
-    """Every arena, some of the other choices, and back to the first arena."""
+    """Every arena, some other options, and back to the first arena."""
     walker.at(f"{game}: setup")
     walker.until(lambda: walker.on("MatchSetupPage"))
     walker.wait(0.3)
@@ -166,14 +166,14 @@ def setup(walker: TourWalker, game: str) -> None:
 
 
 def begin(walker: TourWalker, game: str) -> None:
-    """Begin the match that was chosen."""
+    """Start the match."""
     walker.at(f"{game}: match")
     walker.press("return")
     walker.until(lambda: walker.on("MatchScene"))
 
 
 def match(walker: TourWalker, game: str) -> None:
-    """A match with its overlay and its pause, to the end of its time, which is brought near."""
+    """A match with overlay and pause, up to its end, which is brought forward."""
     begin(walker, game)
     walker.wait(6.0)
     walker.at(f"{game}: match with F4")
@@ -194,7 +194,7 @@ def match(walker: TourWalker, game: str) -> None:
 
 
 def results(walker: TourWalker, game: str) -> None:
-    """The results, initials where they are asked for, the tables, a rematch that is ended at once."""
+    """The results, initials if asked for, high scores, and a rematch that is ended at once."""
     walker.at(f"{game}: results")
     walker.wait(4.0)
     if walker.on("Initials"):
@@ -241,7 +241,7 @@ def leave(walker: TourWalker, game: str) -> None:
 
 
 def lab(walker: TourWalker) -> None:
-    """The Lab, its menu and the pages of that, a match against the robot."""
+    """The Lab, its menu and subpages, and a challenge match."""
     walker.at("Lab")
     choose(walker, "lab")
     walker.wait(3.0)
@@ -275,7 +275,7 @@ def lab(walker: TourWalker) -> None:
 
 
 def attract(walker: TourWalker) -> None:
-    """A round of shows for every game."""
+    """One round of shows for every game."""
     walker.context.settings.attract_seconds = 5.0
     walker.at("attract mode")
     walker.until(lambda: walker.on("Attract"))
@@ -290,5 +290,5 @@ def attract(walker: TourWalker) -> None:
 
 
 def other_show(walker: TourWalker, show: object) -> bool:
-    """Whether attract mode has come to another show."""
+    """True if attract mode shows another show."""
     return walker.top.show is not show

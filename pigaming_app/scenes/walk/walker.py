@@ -1,8 +1,8 @@
-"""A scripted walk through every screen of the arcade, which measures the CPU time of each frame.
+"""A scripted walk through every screen of the arcade, measuring the CPU time of each frame.
 
-A frame is events, update and draw, without the flip, which may wait for the display; only the thread of the frames
-counts. The walk is the cold case: a fresh process with empty folders, in which nothing is cached but what the arcade
-itself has prepared. Time is made up, and keys are real events.
+A frame is events, update and draw, without the flip, which may wait for the display; only the frame thread counts. The
+walk is the cold case: a new process with empty folders and only the arcade's own prewarming. Time is simulated; keys
+are real events.
 """
 
 import json
@@ -17,16 +17,16 @@ from pigaming_app.scenes.walk.tour import tour
 
 FPS = 30
 TAP = 2  # frames for which a key is held
-PATIENCE = 60.0  # s to wait for a screen
-WARM = 2.0  # s on the title before anything is pressed
+TIMEOUT = 60.0  # s, timeout for a screen to appear
+SETTLE = 2.0  # s on the title before the first input
 
 
 class ScreenMissing(Exception):
-    """A screen did not come."""
+    """A screen did not appear in time."""
 
 
 class Walker:
-    """Somebody at the keyboard of an arcade; `worst`: ms of the longest frame, by the name given to each screen."""
+    """A simulated keyboard user; `worst`: ms of the longest frame by screen."""
 
     def __init__(self, app: App) -> None:
         self.app, self.context = app, app.context
@@ -35,41 +35,41 @@ class Walker:
 
     @property
     def top(self) -> Any:
-        """The scene that is shown."""
+        """The current scene."""
         return self.app.stack.top
 
-    def on(self, kind: str) -> bool:
-        """Whether a scene of that class is shown."""
-        return type(self.top).__name__ == kind
+    def on(self, class_name: str) -> bool:
+        """True if the current scene is of this class."""
+        return type(self.top).__name__ == class_name
 
     def at(self, screen: str) -> None:
-        """Count what follows as frames of that screen."""
+        """Attribute the following frames to a screen."""
         self.screen = f"{screen} ({self.context.words.language})"
 
     def frame(self) -> None:
-        """One frame."""
-        began = thread_time()
+        """Run and measure one frame."""
+        start = thread_time()
         painted = self.app.compose(1 / FPS)
-        spent = 1000.0 * (thread_time() - began)
+        spent = 1000.0 * (thread_time() - start)
         self.worst[self.screen] = max(spent, self.worst.get(self.screen, 0.0))
         if painted:
             self.context.canvas.flip()
 
     def wait(self, seconds: float) -> None:
-        """Let time pass."""
+        """Run frames for `seconds`."""
         for _ in range(round(seconds * FPS)):
             self.frame()
 
-    def until(self, true: Callable[[], bool]) -> None:
-        """Let time pass until something is so. Raises Lost."""
-        for _ in range(round(PATIENCE * FPS)):
-            if true():
+    def until(self, condition: Callable[[], bool]) -> None:
+        """Run frames until `condition()`. Raises ScreenMissing."""
+        for _ in range(round(TIMEOUT * FPS)):
+            if condition():
                 return
             self.frame()
         raise ScreenMissing(f"{self.screen}: {type(self.top).__name__} is still shown")
 
     def press(self, *keys: str, pause: float = 0.1) -> None:
-        """Tap keys one after the other."""
+        """Tap keys in turn."""
         for key in keys:
             scancode = getattr(pygame, f"KSCAN_{key.upper()}")
             for kind in (pygame.KEYDOWN, pygame.KEYUP):
@@ -81,12 +81,12 @@ class Walker:
 
 
 def walk() -> dict[str, float]:
-    """Walk in this process; the first picture of all, for which nothing is shown yet, does not count."""
+    """Run the tour in this process. The very first picture is not measured."""
     with opened(Options(headless=True)) as app:
         walker = Walker(app)
         walker.frame()
         walker.worst.clear()
-        walker.wait(WARM)
+        walker.wait(SETTLE)
         tour(walker)
     return walker.worst
 

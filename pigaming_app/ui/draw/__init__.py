@@ -1,6 +1,6 @@
-"""The drawing kit in one place: colours and type, the canvas that glows, icons and small parts.
+"""The drawing kit: colours and type, glow canvases, icons and small shared parts.
 
-Scenes import from here; theme, glow, icons and parts hold the parts.
+Scenes import these names from here rather than from theme, glow, icons and parts.
 """
 
 from pigaming_app.ui.draw.glow import ADD, MULT, NEAR, PRE, WIDE, GlowCanvas, Halos, LayeredCanvas

@@ -1,7 +1,7 @@
-"""Ink is drawn large on black, shrunk (antialiasing), blurred and added to itself (glow).
+"""Glow rendering: draw large on black, downscale (antialiasing), blur and add the blurs back.
 
-Nothing here runs in a steady frame: it makes the surfaces that a scene then only blits. Only tiles that were drawn on
-are shrunk, and wide blurs are made on small copies: a whole page is lit in a twentieth of a second.
+Nothing here runs in a steady frame: the resulting surfaces are cached and blitted. Only tiles that were drawn on are
+downscaled, and wide blurs run on small copies; a whole page renders in 50 ms.
 """
 
 import math
@@ -29,30 +29,30 @@ from pigaming_app.ui.draw.theme import (
 ADD, MULT, PRE = pygame.BLEND_RGB_ADD, pygame.BLEND_RGB_MULT, pygame.BLEND_PREMULTIPLIED
 
 Halos = tuple[tuple[int, int, float], ...]
-# Glow: (shrink by, gaussian radius there, strength). NEAR for sprites (reaches 24 px), WIDE for pages.
+# Glow: (downscale factor, Gaussian radius at that scale, strength). NEAR for sprites (reaches 24 px), WIDE for pages.
 NEAR: Halos = ((2, 3, 0.60), (4, 3, 0.70))
 WIDE: Halos = ((4, 1, 0.55), (8, 2, 0.60), (16, 3, 0.55))
-SOFT: Halos = ((4, 1, 0.60), (8, 2, 0.70))  # as NEAR, on pages
+SOFT: Halos = ((4, 1, 0.60), (8, 2, 0.70))  # like NEAR, for pages
 TILE_W, TILE_H = 160, 120  # px
 
 
 class GlowCanvas:
-    """A black sheet of w x h px, drawn `ss` times larger than it will be. `to` moves, turns and scales what follows."""
+    """A black canvas of w x h px, supersampled by `ss`. `to` sets the transform of later drawing calls."""
 
     def __init__(self, w: int, h: int, ss: int = 2) -> None:
         self.w, self.h, self.ss = w, h, ss
         self.covers: list[list[tuple[float, float]]] = []
-        self.knock: pygame.Surface | None = None
+        self.knockout: pygame.Surface | None = None
         self.tiles: set[tuple[int, int]] = set()
         self.to(0, 0)
 
     @cached_property
     def sheet(self) -> pygame.Surface:
-        """Where it is drawn; made when it is first drawn on."""
+        """The supersampled surface, allocated on the first drawing call."""
         return pygame.Surface((self.w * self.ss, self.h * self.ss))
 
     def to(self, x: float, y: float, angle: float = 0.0, scale: float = 1.0) -> Self:
-        """What follows is drawn round (x, y), turned by `angle` rad and `scale` times as large."""
+        """Set the origin to (x, y), the rotation to `angle` rad and the scale to `scale`."""
         self.x, self.y, self.k = x, y, scale * self.ss
         self.c, self.s = math.cos(angle) * self.k, math.sin(angle) * self.k
         return self
@@ -62,7 +62,7 @@ class GlowCanvas:
         return self.x * self.ss + self.c * x - self.s * y, self.y * self.ss + self.s * x + self.c * y
 
     def _mark(self, left: float, top: float, right: float, bottom: float) -> None:
-        """Note the tiles between corners on the large sheet: they have been drawn on."""
+        """Mark the tiles of a box, in supersampled px, as drawn on."""
         w, h = TILE_W * self.ss, TILE_H * self.ss
         columns = range(max(0, int(left // w)), min((self.w - 1) // TILE_W, int(right // w)) + 1)
         for row in range(max(0, int(top // h)), min((self.h - 1) // TILE_H, int(bottom // h)) + 1):
@@ -70,20 +70,19 @@ class GlowCanvas:
                 self.tiles.add((column, row))
 
     def fill(self, points: Points, color: Color) -> Self:
-        """A filled polygon."""
         box = pygame.draw.polygon(self.sheet, color, [self._at(p) for p in points])
         self._mark(box.left, box.top, box.right, box.bottom)
         return self
 
     def solid(self, points: Points) -> Self:
-        """Black out what lies below: on the sheet, and, in a sprite, on whatever it is blitted over."""
+        """Black out a polygon: on the canvas and, in a sprite, on the background it is blitted over."""
         at = [self._at(p) for p in points]
         pygame.draw.polygon(self.sheet, BLACK, at)
         self.covers.append(at)
         return self
 
     def line(self, points: Points, color: Color, width: float = LINE, closed: bool = False) -> Self:
-        """A line with round joints and ends."""
+        """A line with round joints and caps."""
         at = [self._at(p) for p in points]
         w = max(1, round(width * self.k))
         for a, b in zip(at, at[1:] + at[:1] if closed else at[1:], strict=False):
@@ -99,43 +98,42 @@ class GlowCanvas:
         return self
 
     def void(self, points: Points, width: float, keep: float = 0.0) -> Self:
-        """A black line that its neighbours' glow does not fill (only `keep` of it)."""
+        """A black line that neighbouring glow does not fill, except for the share `keep`."""
         self.line(points, BLACK, width)
-        real, self.sheet = self.sheet, self._knock()
+        canvas, self.sheet = self.sheet, self._knockout()
         shade = round(255 * keep)
         self.line(points, (shade, shade, shade), width)
-        self.sheet = real
+        self.sheet = canvas
         return self
 
-    def _knock(self) -> pygame.Surface:
-        if self.knock is None:
-            self.knock = pygame.Surface(self.sheet.get_size())
-            self.knock.fill(WHITE)
-        return self.knock
+    def _knockout(self) -> pygame.Surface:
+        if self.knockout is None:
+            self.knockout = pygame.Surface(self.sheet.get_size())
+            self.knockout.fill(WHITE)
+        return self.knockout
 
     def neon(self, points: Points, color: Color, width: float = LINE, closed: bool = False) -> Self:
-        """A line with a hotter core."""
+        """A line with a brighter core."""
         self.line(points, color, width, closed)
         return self.line(points, mix(color, WHITE, 0.4), width * 0.35, closed)
 
     def disc(self, x: float, y: float, r: float, color: Color) -> Self:
-        """A filled circle."""
         box = pygame.draw.circle(self.sheet, color, self._at((x, y)), r * self.k)
         self._mark(box.left, box.top, box.right, box.bottom)
         return self
 
     def arc(self, x: float, y: float, r: float, start: float, end: float, color: Color, width: float = LINE) -> Self:
-        """Part of a circle, from angle `start` to `end`, rad, clockwise on the screen."""
+        """A circular arc from angle `start` to `end`, rad, clockwise on the screen."""
         n = max(2, int(abs(end - start) * r / 4) + 2)
         angles = [start + (end - start) * i / n for i in range(n + 1)]
         return self.line([(x + r * math.cos(a), y + r * math.sin(a)) for a in angles], color, width)
 
     def ring(self, x: float, y: float, r: float, color: Color, width: float = LINE) -> Self:
-        """A circle's outline."""
+        """A circle outline."""
         return self.line(regular_polygon(max(24, int(r)), r, 0, x, y), color, width, True)
 
     def dashes(self, points: Points, color: Color, width: float, on: float, off: float, closed: bool = True) -> Self:
-        """An outline in dashes, `on` px long and `off` px apart; corners included."""
+        """A dashed outline: dashes of `on` px, gaps of `off` px, continued round corners."""
         points = [*points, points[0]] if closed else points
         left, draw, run = on, True, [points[0]]
         for a, b in pairwise(points):
@@ -156,7 +154,7 @@ class GlowCanvas:
     def text(
         self, text: str, size: int, x: float, y: float, color: Color = ICE, face: str = "head", align: str = "l"
     ) -> Self:
-        """One line of text, upright; y is the middle of its capitals; `align` is "l", "c" or "r" of x."""
+        """One upright line of text; y is the middle of its capitals; `align` is "l", "c" or "r" relative to x."""
         f = font(face, round(size * self.k))
         image = f.render(text, True, color)
         px, py = self._at((x, y))
@@ -164,12 +162,12 @@ class GlowCanvas:
         at = round(px), round(py + CAPITALS * size * self.k / 2 - f.get_ascent())
         box = self.sheet.blit(image, at)
         self._mark(box.left, box.top, box.right, box.bottom)
-        if color == BLACK:  # black lettering stays black under its neighbours' glow
-            self._knock().blit(image, at)
+        if color == BLACK:  # keep black lettering black under neighbouring glow
+            self._knockout().blit(image, at)
         return self
 
-    def _shrunk(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> Steps[None]:
-        """Blit a large sheet, shrunk, onto a surface of the real size: those runs of tiles that were drawn on."""
+    def _downscale(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> Steps[None]:
+        """Blit the drawn tiles of a supersampled surface, downscaled, onto a surface of w x h px."""
         for row, first, count in runs(self.tiles):
             box = pygame.Rect(first * TILE_W, row * TILE_H, count * TILE_W, TILE_H).clip((0, 0, self.w, self.h))
             large = sheet.subsurface(box.x * self.ss, box.y * self.ss, box.w * self.ss, box.h * self.ss)
@@ -177,39 +175,39 @@ class GlowCanvas:
             yield
 
     def onto(self, out: pygame.Surface) -> Steps[None]:
-        """Add the ink, without glow, to a surface of the sheet's real size."""
+        """Add the drawing, without glow, to a surface of w x h px."""
         if self.tiles:
-            yield from self._shrunk(self.sheet, out, ADD)
+            yield from self._downscale(self.sheet, out, ADD)
 
     def shrinking(self) -> Steps[pygame.Surface]:
-        """The sheet at its real size, without glow."""
+        """The drawing at w x h px, without glow."""
         out = pygame.Surface((self.w, self.h))
         if self.tiles:
-            yield from self._shrunk(self.sheet, out, 0)
+            yield from self._downscale(self.sheet, out, 0)
         return out
 
     def plain(self) -> pygame.Surface:
-        """As `shrinking`, at once."""
+        """Like `shrinking`, uninterrupted."""
         return run_to_end(self.shrinking())
 
     def knocked(self, out: pygame.Surface) -> Steps[None]:
-        """Darken what must stay black: voids and black lettering."""
-        if self.knock:
-            yield from self._shrunk(self.knock, out, MULT)
+        """Darken voids and black lettering."""
+        if self.knockout:
+            yield from self._downscale(self.knockout, out, MULT)
 
     def lighting(self, glow: float = 1.0, halos: Halos = NEAR) -> Steps[pygame.Surface]:
-        """The sheet with its glow: blurs of it, added where the ink itself is dark, so that no hue ever clips."""
+        """The drawing with its glow. Blurs are added only where the drawing is dark, so that no hue clips."""
         out = yield from self.shrinking()
         yield from add_glow(out, [(out, halos, glow)])
         yield from self.knocked(out)
         return out
 
     def lit(self, glow: float = 1.0, halos: Halos = NEAR) -> pygame.Surface:
-        """As `lighting`, at once."""
+        """Like `lighting`, uninterrupted."""
         return run_to_end(self.lighting(glow, halos))
 
     def spriting(self, glow: float = 1.0) -> Steps[pygame.Surface]:
-        """Premultiplied: black where `solid` hides the ground, light everywhere else. One blit occludes and glows."""
+        """A premultiplied sprite: black where `solid` was drawn, light elsewhere. One blit occludes and glows."""
         light = yield from self.lighting(glow)
         out = pygame.Surface((self.w, self.h), pygame.SRCALPHA)
         if self.covers:
@@ -221,26 +219,26 @@ class GlowCanvas:
         return out
 
     def sprite(self, glow: float = 1.0) -> pygame.Surface:
-        """As `spriting`, at once."""
+        """Like `spriting`, uninterrupted."""
         return run_to_end(self.spriting(glow))
 
 
 def runs(tiles: set[tuple[int, int]]) -> list[tuple[int, int, int]]:
-    """Tiles (column, row) as runs (row, first column, how many)."""
-    found: list[tuple[int, int, int]] = []
+    """Merge tiles (column, row) into horizontal runs (row, first column, length)."""
+    merged: list[tuple[int, int, int]] = []
     for column, row in sorted(tiles, key=lambda tile: (tile[1], tile[0])):
-        if found and found[-1][0] == row and found[-1][1] + found[-1][2] == column:
-            found[-1] = row, found[-1][1], found[-1][2] + 1
+        if merged and merged[-1][0] == row and merged[-1][1] + merged[-1][2] == column:
+            merged[-1] = row, merged[-1][1], merged[-1][2] + 1
         else:
-            found.append((row, column, 1))
-    return found
+            merged.append((row, column, 1))
+    return merged
 
 
 def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, float]]) -> Steps[None]:
-    """Add the blurs of (light, halos, strength), all of the size of `out`, where `out` itself is dark."""
+    """Add the blurs of (light, halos, strength), all the size of `out`, where `out` is dark."""
     size = out.get_size()
-    least = min(shrink for _, halos, _ in sources for shrink, _, _ in halos)
-    soft = pygame.Surface((max(1, size[0] // least), max(1, size[1] // least)))
+    min_shrink = min(shrink for _, halos, _ in sources for shrink, _, _ in halos)
+    soft = pygame.Surface((max(1, size[0] // min_shrink), max(1, size[1] // min_shrink)))
     for light, halos, glow in sources:
         small = light
         for shrink, radius, k in halos:
@@ -250,7 +248,7 @@ def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, flo
             blur.fill([min(255, round(255 * k * glow))] * 3, special_flags=MULT)
             soft.blit(pygame.transform.smoothscale(blur, soft.get_size()), (0, 0), special_flags=ADD)
             yield
-    soft.fill((6, 6, 6), special_flags=pygame.BLEND_RGB_SUB)  # the tails: black stays black, sprites have no edge
+    soft.fill((6, 6, 6), special_flags=pygame.BLEND_RGB_SUB)  # cut the tails: black stays black, sprites have no edge
     soft = pygame.transform.smoothscale(soft, size)
     yield
     dark = pygame.transform.grayscale(out)
@@ -262,7 +260,7 @@ def add_glow(out: pygame.Surface, sources: list[tuple[pygame.Surface, Halos, flo
 
 
 class LayeredCanvas:
-    """A whole screen: lines glow (`glow`), titles shimmer (`soft`), body text is crisp (`crisp`)."""
+    """A full-screen canvas of three layers: glowing lines (`glow`), softly glowing titles (`soft`), crisp text."""
 
     def __init__(self, w: int = 1920, h: int = 1080) -> None:
         self.glow, self.soft, self.crisp = GlowCanvas(w, h), GlowCanvas(w, h), GlowCanvas(w, h)
@@ -270,15 +268,15 @@ class LayeredCanvas:
     def text(
         self, text: str, size: int, x: float, y: float, color: Color = ICE, face: str = "head", align: str = "l"
     ) -> None:
-        """A title or a number."""
+        """Draw a title or number."""
         self.soft.text(text, size, x, y, color, face, align)
 
     def body(self, text: str, x: float, y: float, color: Color = ICE, align: str = "l", size: int = BODY) -> None:
-        """A sentence."""
+        """Draw body text."""
         self.crisp.text(text, size, x, y, color, "body", align)
 
     def lighting(self) -> Steps[pygame.Surface]:
-        """The page, lit."""
+        """Render the page."""
         lines = yield from self.glow.shrinking()
         out = lines.copy()
         sources = [(lines, WIDE, 1.0)]
@@ -294,5 +292,5 @@ class LayeredCanvas:
         return out
 
     def done(self) -> pygame.Surface:
-        """As `lighting`, at once."""
+        """Like `lighting`, uninterrupted."""
         return run_to_end(self.lighting())

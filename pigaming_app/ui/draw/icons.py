@@ -1,4 +1,4 @@
-"""Line icons on a square of 2 x 2, drawn in strokes: what cannot be left to a font."""
+"""Line icons on a 2 x 2 square, drawn as strokes."""
 
 import math
 from collections.abc import Callable
@@ -8,31 +8,28 @@ from pigaming_app.ui.draw.theme import Color, Point, Points, cut_box
 
 
 def icon(ink: GlowCanvas, name: str, x: float, y: float, r: float, color: Color, w: float | None = None) -> GlowCanvas:
-    """Draw the icon `name` (a key of ICONS) round (x, y), `r` px to each side, in lines `w` px wide."""
+    """Draw the icon `name` (a key of ICONS) round (x, y), `r` px to each side, with lines `w` px wide."""
     ICONS[name](Pen(ink, x, y, r, color, w or max(3, r * 0.13)))
     return ink
 
 
 class Pen:
-    """Draws on a square from (-1, -1) to (1, 1) that lies somewhere on a sheet."""
+    """Draws on the square from (-1, -1) to (1, 1), placed on a canvas."""
 
     def __init__(self, ink: GlowCanvas, x: float, y: float, r: float, color: Color, w: float) -> None:
         self.ink, self.x, self.y, self.r, self.color, self.w = ink, x, y, r, color, w
 
     def at(self, points: Points) -> list[Point]:
-        """Points of the square as points of the sheet."""
+        """Points of the square in canvas px."""
         return [(self.x + a * self.r, self.y + b * self.r) for a, b in points]
 
     def line(self, *points: Point, closed: bool = False) -> None:
-        """A line through points of the square."""
         self.ink.line(self.at(points), self.color, self.w, closed)
 
     def fill(self, *points: Point) -> None:
-        """A filled polygon of the square."""
         self.ink.fill(self.at(points), self.color)
 
     def dot(self, x: float, y: float, r: float) -> None:
-        """A filled circle of the square."""
         self.ink.disc(self.x + x * self.r, self.y + y * self.r, r * self.r, self.color)
 
     def ring(self, r: float) -> None:
@@ -179,7 +176,7 @@ def _behind(pen: Pen) -> None:
 
 
 def _hook(pen: Pen, side: float) -> None:
-    """An arrow that goes up, over and down on one side: it turns round."""
+    """A U-turn arrow: up, over and down on one side."""
     arc = [math.pi * (0.95 + 1.05 * i / 14) for i in range(15)]
     pen.line(*((side * (0.6 * math.cos(a) - 0.08), 0.06 + 0.6 * math.sin(a)) for a in arc))
     pen.fill((side * 0.06, 0.06), (side * 0.98, 0.06), (side * 0.52, 0.8))

@@ -1,4 +1,4 @@
-"""Small parts that every screen shares: badges, buttons, hints, panels and the corners that mean focus."""
+"""Small shared parts: badges, buttons, hints, panels and focus brackets."""
 
 from collections.abc import Sequence
 
@@ -22,28 +22,28 @@ from pigaming_app.ui.draw.theme import (
     text_width,
 )
 
-ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # no font of ours has them
+ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # missing from our fonts
 SIGNS = {**ARROWS, "Cross": "cross", "Circle": "circle", "Square": "square", "Triangle": "triangle"}  # PlayStation's
 
 
 def badge(ink: GlowCanvas, player: int, x: float, y: float, r: float = 32, color: Color | None = None) -> None:
     """Shape and number of seat 0..3, always together and upright."""
     color = color or PLAYERS[player]
-    low, size = (0.16, 1.14) if player == 1 else (0.0, 1.3)  # the triangle sits lower and its number is smaller
+    low, size = (0.16, 1.14) if player == 1 else (0.0, 1.3)  # the triangle sits lower and has a smaller number
     points = [(x + py, y + r * low - px) for px, py in shape_points(player, r)]
     ink.fill(points, color).line(points, mix(color, WHITE, 0.35), max(2, r * 0.09), True)
     ink.text(str(player + 1), round(r * size), x, y + r * low * 1.75, BLACK, "hero", "c")
 
 
 def button_width(label: str) -> float:
-    """Width of a button, px. "<>" is drawn as two arrows; what stands in SIGNS as an icon."""
+    """Width of a button, px. "<>" is drawn as two arrows; keys of SIGNS are drawn as icons."""
     if len(label) == 1 or label in SIGNS:
         return 60
     return 104 if label == "<>" else max(60, text_width(label, BODY) + 36)
 
 
 def button(canvas: LayeredCanvas, x: float, y: float, label: str, color: Color = ICE, r: float = 30) -> float:
-    """A pad's button or a key, as it is printed on the device; x is its left edge. Returns its width."""
+    """Draw a pad button or key with the label printed on the device, from its left edge x. Returns its width."""
     w = button_width(label)
     if label in ARROWS or w != 60:
         canvas.glow.line(cut_box(x, y - r + 2, w, 2 * r - 4, 10), color, THIN, True)
@@ -60,7 +60,7 @@ def button(canvas: LayeredCanvas, x: float, y: float, label: str, color: Color =
 
 
 def hints(canvas: LayeredCanvas, items: Sequence[tuple[str, str]], y: float = 980, gap: float = 56) -> None:
-    """A centred row of (button, what it does)."""
+    """A centred row of (button label, action text)."""
     widths = [button_width(label) + 18 + text_width(what, BODY, "body") for label, what in items]
     x = (1920 - sum(widths) - gap * (len(items) - 1)) / 2
     for (label, what), w in zip(items, widths, strict=True):
@@ -71,7 +71,7 @@ def hints(canvas: LayeredCanvas, items: Sequence[tuple[str, str]], y: float = 98
 def panel(
     ink: GlowCanvas, x: float, y: float, w: float, h: float, color: Color = STEEL, width: float = THIN, c: float = 20
 ) -> None:
-    """An outlined box of the house shape that hides what lies below it."""
+    """An outlined box with cut corners that hides the background."""
     ink.solid(cut_box(x, y, w, h, c)).line(cut_box(x, y, w, h, c), color, width, True)
 
 
@@ -87,7 +87,7 @@ def brackets(
     width: float = BOLD,
     out: float = 0,
 ) -> None:
-    """Four corners round a box, `out` px outside it: focus is not only a colour."""
+    """Four corner brackets round a box, `out` px outside it, so that focus is not shown by colour alone."""
     x, y, w, h = x - out, y - out, w + 2 * out, h + 2 * out
     for sx, sy, px, py in ((1, 1, x, y), (-1, 1, x + w, y), (-1, -1, x + w, y + h), (1, -1, x, y + h)):
         corner = [(px, py + sy * (c + arm)), (px, py + sy * c), (px + sx * c, py), (px + sx * (c + arm), py)]

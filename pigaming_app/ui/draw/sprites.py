@@ -1,7 +1,7 @@
-"""How a sprite is made: painted once at twice its size, turned to every heading, trimmed to what is lit, and kept.
+"""Sprites: painted once at double size, rotated to each heading, trimmed to their lit pixels, cached.
 
-A kept sprite is a few microseconds in a frame, a missing one about a millisecond. Everything that can be asked for is
-finite, so what is kept is bounded.
+Blitting a cached sprite takes a few microseconds, building a missing one about a millisecond. The set of possible
+arguments is finite, so the cache is bounded.
 """
 
 import math
@@ -13,11 +13,11 @@ import pygame
 from pigaming_app.ui.draw import MULT, GlowCanvas
 from pigaming_app.ui.draw.surface_cache import cached
 
-HEADINGS = 96  # of what is turned finely: 3.75 degrees each, two pixels at a barrel's end
+HEADINGS = 96  # fine rotation steps: 3.75 degrees each, two pixels at the end of a barrel
 
 
 class Sprite(NamedTuple):
-    """A picture, and where its corner lies from the place it belongs to, px."""
+    """An image and the offset of its upper left corner from its anchor, px."""
 
     image: pygame.Surface
     dx: int
@@ -28,29 +28,29 @@ Batch = list[tuple[pygame.Surface, tuple[int, int]]]
 
 
 def put(batch: Batch, sprite: Sprite, x: float, y: float) -> None:
-    """Add a sprite at (x, y) of the canvas to a batch for `fblits`."""
+    """Append a sprite at (x, y) on the canvas to a batch for `fblits`."""
     batch.append((sprite.image, (int(x + sprite.dx + 0.5), int(y + sprite.dy + 0.5))))
 
 
 def step(angle: float, steps: int) -> int:
-    """The nearest of `steps` headings to an angle, rad."""
+    """Quantise an angle, rad, to one of `steps` headings."""
     return round(angle / math.tau * steps) % steps
 
 
 def master(half: int, arm: float = 0.0) -> GlowCanvas:
-    """A sheet for a sprite that will be turned: twice its size, `half` px to each side of a point `arm` px ahead."""
+    """A double-size canvas for a rotating sprite: `half` px to each side of a point `arm` px ahead of the anchor."""
     return GlowCanvas(4 * half, 4 * half, 2).to(2 * (half - arm), 2 * half, 0, 2)
 
 
 def turned(image: pygame.Surface, turn: int, steps: int, arm: float = 0.0, zoom: float = 0.5) -> Sprite:
-    """A master, turned by `turn` of `steps` parts of a circle round the point that it belongs to."""
+    """Rotate a master by `turn` of `steps` parts of a circle about its anchor."""
     angle = turn * math.tau / steps
     out = pygame.transform.rotozoom(image, -math.degrees(angle), zoom)
     return trim(out, out.get_width() / 2 - arm * math.cos(angle), out.get_height() / 2 - arm * math.sin(angle))
 
 
 def trim(image: pygame.Surface, x: float, y: float) -> Sprite:
-    """Cut a picture to what is lit or hides; (x, y) is the place in it that it belongs to."""
+    """Crop an image to its lit or opaque pixels; (x, y) is its anchor."""
     lit = pygame.mask.from_threshold(image, (0, 0, 0), (3, 3, 3, 255))
     lit.invert()
     if image.get_flags() & pygame.SRCALPHA:
@@ -61,7 +61,7 @@ def trim(image: pygame.Surface, x: float, y: float) -> Sprite:
 
 
 def faded(sprite: Sprite, share: float) -> Sprite:
-    """A sprite at `share` of its light, 0..1; what it hides fades too."""
+    """A sprite at `share` (0..1) of its brightness and opacity."""
     image, part = sprite.image.copy(), round(255 * share)
     flags = pygame.BLEND_RGBA_MULT if image.get_flags() & pygame.SRCALPHA else MULT
     image.fill((part, part, part, part), special_flags=flags)
@@ -73,5 +73,5 @@ Paint = Callable[..., pygame.Surface]
 
 @cached
 def painted(paint: Paint, args: tuple[object, ...]) -> pygame.Surface:
-    """The master that `paint(*args)` makes; kept while it is being turned."""
+    """The master image that `paint(*args)` returns, cached while it is being rotated."""
     return paint(*args)

@@ -1,8 +1,8 @@
-"""The cache of everything that is painted once and blitted often: one budget in bytes, least recently used goes first.
+"""The surface cache: LRU with one budget in bytes for everything that is painted once and blitted often.
 
 `@cached` memoises a function whose result holds surfaces, in dataclasses, tuples, lists or dicts. All cached functions
-share one budget, so that what a screen needs stays and the memory of the process stays bounded. A surface counts with
-its pixels, once for all entries that hold it; a subsurface counts as the whole surface that it keeps alive.
+share one budget, so the memory of the process stays bounded. A surface counts with its pixels, once for all entries
+that hold it; a subsurface counts as the whole surface it keeps alive.
 """
 
 from collections import OrderedDict
@@ -16,16 +16,16 @@ import pygame
 
 from pigaming_app.ui.draw.frame_budget import budget
 
-BUDGET = 150 << 20  # bytes; a match needs 140 MB, and what only its start needs is least recently used
+BUDGET = 150 << 20  # bytes; a match needs 140 MB, and sprites used only at its start are evicted first
 
 Args = ParamSpec("Args")
 Result = TypeVar("Result")
 
 
 class Entry:
-    """One result of a cached function, the surfaces that it keeps alive, and the game for whose matches it was made.
+    """A cached result, the surfaces it keeps alive, and the game it was built for.
 
-    `used`: how many results had been kept in all when it was used last.
+    `used`: value of the insertion counter at the last use.
     """
 
     __slots__ = ("game", "key", "surfaces", "table", "used", "value")
@@ -37,48 +37,48 @@ class Entry:
 
 
 class SurfaceCache:
-    """Results of functions, `bytes` of pixels in all: never more than `budget`.
+    """Function results with at most `budget` bytes of pixels in all; `bytes` is the current total.
 
-    Uses between two new results are not ordered among each other: a frame that makes nothing then costs one lookup for
-    each sprite, as with functools.cache.
+    Uses between two insertions are not ordered among each other: a frame that builds nothing costs one lookup per
+    sprite, as with functools.cache.
     """
 
     def __init__(self, budget: int) -> None:
         self.budget = budget
         self.bytes = 0
-        self._kept = 0  # results since the start
+        self._insertions = 0  # insertion counter
         self._order: OrderedDict[Entry, None] = OrderedDict()  # least recently used first
-        self._holders: dict[int, int] = {}  # by id of a surface: how many entries keep it alive
-        self._game: str | None = None  # for whose match results are made now
+        self._holders: dict[int, int] = {}  # entries that keep a surface alive, by id of the surface
+        self._game: str | None = None  # game tag of new entries
 
     def __len__(self) -> int:
         return len(self._order)
 
     def cached(self, make: Callable[Args, Result]) -> Callable[Args, Result]:
-        """Memoise a function of hashable arguments. A result larger than the whole budget is not kept."""
+        """Memoise a function of hashable arguments. A result larger than the whole budget is not cached."""
         table: dict[Hashable, Entry] = {}
         use = self._order.move_to_end
 
         @wraps(make)
-        def found_or_made(*args: Args.args, **named: Args.kwargs) -> Result:
+        def lookup(*args: Args.args, **named: Args.kwargs) -> Result:
             key: Hashable = (args, *named.items()) if named else args
             entry = table.get(key)
             if entry is not None:
-                if entry.used != self._kept:
-                    entry.used = self._kept
+                if entry.used != self._insertions:
+                    entry.used = self._insertions
                     use(entry)
                 return entry.value  # type: ignore[return-value]  # it was made by `make`
             budget.claim()
             value = make(*args, **named)
             budget.note()
-            self._keep(Entry(table, key, value, self._game))
+            self._insert(Entry(table, key, value, self._game))
             return value
 
-        return found_or_made
+        return lookup
 
     @contextmanager
     def made_for(self, game: str) -> Iterator[None]:
-        """Results that are made within belong to matches of a game."""
+        """Tag results built in this scope with a game."""
         before, self._game = self._game, game
         try:
             yield
@@ -86,22 +86,22 @@ class SurfaceCache:
             self._game = before
 
     def release_matches(self) -> None:
-        """Drop whatever was made for a match, of any game."""
+        """Evict everything built for a match, of any game."""
         for entry in [entry for entry in self._order if entry.game is not None]:
             self._drop(entry)
 
     def clear(self) -> None:
-        """Drop everything."""
+        """Evict everything."""
         for entry in list(self._order):
             self._drop(entry)
 
-    def _keep(self, entry: Entry) -> None:
+    def _insert(self, entry: Entry) -> None:
         if sum(map(pixel_bytes, entry.surfaces)) > self.budget:
             return
-        if entry.key in entry.table:  # another thread was faster
+        if entry.key in entry.table:  # another thread was first
             self._drop(entry.table[entry.key])
-        self._kept += 1
-        entry.used = self._kept
+        self._insertions += 1
+        entry.used = self._insertions
         self._order[entry] = None
         entry.table[entry.key] = entry
         for surface in entry.surfaces:
@@ -121,7 +121,7 @@ class SurfaceCache:
 
 
 def surfaces_in(value: object) -> Iterator[pygame.Surface]:
-    """Every surface that a value keeps alive; instead of a subsurface, the surface whose pixels it shares."""
+    """All surfaces a value keeps alive; for a subsurface, its root surface."""
     if isinstance(value, pygame.Surface):
         yield value.get_abs_parent()
     elif isinstance(value, dict):
@@ -135,9 +135,9 @@ def surfaces_in(value: object) -> Iterator[pygame.Surface]:
 
 
 def pixel_bytes(surface: pygame.Surface) -> int:
-    """Bytes of a surface's pixels."""
+    """Size of a surface's pixels in bytes."""
     return surface.get_pitch() * surface.get_height()
 
 
-surfaces = SurfaceCache(BUDGET)  # of this process
+surfaces = SurfaceCache(BUDGET)  # shared by the whole process
 cached = surfaces.cached

@@ -1,4 +1,4 @@
-"""Text layout: sizes that fit, line breaks, and lines and paragraphs of light."""
+"""Text layout: font sizes that fit, line breaks, rendered lines and paragraphs."""
 
 import math
 from collections.abc import Sequence
@@ -14,13 +14,13 @@ SMALLEST = 28  # px
 
 
 def fit_size(text: str, size: int, width: float, face: str = "head") -> int:
-    """The largest size, `size` at most, in which a line is not wider than `width` px."""
+    """The largest font size up to `size` at which a line is at most `width` px wide."""
     wide = text_width(text, size, face)
     return size if wide <= width else int(size * width / wide)
 
 
 def wrap(text: str, size: int, width: float, face: str = "body") -> list[str]:
-    """A text broken into lines not wider than `width` px."""
+    """Break a text into lines at most `width` px wide."""
     lines = [""]
     for part in text.split():
         longer = f"{lines[-1]} {part}".strip()
@@ -32,7 +32,7 @@ def wrap(text: str, size: int, width: float, face: str = "body") -> list[str]:
 
 
 def wrap_balanced(text: str, count: int, size: int = BODY, face: str = "body") -> list[str]:
-    """A text broken into at most `count` lines, the longest as short as possible."""
+    """Break a text into at most `count` lines, the longest as short as possible."""
     parts = text.split()
     widths = {
         text_width(" ".join(parts[i:j]), size, face) for i in range(len(parts)) for j in range(i + 1, len(parts) + 1)
@@ -41,16 +41,16 @@ def wrap_balanced(text: str, count: int, size: int = BODY, face: str = "body") -
 
 
 def fit_lines(
-    text: str, room: float, most: int, sizes: Sequence[int] = range(BODY, SMALLEST, -2)
+    text: str, room: float, max_lines: int, sizes: Sequence[int] = range(BODY, SMALLEST, -2)
 ) -> tuple[int, list[str]]:
-    """The first of `sizes` (px) in which a text takes at most `most` lines of `room` px, else SMALLEST; the lines."""
-    size = next((size for size in sizes if len(wrap(text, size, room)) <= most), SMALLEST)
+    """The first of `sizes` (px) at which a text fits `max_lines` lines of `room` px, else SMALLEST; and those lines."""
+    size = next((size for size in sizes if len(wrap(text, size, room)) <= max_lines), SMALLEST)
     return size, wrap(text, size, room)
 
 
 @cached
 def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0.7, level: int = 8) -> LitImage:
-    """One line of light whose capitals are centred on (0, 0); `level` of 8 parts of its brightness."""
+    """One glowing line with its capitals centred on (0, 0), at `level`/8 of its brightness."""
     if level < 8:
         whole = word(text, size, color, face, glow)
         image = whole.image.copy()
@@ -64,26 +64,26 @@ def word(text: str, size: int, color: Color, face: str = "hero", glow: float = 0
 
 @cached
 def text(
-    said: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
+    line: str, size: int = BODY, color: Color = ICE, face: str = "body", align: str = "c", room: int = 1728
 ) -> LitImage:
-    """One line, its capitals round y = 0; all but sentences shimmer. It shrinks where it would be wider than `room`."""
-    size = fit_size(said, size, room, face)
-    edge = 4 if face == "body" else 32  # px for the glow
-    w, h = round(text_width(said, size, face)) + 2 * edge, 2 * size + 2 * edge
-    ink = GlowCanvas(w, h).text(said, size, edge, h / 2, color, face)
+    """One line with its capitals centred on y = 0, shrunk to `room` px. Every face except "body" glows faintly."""
+    size = fit_size(line, size, room, face)
+    edge = 4 if face == "body" else 32  # px of margin for the glow
+    w, h = round(text_width(line, size, face)) + 2 * edge, 2 * size + 2 * edge
+    ink = GlowCanvas(w, h).text(line, size, edge, h / 2, color, face)
     left = -edge - round((w - 2 * edge) * {"l": 0.0, "c": 0.5, "r": 1.0}[align])
     return LitImage(ink.plain() if face == "body" else ink.lit(0.45), (left, -h // 2))
 
 
-def paragraph(said: str, room: int, most: int = 4, color: Color = ICE, align: str = "l") -> list[LitImage]:
-    """A sentence as lines of at most `room` px, not more than `most`: a longer one is written smaller."""
-    size, lines = fit_lines(said, room, most)
+def paragraph(sentence: str, room: int, max_lines: int = 4, color: Color = ICE, align: str = "l") -> list[LitImage]:
+    """A sentence as at most `max_lines` lines of `room` px; longer ones are set smaller."""
+    size, lines = fit_lines(sentence, room, max_lines)
     return [text(line, size, color, "body", align, room) for line in lines]
 
 
-def write_lines(layer: Layer, said: str, x: float, y: float, room: float, color: Color) -> float:
-    """Write a sentence on a layer, smaller where it takes more than three lines; where the next may begin, px."""
-    size, lines = fit_lines(said, room, 3, (BODY, 36, 32))
+def write_lines(layer: Layer, sentence: str, x: float, y: float, room: float, color: Color) -> float:
+    """Draw a sentence on a layer, smaller where it needs more than three lines. Returns the y of the next line, px."""
+    size, lines = fit_lines(sentence, room, 3, (BODY, 36, 32))
     for line in lines:
         layer.canvas.body(line, x, y, color, "l", size)
         y += 1.35 * size
@@ -92,7 +92,7 @@ def write_lines(layer: Layer, said: str, x: float, y: float, room: float, color:
 
 @cached
 def glyph(char: str, size: int, color: Color, glow: float = 0.7) -> tuple[Sprite, float]:
-    """One digit or sign as light, from its left edge and the middle of the capitals, and how far to the next, px."""
+    """A rendered digit or sign, anchored at its left edge and the middle of the capitals, and its advance, px."""
     advance = font("hero", size * 2).size(char)[0] / 2
     w, h = math.ceil(advance) + 48, size + 56
     ink = GlowCanvas(w, h).text(char, size, 24, h / 2, color, "hero")

@@ -1,6 +1,6 @@
-"""What every screen agrees on: colours, line weights, type sizes, faces, and the shapes of the house.
+"""The theme: colours, line weights, type sizes, fonts and basic shapes.
 
-Colour belongs to players (Okabe-Ito, lifted for a projector); everything else is ice, focus is yellow.
+Colour identifies players (Okabe-Ito, brightened for a projector); everything else is ice, focus is yellow.
 """
 
 import math
@@ -34,17 +34,17 @@ _FACES = {
 
 
 def mix(a: Color, b: Color, t: float) -> Color:
-    """Colour `a` moved towards `b` by `t`, 0..1."""
+    """Linear blend from colour `a` to `b`, t in 0..1."""
     return round(a[0] + (b[0] - a[0]) * t), round(a[1] + (b[1] - a[1]) * t), round(a[2] + (b[2] - a[2]) * t)
 
 
 def dim(color: Color, k: float) -> Color:
-    """A colour at `k` of its brightness, 0..1."""
+    """A colour at the share `k` (0..1) of its brightness."""
     return mix(BLACK, color, k)
 
 
 def font(face: str, size: int) -> pygame.font.Font:
-    """One of the faces "head", "hero" (Oxanium) and "body" (Lexend) at a size in px."""
+    """A font of the face "head", "hero" (Oxanium) or "body" (Lexend), `size` px."""
     if not pygame.font.get_init():
         _loaded.cache_clear()
         pygame.font.init()
@@ -53,7 +53,7 @@ def font(face: str, size: int) -> pygame.font.Font:
 
 @cache
 def _loaded(face: str, size: int) -> pygame.font.Font:
-    pygame.register_quit(_loaded.cache_clear)  # a font does not outlive pygame.quit
+    pygame.register_quit(_loaded.cache_clear)  # fonts become invalid in pygame.quit
     return pygame.font.Font(ASSETS / "fonts" / _FACES[face], size)
 
 
@@ -63,7 +63,7 @@ def text_width(text: str, size: int, face: str = "head") -> float:
 
 
 def cut_box(x: float, y: float, w: float, h: float, c: float = 16) -> list[Point]:
-    """A rectangle with its corners cut at 45 degrees: the house shape, as in the letters of Oxanium."""
+    """A rectangle with corners cut at 45 degrees, like the letters of Oxanium."""
     return [
         (x + c, y),
         (x + w - c, y),
@@ -77,7 +77,7 @@ def cut_box(x: float, y: float, w: float, h: float, c: float = 16) -> list[Point
 
 
 def regular_polygon(n: int, r: float, turn: float = 0.0, cx: float = 0, cy: float = 0) -> list[Point]:
-    """A regular polygon of `n` corners on a circle of radius `r` px round (cx, cy), the first at angle `turn` rad."""
+    """`n` corners on a circle of radius `r` px round (cx, cy), the first at angle `turn` rad."""
     angles = [turn + i * math.tau / n for i in range(n)]
     return [(cx + r * math.cos(a), cy + r * math.sin(a)) for a in angles]
 

@@ -1,6 +1,6 @@
-"""Everything people hold in their hands, as presses (for menus) and as drives (for robots).
+"""Input devices as button events (for menus) and stick states (for robots).
 
-A pad, each of the four key clusters and the mouse are devices; two pads of one make are two devices.
+Devices are gamepads, the four key clusters and the mouse; two pads of the same model are two devices.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -14,67 +14,67 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.filters import DIRECTIONS, AutoRepeat, ButtonChange
 
 _MOUSE = Device("mouse")
-_NOBODYS = (Button.FOUND, Button.LOST, Button.BRAIN, Button.STOP)  # say nothing about what somebody plays with
+_NOT_PERSONAL = (Button.FOUND, Button.LOST, Button.BRAIN, Button.STOP)  # do not change `last`
 _TURBOS = (
     None,
     Button.BACK,
     Button.LEAVE_SEAT,
-)  # pad B is turbo and leads back; the turbo key of a cluster leaves a seat
+)  # pad B is turbo and BACK; the turbo key of a cluster is LEAVE_SEAT
 _MAPPED = (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP, pygame.CONTROLLERAXISMOTION)
 _PLAIN = (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP, pygame.JOYAXISMOTION, pygame.JOYHATMOTION)
 
 
 class Controls:
-    """All devices. `last`: the pad or key cluster that pressed last, whose labels the hints show.
+    """All input devices. `last`: the most recently used pad or key cluster, whose labels the hints show.
 
-    `at` turns a position in the window into one on the canvas.
+    `at` maps window coordinates to canvas coordinates.
     """
 
     def __init__(self, at: Callable[[tuple[float, float]], tuple[float, float]] = lambda mouse: mouse) -> None:
         self._at = at
         self._pads = pads.Pads()
         self._keyboard = keyboard.Keyboard()
-        self._held = AutoRepeat()
-        self._edges = TapQueue()
+        self._repeat = AutoRepeat()
+        self._taps = TapQueue()
         self._down: dict[tuple[Device, Button], frozenset[str]] = {}
-        self.last = self._any()
+        self.last = self._default()
 
     def presses(self, events: Iterable[pygame.Event]) -> list[InputEvent]:
-        """What was pressed, in order. Call it once a frame with every event, also while nobody listens."""
-        made = [press for event in events for press in self._heard(event)]
-        for press in made:
-            if press.device != _MOUSE and press.button not in _NOBODYS:
+        """The button events of this frame, in order. Call it once per frame with all pygame events."""
+        pressed = [press for event in events for press in self._translate(event)]
+        for press in pressed:
+            if press.device != _MOUSE and press.button not in _NOT_PERSONAL:
                 self.last = press.device
-        return made
+        return pressed
 
     def repeats(self, seconds: float) -> list[InputEvent]:
-        """The directions that are still held and press again, after `seconds` more of real time."""
-        return list(self._held.repeats(seconds))
+        """Auto-repeat events of held directions, after `seconds` more of real time."""
+        return list(self._repeat.repeats(seconds))
 
     def drive(self, device: Device) -> StickState:
-        """How a device is held now; a device that is not there drives nowhere. Call it once in a tick.
+        """The current state of a device, neutral if it is unplugged. Call it once per tick.
 
-        Taps of fire and turbo since the last call act one after the other, a tick each, however short they were.
+        Taps of fire and turbo since the last call are queued, one per tick, however short they were.
         """
         if device.kind == "keys":
-            held = self._keyboard.drive(device.number)
+            state = self._keyboard.drive(device.number)
         elif device.kind == "pad" and device.number in self._pads.plugged:
             pad = self._pads.plugged[device.number]
             if not pad.attached():
                 return StickState()
-            held = pad.drive()
+            state = pad.drive()
         else:
             return StickState()
-        fire = self._edges.read(device, Button.FIRE, held.fire)
-        turbo = self._edges.read(device, None, held.turbo)
-        return StickState(held.linear, held.angular, fire, turbo)
+        fire = self._taps.read(device, Button.FIRE, state.fire)
+        turbo = self._taps.read(device, None, state.turbo)
+        return StickState(state.linear, state.angular, fire, turbo)
 
     def forget_taps(self) -> None:
-        """What was tapped up to now shall not drive a robot: it was meant for a page, or for a match that stood."""
-        self._edges.clear()
+        """Discard queued taps: they were meant for a page or for a paused match."""
+        self._taps.clear()
 
     def holds(self, device: Device, button: Button) -> bool:
-        """Whether the button of a device that means `act` is down; of the mouse, its left button."""
+        """True if the button is down on this device; for the mouse, its left button."""
         if device.kind == "mouse":
             return bool(self._down.get((device, Button.CLICK)))
         if device.kind == "keys" and button in keyboard.SHARED:
@@ -82,45 +82,44 @@ class Controls:
         return bool(self._down.get((device, button)))
 
     def touched(self, device: Device) -> bool:
-        """Whether any button, key or direction of a device is down."""
-        return any(parts and held == device for (held, _), parts in self._down.items())
+        """True if any button, key or direction of a device is down."""
+        return any(parts and owner == device for (owner, _), parts in self._down.items())
 
     def connected(self, device: Device) -> bool:
-        """Whether a device is there."""
         return device.kind != "pad" or device.number in self._pads.plugged
 
     def pads(self) -> list[Device]:
-        """The pads that are there, in the order in which they came."""
+        """The connected pads, oldest first."""
         return [Device("pad", number) for number in sorted(self._pads.plugged)]
 
     def players(self) -> list[Device]:
-        """Every device that can drive a robot: the pads that are there, and the clusters of the keyboard."""
+        """Every device that can drive a robot: connected pads and the key clusters."""
         return [*self.pads(), *(Device("keys", number) for number in range(len(keyboard.CLUSTERS)))]
 
     def name(self, device: Device) -> str:
-        """What people call a device: Xbox, PlayStation, Nintendo, Joystick, Keyboard or Mouse."""
+        """The type of a device: Xbox, PlayStation, Nintendo, Joystick, Keyboard or Mouse."""
         if device.kind == "pad":
             pad = self._pads.plugged.get(device.number)
             return pad.kind if pad else "Joystick"
         return "Keyboard" if device.kind == "keys" else "Mouse"
 
     def moves(self, device: Device) -> str:
-        """Which part of a device steers: the four keys of a cluster; empty for a pad or mouse."""
+        """The four steering keys of a cluster; empty for a pad or mouse."""
         return keyboard.CLUSTERS[device.number].moves if device.kind == "keys" else ""
 
     def label(self, device: Device | None, button: Button) -> str:
-        """What is printed on the button that means `act` (None: of the device used last); empty if there is none."""
+        """The label printed on a button (None: of the device used last); empty if the device lacks it."""
         device = device or self.last
         if device.kind == "keys":
             return keyboard.label(device.number, button)
         return pads.label(self.name(device), button) if device.kind == "pad" else ""
 
-    def _heard(self, event: pygame.Event) -> Iterator[InputEvent]:
+    def _translate(self, event: pygame.Event) -> Iterator[InputEvent]:
         if event.type in (pygame.KEYDOWN, pygame.KEYUP):
             for device, change in self._keyboard.changes(event):
-                yield from self._changed(device, change)
+                yield from self._press(device, change)
         elif event.type in _MAPPED or event.type in _PLAIN:
-            yield from self._heard_pad(event)
+            yield from self._translate_pad(event)
         elif event.type == pygame.JOYDEVICEADDED:
             yield from (InputEvent(Button.FOUND, Device("pad", number)) for number in self._pads.look())
         elif event.type == pygame.JOYDEVICEREMOVED:
@@ -131,54 +130,54 @@ class Controls:
         elif event.type == pygame.MOUSEMOTION:
             yield InputEvent(Button.POINT, _MOUSE, at=self._at(event.pos))
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            self._note(_MOUSE, ButtonChange(Button.CLICK, True))
+            self._track(_MOUSE, ButtonChange(Button.CLICK, True))
             yield InputEvent(Button.CLICK, _MOUSE, at=self._at(event.pos))
         elif event.type == pygame.MOUSEBUTTONUP and event.button == pygame.BUTTON_LEFT:
-            self._note(_MOUSE, ButtonChange(Button.CLICK, False))
+            self._track(_MOUSE, ButtonChange(Button.CLICK, False))
 
-    def _heard_pad(self, event: pygame.Event) -> Iterator[InputEvent]:
-        """SDL tells of a mapped pad twice, as a controller and as a joystick: only the first counts."""
+    def _translate_pad(self, event: pygame.Event) -> Iterator[InputEvent]:
+        """SDL reports a mapped pad both as a controller and as a joystick: use the former only."""
         pad = self._pads.plugged.get(event.instance_id)
         if pad is not None and isinstance(pad, pads.MappedPad) == (event.type in _MAPPED):
             for change in pad.changes(event):
-                yield from self._changed(Device("pad", event.instance_id), change)
+                yield from self._press(Device("pad", event.instance_id), change)
 
-    def _changed(self, device: Device, change: ButtonChange) -> Iterator[InputEvent]:
-        self._note(device, change)
+    def _press(self, device: Device, change: ButtonChange) -> Iterator[InputEvent]:
+        self._track(device, change)
         button = change.button
         if button in DIRECTIONS:
-            if self._held.take(device, change):
+            if self._repeat.take(device, change):
                 yield InputEvent(button, device)
         elif change.down and button:
             shared = device.kind == "keys" and button in keyboard.SHARED
             yield InputEvent(button, device, among=self._keyboard.latest if shared else ())
 
-    def _note(self, device: Device, change: ButtonChange) -> None:
-        """Keep in mind what is down, and what the next tick of a match has to see."""
+    def _track(self, device: Device, change: ButtonChange) -> None:
+        """Update the set of pressed parts, and queue the tap for the next tick."""
         before = parts = self._down.get((device, change.button), frozenset()) if change.button else frozenset()
         if change.button:
             parts = before | {change.part} if change.down else before - {change.part}
             self._down[device, change.button] = parts
         if change.button is Button.FIRE and bool(before) != bool(parts):
-            self._edges.note(device, Button.FIRE, change.down)
+            self._taps.note(device, Button.FIRE, change.down)
         elif change.down and change.button in _TURBOS and not (device.kind == "keys" and change.button is Button.BACK):
-            self._edges.note(device, None, True)  # a robot notices how long turbo lasts, not when it begins
+            self._taps.note(device, None, True)  # turbo has a duration only: queue presses, not releases
 
     def _lost(self, device: Device) -> InputEvent:
-        self._held.drop(device)
-        self._edges.clear(device=device)
+        self._repeat.drop(device)
+        self._taps.clear(device=device)
         self._down = {key: parts for key, parts in self._down.items() if key[0] != device}
         if self.last == device:
-            self.last = self._any()
+            self.last = self._default()
         return InputEvent(Button.LOST, device)
 
-    def _any(self) -> Device:
-        """The device whose labels are shown before anybody has pressed anything."""
+    def _default(self) -> Device:
+        """The device whose labels are shown before the first input."""
         return self.players()[0]
 
     def _release_keys(self) -> None:
         self._keyboard.release()
-        self._edges.clear("keys")
+        self._taps.clear("keys")
         self._down = {key: parts for key, parts in self._down.items() if key[0].kind == "pad"}
         for number in range(len(keyboard.CLUSTERS)):
-            self._held.drop(Device("keys", number))
+            self._repeat.drop(Device("keys", number))

@@ -1,11 +1,11 @@
-"""What a scene hears: abstract presses, each from a device, never a key or a button number."""
+"""Input events: abstract buttons of a device, independent of key and button numbers."""
 
 from dataclasses import dataclass
 from enum import Enum, auto
 
 
 class Button(Enum):
-    """What a press means. In every menu FIRE accepts; START accepts too, and begins at once where that makes sense."""
+    """Meaning of an input. In menus FIRE and START accept; START also begins at once where possible."""
 
     UP = auto()
     DOWN = auto()
@@ -13,16 +13,16 @@ class Button(Enum):
     RIGHT = auto()
     FIRE = auto()  # pad A; the fire key of a keyboard cluster
     BACK = auto()  # pad B; Escape, Backspace
-    LEAVE_SEAT = auto()  # the turbo key of a keyboard cluster: gives a seat up in the lobby, means nothing elsewhere
+    LEAVE_SEAT = auto()  # the turbo key of a keyboard cluster: leaves the seat in the lobby, no effect elsewhere
     X = auto()  # pad X; X
     Y = auto()  # pad Y; Tab
     START = auto()  # pad Start; Enter; P pauses a match as Start does
-    BRAIN = auto()  # F4: show what the AIs of a match think, one after the other
-    STOP = auto()  # F1; both upper shoulder buttons of a pad: all real robots stand at once
-    POINT = auto()  # the mouse moved; `at` says where
-    CLICK = auto()  # the left button went down; `at` says where
+    BRAIN = auto()  # F4: cycle through the brain overlays of a match
+    STOP = auto()  # F1; both upper shoulder buttons of a pad: stop all real robots at once
+    POINT = auto()  # the mouse moved; position in `at`
+    CLICK = auto()  # the left mouse button went down; position in `at`
     FOUND = auto()  # a device was plugged in
-    LOST = auto()  # a device was pulled out
+    LOST = auto()  # a device was unplugged
 
 
 @dataclass(frozen=True)
@@ -35,9 +35,9 @@ class Device:
 
 @dataclass(frozen=True)
 class InputEvent:
-    """One press. `repeat`: a direction held down, repeated. `at`: canvas position, 1920 x 1080, of the mouse.
+    """One press. `repeat`: from auto-repeat. `at`: mouse position on the 1920 x 1080 canvas.
 
-    `among`: of a key that all clusters of the keyboard share (Enter, Escape …), the clusters, the last used first.
+    `among`: for keys shared by all keyboard clusters (Enter, Escape …), the clusters, most recently used first.
     """
 
     button: Button
@@ -49,7 +49,7 @@ class InputEvent:
 
 @dataclass(frozen=True)
 class StickState:
-    """How a device is held right now: stick in [-1, 1] (ahead and clockwise positive) and two buttons."""
+    """Current state of a device: stick axes in [-1, 1] (ahead and clockwise positive) and two buttons."""
 
     linear: float = 0.0
     angular: float = 0.0

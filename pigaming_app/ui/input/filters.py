@@ -1,4 +1,4 @@
-"""What is held down: sticks as directions, and directions that press again and again while they are held."""
+"""Input filters: stick to direction, dead zone, hysteresis, and auto-repeat of held directions."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,18 +7,18 @@ from math import hypot
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 
 DIRECTIONS = (Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT)
-FIRST_REPEAT = 0.4  # seconds until a held direction presses again
-NEXT_REPEAT = 0.12  # seconds between the presses after that
-DEAD_ZONE = 0.25  # of the way of a stick: no thumb rests more exactly than that
-FULL = 0.95  # of the way, and more, is all the way: a worn stick reaches no further
-ON, OFF = 0.6, 0.4  # a stick or trigger counts as pressed beyond ON until it falls below OFF
+FIRST_REPEAT = 0.4  # seconds until a held direction repeats
+NEXT_REPEAT = 0.12  # seconds between later repeats
+DEAD_ZONE = 0.25  # share of a stick's travel; thumbs do not rest more exactly than that
+FULL = 0.95  # share of the travel that counts as full deflection: worn sticks reach no further
+ON, OFF = 0.6, 0.4  # hysteresis: a stick or trigger is pressed above ON, released below OFF
 
 
 @dataclass(frozen=True)
 class ButtonChange:
-    """A button, key or stick of a device went down or up. `part` tells a stick from a d-pad with the same meaning.
+    """A button, key or stick direction went down or up. `part` distinguishes inputs with the same meaning.
 
-    `act`: None for a button that is turbo and means nothing in a menu.
+    `button`: None for a turbo button without a meaning in menus.
     """
 
     button: Button | None
@@ -27,13 +27,13 @@ class ButtonChange:
 
 
 class AutoRepeat:
-    """The directions held down on any device."""
+    """Auto-repeat of held directions, per device."""
 
     def __init__(self) -> None:
         self._due: dict[tuple[Device, Button, str], float] = {}
 
     def take(self, device: Device, change: ButtonChange) -> bool:
-        """Note a direction that went down or up; true if that is a press."""
+        """Record a change of a direction; true if it counts as a press."""
         assert change.button is not None
         key = (device, change.button, change.part)
         if not change.down:
@@ -44,11 +44,11 @@ class AutoRepeat:
         return fresh
 
     def drop(self, device: Device) -> None:
-        """Let go of everything on a device."""
+        """Release everything held on a device."""
         self._due = {key: due for key, due in self._due.items() if key[0] != device}
 
     def repeats(self, seconds: float) -> Iterator[InputEvent]:
-        """The presses that became due in the `seconds` that have passed: at most one for each held direction."""
+        """Repeats due after `seconds` more: at most one per held direction."""
         for key, due in list(self._due.items()):
             left = due - seconds
             self._due[key] = left if left > 0.0 else NEXT_REPEAT
@@ -57,31 +57,31 @@ class AutoRepeat:
 
 
 class StickDirection:
-    """A stick as one of four directions, with hysteresis so that a trembling thumb presses once."""
+    """A stick as one of four directions, with hysteresis against a trembling thumb."""
 
     def __init__(self) -> None:
         self._button: Button | None = None
 
     def moved(self, x: float, y: float) -> Iterator[ButtonChange]:
-        """What changes when the stick goes to (x, y), each in [-1, 1], y down."""
+        """The changes caused by moving the stick to (x, y), each in [-1, 1], y down."""
         reach = {Button.UP: -y, Button.DOWN: y, Button.LEFT: -x, Button.RIGHT: x}
         if self._button and reach[self._button] < OFF:
             yield ButtonChange(self._button, False, "stick")
             self._button = None
-        furthest = max(reach, key=lambda act: reach[act])
+        furthest = max(reach, key=lambda button: reach[button])
         if self._button is None and reach[furthest] > ON:
             yield ButtonChange(furthest, True, "stick")
             self._button = furthest
 
 
 class Trigger:
-    """An analogue trigger as a button that means `act`, with hysteresis."""
+    """An analogue trigger as a button, with hysteresis."""
 
-    def __init__(self, act: Button | None = Button.FIRE) -> None:
-        self.button, self.down = act, False
+    def __init__(self, button: Button | None = Button.FIRE) -> None:
+        self.button, self.down = button, False
 
     def moved(self, value: float) -> Iterator[ButtonChange]:
-        """What changes when the trigger goes to `value` in [0, 1]."""
+        """The changes caused by moving the trigger to `value` in [0, 1]."""
         down = value > (OFF if self.down else ON)
         if down != self.down:
             self.down = down
@@ -89,9 +89,9 @@ class Trigger:
 
 
 def outside_dead_zone(x: float, y: float) -> tuple[float, float]:
-    """A stick position without its radial dead zone: 0 at the zone's edge, and (1, 1) in the corner.
+    """Remove the radial dead zone and rescale: 0 at its edge, (1, 1) in the corner.
 
-    The corner is stretched because a stick moves in a circle but keys reach it: all drive equally fast.
+    Corners are stretched because a stick moves in a circle: sticks then reach the same diagonal as keys.
     """
     reach = hypot(x, y)
     if reach <= DEAD_ZONE:

@@ -1,7 +1,7 @@
-"""Gamepads that come and go: those SDL knows by its game-controller mappings, and any other as a plain joystick.
+"""Gamepads, hot-pluggable: mapped ones via SDL's game-controller database, others as plain joysticks.
 
-A pad is known by SDL's instance id, which no other pad gets until the arcade ends; a pad that was pulled out is
-forgotten at once and never read again.
+A pad is identified by SDL's instance id, which is not reused while the arcade runs; an unplugged pad is dropped at once
+and never read again.
 """
 
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ from pygame._sdl2 import controller
 from pigaming_app.ui.input.events import Button, StickState
 from pigaming_app.ui.input.filters import ButtonChange, StickDirection, Trigger, outside_dead_zone
 
-_FULL = 32767.0  # SDL's largest axis value
+_AXIS_MAX = 32767.0  # SDL's largest axis value
 _BUTTONS = {
     pygame.CONTROLLER_BUTTON_A: Button.FIRE,
     pygame.CONTROLLER_BUTTON_B: Button.BACK,
@@ -30,8 +30,8 @@ _SHOULDERS = (pygame.CONTROLLER_BUTTON_LEFTSHOULDER, pygame.CONTROLLER_BUTTON_RI
 _PLAIN_SHOULDERS = (4, 5)
 _PLAIN = (Button.FIRE, Button.BACK, Button.X, Button.Y)  # the first four buttons of a plain joystick
 _DIRECTIONS = {Button.UP: "↑", Button.DOWN: "↓", Button.LEFT: "←", Button.RIGHT: "→"}
-_SHARED = {Button.LEAVE_SEAT: Button.BACK, Button.BRAIN: Button.Y}  # one button for both; BRAIN only in a pause
-_PRINTED = {
+_SHARED = {Button.LEAVE_SEAT: Button.BACK, Button.BRAIN: Button.Y}  # shared buttons; BRAIN only in a pause
+_LABELS = {
     "Xbox": {Button.FIRE: "A", Button.BACK: "B", Button.X: "X", Button.Y: "Y", Button.START: "START"},
     "PlayStation": {
         Button.FIRE: "Cross",
@@ -50,24 +50,24 @@ _MAKERS = {
 
 
 class Pad(Protocol):
-    """A pad that is plugged in. `kind` is one of Xbox, PlayStation, Nintendo and Joystick."""
+    """A connected pad. `kind` is one of Xbox, PlayStation, Nintendo and Joystick."""
 
     kind: str
 
     def changes(self, event: pygame.Event) -> Iterator[ButtonChange]:
-        """What an event of this pad means."""
+        """Button changes in an event of this pad."""
 
     def drive(self) -> StickState:
-        """How the pad is held now."""
+        """The current state."""
 
     def attached(self) -> bool:
-        """Whether its cable is still in, as far as the system knows."""
+        """False if the system reports it unplugged."""
 
 
 class MappedPad:
-    """A pad SDL has a mapping for; every such pad has the buttons of an Xbox pad in the same places.
+    """A pad with an SDL mapping; all such pads have the button layout of an Xbox pad.
 
-    Changes are read off the events alone: in a long frame a button or stick may be back before anybody looks at it.
+    Changes come from events alone: in a long frame a button or stick may be back before it could be polled.
     """
 
     def __init__(self, index: int) -> None:
@@ -87,15 +87,15 @@ class MappedPad:
             if event.button in _BUTTONS:
                 yield ButtonChange(_BUTTONS[event.button], down)
             elif event.button in _SHOULDERS:
-                yield from _both(self._shoulders, event.button, down, _SHOULDERS)
+                yield from _chord(self._shoulders, event.button, down, _SHOULDERS)
                 if event.button == pygame.CONTROLLER_BUTTON_RIGHTSHOULDER:
                     yield ButtonChange(None, down, "shoulder")
         elif event.type == pygame.CONTROLLERAXISMOTION:
             if event.axis in _STICK:
-                self._at[event.axis] = max(-1.0, event.value / _FULL)
+                self._at[event.axis] = max(-1.0, event.value / _AXIS_MAX)
                 yield from self._stick.moved(*(self._at[axis] for axis in _STICK))
             elif event.axis in self._triggers:
-                yield from self._triggers[event.axis].moved(event.value / _FULL)
+                yield from self._triggers[event.axis].moved(event.value / _AXIS_MAX)
 
     def attached(self) -> bool:
         return bool(self._pad.attached())
@@ -103,23 +103,23 @@ class MappedPad:
     def drive(self) -> StickState:
         if not self.attached():
             return StickState()
-        held = self._pad.get_button
+        pressed = self._pad.get_button
         x, y = outside_dead_zone(self._axis(pygame.CONTROLLER_AXIS_LEFTX), self._axis(pygame.CONTROLLER_AXIS_LEFTY))
         return StickState(
-            float(held(pygame.CONTROLLER_BUTTON_DPAD_UP) - held(pygame.CONTROLLER_BUTTON_DPAD_DOWN)) or -y,
-            float(held(pygame.CONTROLLER_BUTTON_DPAD_RIGHT) - held(pygame.CONTROLLER_BUTTON_DPAD_LEFT)) or x,
-            held(pygame.CONTROLLER_BUTTON_A) or self._axis(pygame.CONTROLLER_AXIS_TRIGGERRIGHT) > 0.5,
-            held(pygame.CONTROLLER_BUTTON_B)
-            or held(pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
+            float(pressed(pygame.CONTROLLER_BUTTON_DPAD_UP) - pressed(pygame.CONTROLLER_BUTTON_DPAD_DOWN)) or -y,
+            float(pressed(pygame.CONTROLLER_BUTTON_DPAD_RIGHT) - pressed(pygame.CONTROLLER_BUTTON_DPAD_LEFT)) or x,
+            pressed(pygame.CONTROLLER_BUTTON_A) or self._axis(pygame.CONTROLLER_AXIS_TRIGGERRIGHT) > 0.5,
+            pressed(pygame.CONTROLLER_BUTTON_B)
+            or pressed(pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
             or self._axis(pygame.CONTROLLER_AXIS_TRIGGERLEFT) > 0.5,
         )
 
     def _axis(self, axis: int) -> float:
-        return max(-1.0, self._pad.get_axis(axis) / _FULL)
+        return max(-1.0, self._pad.get_axis(axis) / _AXIS_MAX)
 
 
 class PlainPad:
-    """A pad without a mapping: axes 0 and 1, hat 0 and the buttons in the order most makers number them."""
+    """A pad without a mapping: axes 0 and 1, hat 0 and the buttons in the most common order."""
 
     kind = "Joystick"
 
@@ -131,7 +131,7 @@ class PlainPad:
         self._axes = joystick.get_numaxes() >= 2
         self._at = [joystick.get_axis(0), joystick.get_axis(1)] if self._axes else [0.0, 0.0]
         count = joystick.get_numbuttons()
-        self._shoulders_too = count >= 12  # then 6 and 7 are the lower shoulder buttons, and start comes behind them
+        self._shoulders_too = count >= 12  # then 6 and 7 are the lower shoulder buttons, and start has a higher number
         start = 9 if self._shoulders_too else min(7, count - 1)
         self._buttons = dict(enumerate(_PLAIN)) | ({start: Button.START} if start >= len(_PLAIN) else {})
 
@@ -157,13 +157,13 @@ class PlainPad:
         )
 
     def attached(self) -> bool:
-        return True  # a plain joystick that is gone reads as one at rest
+        return True  # an unplugged plain joystick reads as neutral
 
     def _button(self, button: int, down: bool) -> Iterator[ButtonChange]:
         if button in self._buttons:
             yield ButtonChange(self._buttons[button], down)
         elif button in _PLAIN_SHOULDERS:
-            yield from _both(self._shoulders, button, down, _PLAIN_SHOULDERS)
+            yield from _chord(self._shoulders, button, down, _PLAIN_SHOULDERS)
         if button == _PLAIN_SHOULDERS[1] or (self._shoulders_too and button == 6):
             yield ButtonChange(None, down, str(button))
         elif self._shoulders_too and button == 7:
@@ -174,14 +174,14 @@ class PlainPad:
 
     def _hat_moved(self, right: int, up: int) -> Iterator[ButtonChange]:
         now = {Button.UP: up > 0, Button.DOWN: up < 0, Button.LEFT: right < 0, Button.RIGHT: right > 0}
-        for act, down in now.items():
-            if down != self._hat.get(act, False):
-                yield ButtonChange(act, down, "hat")
+        for button, down in now.items():
+            if down != self._hat.get(button, False):
+                yield ButtonChange(button, down, "hat")
         self._hat = now
 
 
 class Pads:
-    """The pads that are plugged in, by instance id."""
+    """The connected pads by instance id."""
 
     def __init__(self) -> None:
         self.plugged: dict[int, Pad] = {}
@@ -189,44 +189,44 @@ class Pads:
             controller.init()
             pygame.joystick.init()
         except pygame.error:
-            return  # a system without a joystick service: keys and mouse still play
+            return  # no joystick service: keys and mouse still work
         self.look()
 
     def look(self) -> list[int]:
-        """Open every pad that is not open yet; the instance ids of those."""
-        found = []
+        """Open all new pads; returns their instance ids."""
+        opened = []
         for index in range(pygame.joystick.get_count()):
             try:
                 joystick = pygame.joystick.Joystick(index)
                 number = joystick.get_instance_id()
                 if number not in self.plugged:
-                    known = controller.is_controller(index)
-                    self.plugged[number] = MappedPad(index) if known else PlainPad(joystick)
-                    found.append(number)
+                    mapped = controller.is_controller(index)
+                    self.plugged[number] = MappedPad(index) if mapped else PlainPad(joystick)
+                    opened.append(number)
             except pygame.error:
-                continue  # pulled out again between the event and now
-        return found
+                continue  # unplugged again since the event
+        return opened
 
     def forget(self, number: int) -> bool:
-        """A pad was pulled out; true if it was known."""
+        """Drop an unplugged pad; true if it was open."""
         return self.plugged.pop(number, None) is not None
 
 
-def label(kind: str, act: Button) -> str:
-    """What is printed on the button of a kind of pad that means `act`; empty if none does."""
-    return _DIRECTIONS.get(act) or _PRINTED[kind].get(_SHARED.get(act, act), "")
+def label(kind: str, button: Button) -> str:
+    """The label printed on a button of this kind of pad; empty if it has none."""
+    return _DIRECTIONS.get(button) or _LABELS[kind].get(_SHARED.get(button, button), "")
 
 
-def _both(held: set[int], button: int, down: bool, pair: tuple[int, int]) -> Iterator[ButtonChange]:
-    """The all-stop, when the second button of a pair goes down or the first of both comes up."""
-    together = held.issuperset(pair)
-    (held.add if down else held.discard)(button)
-    if together or held.issuperset(pair):
+def _chord(down_buttons: set[int], button: int, down: bool, pair: tuple[int, int]) -> Iterator[ButtonChange]:
+    """STOP, down when both buttons of a pair are down, up when the first is released."""
+    was_complete = down_buttons.issuperset(pair)
+    (down_buttons.add if down else down_buttons.discard)(button)
+    if was_complete or down_buttons.issuperset(pair):
         yield ButtonChange(Button.STOP, down, "shoulders")
 
 
 def _kind(name: str) -> str:
-    for kind, marks in _MAKERS.items():
-        if any(mark in name.lower() for mark in marks):
+    for kind, parts in _MAKERS.items():
+        if any(part in name.lower() for part in parts):
             return kind
     return "Xbox"

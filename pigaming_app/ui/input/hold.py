@@ -1,42 +1,40 @@
-"""Buttons that count only after they have been held for a while; every device holds its own."""
+"""Hold-to-confirm timers, one per device."""
 
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Device, InputEvent
 
 
 class HoldTimers:
-    """Presses that are still held down. `needed`: seconds until one counts."""
+    """Buttons being held. `needed`: seconds until one counts."""
 
     def __init__(self, controls: Controls, needed: float) -> None:
         self.controls, self.needed = controls, needed
         self._held: dict[Device, tuple[InputEvent, float]] = {}
 
     def begin(self, event: InputEvent) -> None:
-        """A button went down."""
         self._held[event.device] = (event, 0.0)
 
     def update(self, seconds: float) -> list[InputEvent]:
-        """Let time pass; the presses that have now been held long enough. Whatever was let go is forgotten."""
+        """Advance all timers; returns the events held long enough. Released buttons are dropped."""
         done = []
-        for device, (event, since) in list(self._held.items()):
-            self._held[device] = (event, since + seconds)
+        for device, (event, elapsed) in list(self._held.items()):
+            self._held[device] = (event, elapsed + seconds)
             if not self.controls.holds(device, event.button):
                 del self._held[device]
-            elif since + seconds >= self.needed:
+            elif elapsed + seconds >= self.needed:
                 del self._held[device]
                 done.append(event)
         return done
 
     def clear(self) -> None:
-        """Forget all of them."""
         self._held.clear()
 
     @property
     def shares(self) -> dict[Device, float]:
-        """How much of the time has passed for each device that holds a button, 0..1."""
-        return {device: min(1.0, since / self.needed) for device, (_, since) in self._held.items()}
+        """Elapsed share of the time for each device that holds a button, 0..1."""
+        return {device: min(1.0, elapsed / self.needed) for device, (_, elapsed) in self._held.items()}
 
     @property
     def share(self) -> float:
-        """The largest of the shares, 0 if nothing is held."""
+        """The largest share, 0 if nothing is held."""
         return max(self.shares.values(), default=0.0)

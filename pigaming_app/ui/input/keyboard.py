@@ -1,7 +1,7 @@
-"""One keyboard as four devices: clusters of keys by their place (scancode), so that every layout plays alike.
+"""One keyboard as four devices: clusters of keys by scancode, so that every layout works.
 
-Enter, Escape and the like are shared by all clusters; they count as pressed by the one that was used last, and where
-only seated devices act, by the seated one that was used last.
+Enter, Escape and similar keys are shared: they count as pressed by the most recently used cluster or, where only seated
+devices act, by the most recently used seated one.
 """
 
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from pigaming_app.ui.input.filters import ButtonChange
 
 @dataclass(frozen=True)
 class Cluster:
-    """The scancodes of one cluster, and what is printed on its keys."""
+    """The scancodes of one cluster and the labels of its keys."""
 
     up: tuple[int, ...]
     left: tuple[int, ...]
@@ -27,9 +27,9 @@ class Cluster:
     printed: dict[Button, str]
 
 
-def _printed(up: str, left: str, down: str, right: str, fire: str, turbo: str) -> dict[Button, str]:
-    acts = (Button.UP, Button.LEFT, Button.DOWN, Button.RIGHT, Button.FIRE, Button.LEAVE_SEAT)
-    return dict(zip(acts, (up, left, down, right, fire, turbo), strict=True))
+def _labels(up: str, left: str, down: str, right: str, fire: str, turbo: str) -> dict[Button, str]:
+    buttons = (Button.UP, Button.LEFT, Button.DOWN, Button.RIGHT, Button.FIRE, Button.LEAVE_SEAT)
+    return dict(zip(buttons, (up, left, down, right, fire, turbo), strict=True))
 
 
 CLUSTERS = (
@@ -41,17 +41,17 @@ CLUSTERS = (
         (pygame.KSCAN_SPACE,),
         (pygame.KSCAN_LSHIFT,),
         "WASD",
-        _printed("W", "A", "S", "D", "SPACE", "SHIFT"),
+        _labels("W", "A", "S", "D", "SPACE", "SHIFT"),
     ),
     Cluster(
         (pygame.KSCAN_UP,),
         (pygame.KSCAN_LEFT,),
         (pygame.KSCAN_DOWN,),
         (pygame.KSCAN_RIGHT,),
-        (pygame.KSCAN_RCTRL, pygame.KSCAN_SLASH),  # many a laptop has no right Ctrl
+        (pygame.KSCAN_RCTRL, pygame.KSCAN_SLASH),  # many laptops have no right Ctrl
         (pygame.KSCAN_RSHIFT,),
         "← ↑ ↓ →",
-        _printed("↑", "←", "↓", "→", "R CTRL", "R SHIFT"),
+        _labels("↑", "←", "↓", "→", "R CTRL", "R SHIFT"),
     ),
     Cluster(
         (pygame.KSCAN_I,),
@@ -61,7 +61,7 @@ CLUSTERS = (
         (pygame.KSCAN_U,),
         (pygame.KSCAN_O,),
         "IJKL",
-        _printed("I", "J", "K", "L", "U", "O"),
+        _labels("I", "J", "K", "L", "U", "O"),
     ),
     Cluster(
         (pygame.KSCAN_KP8,),
@@ -71,7 +71,7 @@ CLUSTERS = (
         (pygame.KSCAN_KP0, pygame.KSCAN_KP_ENTER),
         (pygame.KSCAN_KP_PLUS,),
         "8456",
-        _printed("8", "4", "5", "6", "0", "+"),
+        _labels("8", "4", "5", "6", "0", "+"),
     ),
 )
 
@@ -86,7 +86,7 @@ _SHARED = {
     pygame.KSCAN_F1: Button.STOP,
 }
 SHARED = frozenset(_SHARED.values())
-_SHARED_PRINTED = {
+_SHARED_LABELS = {
     Button.START: "ENTER",
     Button.BACK: "ESC",
     Button.Y: "TAB",
@@ -94,7 +94,7 @@ _SHARED_PRINTED = {
     Button.BRAIN: "F4",
     Button.STOP: "F1",
 }
-_SYSTEM = pygame.KMOD_LALT | pygame.KMOD_GUI  # held with another key, these speak to the window manager
+_SYSTEM_MODIFIERS = pygame.KMOD_LALT | pygame.KMOD_GUI  # modifiers of window-manager shortcuts
 
 
 def _own_keys() -> dict[int, tuple[Device, Button]]:
@@ -116,17 +116,17 @@ _OWN = _own_keys()
 
 
 class Keyboard:
-    """Which keys are down, as the events told."""
+    """Key states, tracked from events."""
 
     def __init__(self) -> None:
         self._down: set[int] = set()
-        self.latest = tuple(Device("keys", number) for number in range(len(CLUSTERS)))  # the last used first
+        self.latest = tuple(Device("keys", number) for number in range(len(CLUSTERS)))  # most recently used first
 
     def changes(self, event: pygame.Event) -> Iterator[tuple[Device, ButtonChange]]:
-        """What a KEYDOWN or KEYUP event means, and for which cluster."""
+        """The change caused by a KEYDOWN or KEYUP event, and its cluster."""
         code = event.scancode
         down = event.type == pygame.KEYDOWN
-        if down == (code in self._down) or (down and event.mod & _SYSTEM):
+        if down == (code in self._down) or (down and event.mod & _SYSTEM_MODIFIERS):
             return
         (self._down.add if down else self._down.discard)(code)
         if code in _OWN:
@@ -138,11 +138,11 @@ class Keyboard:
             yield self.latest[0], ButtonChange(_SHARED[code], down, str(code))
 
     def release(self) -> None:
-        """Let go of every key: the window lost the focus, and nobody will say when they come up."""
+        """Release all keys: the window lost the focus, so their KEYUP events will not arrive."""
         self._down.clear()
 
     def drive(self, number: int) -> StickState:
-        """How a cluster is held now."""
+        """The current state of a cluster."""
         cluster, down = CLUSTERS[number], self._down
         return StickState(
             float(any(key in down for key in cluster.up) - any(key in down for key in cluster.down)),
@@ -153,5 +153,5 @@ class Keyboard:
 
 
 def label(number: int, button: Button) -> str:
-    """What is printed on the key of a cluster that means `act`; empty if no key does."""
-    return CLUSTERS[number].printed.get(button) or _SHARED_PRINTED.get(button, "")
+    """The label of a cluster's key for a button; empty if there is none."""
+    return CLUSTERS[number].printed.get(button) or _SHARED_LABELS.get(button, "")

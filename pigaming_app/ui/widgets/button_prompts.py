@@ -1,4 +1,4 @@
-"""The row at the foot of a page: which button of the device used last does what. The mouse clicks on it."""
+"""Button prompts: the row at the foot of a page, labelled for the device used last, and clickable."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -22,15 +22,15 @@ from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 
-ROOM = 1760  # px for the whole row
+ROOM = 1760  # px, width of the row
 GAPS = (56, 44, 32, 24)
-HIGH = 34  # px from the middle of the row to the edge of what can be clicked
+HIGH = 34  # px from the middle of the row to the edge of the clickable area
 
 
 class ButtonPrompts:
-    """A row of (act, key of its text), centred on the line y px of the canvas, not wider than `room` px.
+    """A row of (button, text key), centred at y px of the canvas, at most `room` px wide.
 
-    `solid`: the row lies on a black plate. `voice`: the device whose buttons are named, if not the one used last.
+    `solid`: draw the row on a black plate. `voice`: the device whose buttons are shown, if not the one used last.
     """
 
     def __init__(
@@ -48,26 +48,27 @@ class ButtonPrompts:
 
     @property
     def said(self) -> tuple[tuple[str, str], ...]:
-        """The labels and texts of the moment; an act without a button is left out."""
+        """The current (label, text) pairs; buttons the device lacks are left out."""
         words = self.words
-        return tuple((words.printed(self._label(act)), words(key)) for act, key in self.items if self._label(act))
+        return tuple(
+            (words.printed(self._label(action)), words(key)) for action, key in self.items if self._label(action)
+        )
 
     @property
     def buttons(self) -> list[Button]:
-        """What each of the hints stands for."""
-        return [act for act, _ in self.items if self._label(act)]
+        """The buttons of the visible prompts."""
+        return [action for action, _ in self.items if self._label(action)]
 
     def as_button(self, event: InputEvent) -> InputEvent:
-        """A click on one of the hints as the press that it stands for; any other press as it is."""
+        """A click on a prompt as a press of its button; any other event unchanged."""
         if event.button is not Button.CLICK or event.at is None or abs(event.at[1] - self.y) > HIGH:
             return event
-        for act, (left, right) in zip(self.buttons, places(self.said, self.room), strict=True):
+        for action, (left, right) in zip(self.buttons, places(self.said, self.room), strict=True):
             if left <= event.at[0] <= right:
-                return replace(event, button=act)
+                return replace(event, button=action)
         return event
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Add the row to the screen."""
         if self.solid:
             ends = places(self.said, self.room)
             outline = cut_box(ends[0][0] - 40, self.y - 46, ends[-1][1] - ends[0][0] + 80, 92)
@@ -75,28 +76,28 @@ class ButtonPrompts:
             pygame.draw.polygon(screen, STEEL, outline, THIN)
         row(self.said, self.y, self.room).draw(screen)
 
-    def _label(self, act: Button) -> str:
-        """What is printed on the button; RIGHT stands for left and right."""
-        return "<>" if act is Button.RIGHT else self.controls.label(self.voice() if self.voice else None, act)
+    def _label(self, button: Button) -> str:
+        """The button's label; "<>" for RIGHT, which stands for left and right."""
+        return "<>" if button is Button.RIGHT else self.controls.label(self.voice() if self.voice else None, button)
 
 
-def places(said: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
-    """The left and right end of each hint, px."""
-    widths = [button_width(label) + 18 + text_width(text, BODY, "body") for label, text in said]
+def places(prompts: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
+    """Left and right end of each prompt, px."""
+    widths = [button_width(label) + 18 + text_width(text, BODY, "body") for label, text in prompts]
     fitting = [gap for gap in GAPS if sum(widths) + gap * (len(widths) - 1) <= room]
     gap = fitting[0] if fitting else GAPS[-1]
-    x, out = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
+    x, ends = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
     for width in widths:
-        out.append((x, x + width))
+        ends.append((x, x + width))
         x += width + gap
-    return out
+    return ends
 
 
 @cached
-def row(said: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
-    """The whole row, lit."""
-    ends = places(said, room)
+def row(prompts: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
+    """The rendered row."""
+    ends = places(prompts, room)
     layer = Layer(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
-    for (label, text), (left, _) in zip(said, ends, strict=True):
+    for (label, text), (left, _) in zip(prompts, ends, strict=True):
         layer.canvas.body(text, left + button(layer.canvas, left, y, label) + 18, y, MIST)
     return layer.done()

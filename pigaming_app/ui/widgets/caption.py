@@ -1,4 +1,4 @@
-"""A line of text on a black plate with cut corners: what is said over a running match, made once and kept."""
+"""Captions: a line of text on a black plate with cut corners, shown over a running match. Cached."""
 
 import math
 from dataclasses import dataclass
@@ -26,24 +26,24 @@ MARGIN = 24  # px of glow round a plate
 
 @dataclass(frozen=True)
 class Caption:
-    """A premultiplied sprite that hides what is below it, and its size without the glow, px."""
+    """A premultiplied, opaque sprite, and its size without the glow, px."""
 
     image: pygame.Surface
     width: int
     height: int
 
     def draw(self, screen: pygame.Surface, x: float, y: float) -> None:
-        """Paint it with its middle at (x, y)."""
+        """Draw it centred at (x, y)."""
         corner = round(x - self.image.get_width() / 2), round(y - self.image.get_height() / 2)
         screen.blit(self.image, corner, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
-RING_STEPS = 12  # pictures of a ring that fills
+RING_STEPS = 12  # images of a ring that fills
 
 
 @cached
 def hold_ring(player: int, step: int) -> Caption:
-    """A player's badge in a ring that is `step` of RING_STEPS full, on black: a button that has to be held."""
+    """A player's badge in a ring filled to `step` of RING_STEPS: progress of a held button."""
     r = 46
     ink = GlowCanvas(2 * r + 2 * MARGIN, 2 * r + 2 * MARGIN).to(r + MARGIN, r + MARGIN)
     ink.solid([(1.2 * r * math.cos(i * math.tau / 32), 1.2 * r * math.sin(i * math.tau / 32)) for i in range(32)])
@@ -64,7 +64,7 @@ def caption(
     sign: str | None = None,
     face: str = "body",
 ) -> Caption:
-    """A plate outlined in `color`, with a player's badge and an icon before the text where they are given."""
+    """A plate outlined in `color`, with a player's badge and an icon before the text if given."""
     high = round(size * 1.7)
     lead = (0 if player is None else round(size * 1.35)) + (0 if sign is None else round(size * 1.35))
     wide = round(text_width(text, size, face)) + lead + 2 * round(size * 0.6)

@@ -1,6 +1,6 @@
-"""A page that lies over a match: the match dark and frozen, a black sheet with cut corners on it, all one picture.
+"""Dialogs: a sheet with cut corners over the darkened, frozen match, composed into one picture.
 
-A scene paints the still part once; what moves on it is added frame by frame.
+A scene draws the static part once and adds moving parts frame by frame.
 """
 
 from collections.abc import Callable, Hashable
@@ -13,18 +13,18 @@ from pigaming_app.ui.draw.layers import Layer, LitImage, span
 
 X, W = span(2, 8)
 Y, H = 216, 648
-HEAD, FOOT = Y + 208, Y + 528  # the two lines across the sheet
-PROMPTS = Y + 588  # the row of hints
+HEAD, FOOT = Y + 208, Y + 528  # the two horizontal lines of the sheet
+PROMPTS = Y + 588  # the row of prompts
 
 
 def overlay(
-    behind: pygame.Surface, color: Color, paint: Callable[[Layer], None], shown: Hashable = None
+    behind: pygame.Surface, color: Color, paint: Callable[[Layer], None], cache_key: Hashable = None
 ) -> pygame.Surface:
-    """The picture `behind` (canvas size) under a sheet outlined in `color`, on which `paint` has drawn.
+    """The picture `behind` (canvas size) under a sheet outlined in `color`, with the drawing of `paint` on it.
 
-    `shown` is whatever `paint` depends on besides its object. Raises Unfinished where the budget of the frame is spent.
+    `cache_key`: everything else that `paint` depends on. Raises Unfinished if the frame budget is spent.
     """
-    light = _sheet(color, paint, shown)
+    light = _sheet(color, paint, cache_key)
     out = behind.copy()
     pygame.draw.polygon(out, BLACK, cut_box(X - 12, Y - 12, W + 24, H + 24, 32))
     light.draw(out)
@@ -32,8 +32,7 @@ def overlay(
 
 
 @resumable
-def _sheet(color: Color, paint: Callable[[Layer], None], shown: Hashable) -> Steps[LitImage]:
-    """The light of the sheet."""
+def _sheet(color: Color, paint: Callable[[Layer], None], cache_key: Hashable) -> Steps[LitImage]:
     layer = Layer(X, Y, W, H)
     panel(layer.glow, X, Y, W, H, color, LINE, 28)
     for y in (HEAD, FOOT):

@@ -1,7 +1,7 @@
-"""What the pages are built of: small pieces of light, each made once for each thing that it can show, then only added.
+"""Cached widgets: rendered once per content, then blitted additively.
 
-Every function here and in the pages that makes light is a pure function of what it shows, and keeps what it made.
-Pieces lie round (0, 0) and are drawn where they are needed.
+Every rendering function here and in the pages is a pure function of its content and is cached. Widgets lie round
+(0, 0) and are drawn at an offset.
 """
 
 import math
@@ -32,16 +32,16 @@ from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
 
-LEVELS = 8  # brightnesses kept of what pulses
+LEVELS = 8  # cached brightnesses of pulsing widgets
 
 
 def pulse(seconds: float, low: int = 4) -> int:
-    """The level, `low` to LEVELS, of what calls for a press, once a second."""
+    """The level, `low` to LEVELS, of a pulsing call to action, period 1 s."""
     return round(low + (LEVELS - low) * (0.5 + 0.5 * math.cos(math.tau * seconds)))
 
 
 def dimmed(lit: LitImage, share: float) -> LitImage:
-    """A piece of light at `share` of its brightness, 0..1."""
+    """A widget at `share` (0..1) of its brightness."""
     image = lit.image.copy()
     image.fill([round(255 * share)] * 3, special_flags=pygame.BLEND_RGB_MULT)
     return LitImage(image, lit.at)
@@ -50,7 +50,7 @@ def dimmed(lit: LitImage, share: float) -> LitImage:
 @cached
 @resumable
 def heading(title: str, right: str = "", color: Color = ICE) -> Steps[LitImage]:
-    """The head of a page, with a line below it and a fact at its right end."""
+    """A page heading: title, a line below it, and an optional text at the right end."""
     layer = Layer(LEFT, 54, RIGHT - LEFT, 130)
     size = fit_size(title, TITLE, 1000)
     layer.canvas.text(title, size, LEFT, 112, color)
@@ -65,7 +65,7 @@ def heading(title: str, right: str = "", color: Color = ICE) -> Steps[LitImage]:
 @cached
 @resumable
 def frame(w: int, h: int) -> Steps[LitImage]:
-    """The frame of a picture or of a panel; upper left at (0, 0)."""
+    """The frame of a picture or panel; upper left corner at (0, 0)."""
     layer = Layer(0, 0, w, h)
     panel(layer.glow, 0, 0, w, h)
     yield
@@ -83,64 +83,64 @@ def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> LitI
 
 
 @cached
-def call_to_action(said: str, label: str, size: int, level: int = LEVELS) -> LitImage:
-    """A yellow line that asks for a press; {button} in it is the button. Round (0, 0)."""
+def call_to_action(sentence: str, label: str, size: int, level: int = LEVELS) -> LitImage:
+    """A yellow prompt centred on (0, 0); "{button}" in the text is replaced by the drawn button."""
     if level < LEVELS:
-        return dimmed(call_to_action(said, label, size), level / LEVELS)
-    before, hole, after = said.partition("{button}")
-    wide = button_width(label) + 36 if hole else 0
+        return dimmed(call_to_action(sentence, label, size), level / LEVELS)
+    before, placeholder, after = sentence.partition("{button}")
+    wide = button_width(label) + 36 if placeholder else 0
     size = fit_size(before.strip() + after.strip(), size, 1500 - wide)
     ends = [text_width(part.strip(), size) for part in (before, after)]
     x = -(sum(ends) + wide) / 2
     layer = Layer(x, -size, -2 * x, 2 * size)
     layer.canvas.text(before.strip(), size, x, 0, FOCUS)
-    if hole:
+    if placeholder:
         button(layer.canvas, x + ends[0] + 18, 0, label, FOCUS)
     layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, FOCUS)
     return layer.done()
 
 
-def call_to_action_width(said: str, label: str, size: int) -> float:
-    """Width of such a line, px."""
-    return call_to_action(said, label, size).image.get_width() - 96
+def call_to_action_width(sentence: str, label: str, size: int) -> float:
+    """Width of the call to action, px."""
+    return call_to_action(sentence, label, size).image.get_width() - 96
 
 
-def chip_width(said: str) -> int:
+def chip_width(word: str) -> int:
     """Width of a chip, px."""
-    return round(text_width(said, BODY)) + 48
+    return round(text_width(word, BODY)) + 48
 
 
 @cached
-def chip(said: str, w: int, state: str = "off", high: int = 64) -> LitImage:
-    """A box with a word, its upper left at (0, 0). `state`: off, on, focus (on and in focus), ready (calls)."""
+def chip(word: str, w: int, state: str = "off", high: int = 64) -> LitImage:
+    """A box with a word, upper left corner at (0, 0). `state`: off, on, focus (on and focused), ready (highlighted)."""
     edge = {"off": STEEL, "on": ICE, "focus": FOCUS, "ready": FOCUS}[state]
     layer = Layer(0, 0, w, high)
     layer.glow.line(cut_box(0, 0, w, high, 12), edge, THIN, True)
     color = {"off": MIST, "ready": FOCUS}.get(state, ICE)
-    layer.canvas.crisp.text(said, fit_size(said, BODY, w - 24), w / 2, high / 2, color, "head", "c")
+    layer.canvas.crisp.text(word, fit_size(word, BODY, w - 24), w / 2, high / 2, color, "head", "c")
     return layer.done()
 
 
 @cached
 def button_label(label: str) -> LitImage:
-    """A button as it is printed on the device, its left edge at x = 0."""
+    """A button with its label, left edge at x = 0."""
     layer = Layer(0, -32, button_width(label), 64)
     button(layer.canvas, 0, 0, label)
     return layer.done()
 
 
 def black_out(screen: pygame.Surface, *boxes: pygame.Rect) -> pygame.Surface:
-    """Hide the dots of the floor inside boxes of the house shape."""
+    """Black out the floor dots inside boxes with cut corners."""
     for box in boxes:
         pygame.draw.polygon(screen, (0, 0, 0), cut_box(box.x, box.y, box.w, box.h, 20))
     return screen
 
 
 def glow_bar(screen: pygame.Surface, box: pygame.Rect, color: Color = FOCUS) -> None:
-    """A breath of colour inside a row in focus."""
+    """A faint background for the focused row."""
     screen.fill(dim(color, 0.09), box, pygame.BLEND_RGB_ADD)
 
 
 def blit_sprite(screen: pygame.Surface, sprite: Sprite, x: float, y: float) -> None:
-    """Blit a premultiplied sprite where it belongs."""
+    """Blit a premultiplied sprite with its anchor at (x, y)."""
     screen.blit(sprite.image, (round(x + sprite.dx), round(y + sprite.dy)), special_flags=pygame.BLEND_PREMULTIPLIED)

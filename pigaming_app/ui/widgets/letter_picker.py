@@ -1,4 +1,4 @@
-"""Letters that are chosen with a stick and a button: a name in the Lab, initials for the high scores."""
+"""Letter picker for stick and button: names in the Lab, initials in the high scores."""
 
 from collections.abc import Sequence
 
@@ -9,11 +9,11 @@ from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import word
 
-ROLL = 0.09  # seconds in which a letter rolls into its place
+ROLL = 0.09  # seconds for which a letter rolls into place
 
 
 class LetterPicker:
-    """The letters of `text`, each from `alphabet`; the one at `slot` is turned."""
+    """The letters of `text`, each from `alphabet`; the one at `slot` is being changed."""
 
     def __init__(self, alphabet: str, text: str) -> None:
         self.alphabet = alphabet
@@ -23,22 +23,22 @@ class LetterPicker:
 
     @property
     def spelled(self) -> str:
-        """The letters as they are now."""
+        """The current letters."""
         return "".join(self.alphabet[letter] for letter in self.letters)
 
     @property
     def roll(self) -> float:
-        """How far the letter at `slot` is from its place, -1..1 letters."""
+        """Distance of the letter at `slot` from its place, -1..1 letters."""
         return self._rolled * max(0.0, 1.0 - self._rolling / ROLL)
 
     def turn(self, by: int) -> str:
-        """Turn the letter at `slot`; the name of the sound."""
+        """Turn the letter at `slot` by `by` letters. Returns the name of the sound."""
         self.letters[self.slot] = (self.letters[self.slot] + by) % len(self.alphabet)
         self._rolled, self._rolling = by, 0.0
         return "move"
 
     def move(self, by: int) -> str | None:
-        """Go to another slot, up to the ends; the name of the sound, None if nothing has moved."""
+        """Move to another slot, without wrapping. Returns the name of the sound, None if nothing moved."""
         before, self.slot = self.slot, max(0, min(len(self.letters) - 1, self.slot + by))
         self._rolled = 0
         if self.slot == before:
@@ -46,7 +46,7 @@ class LetterPicker:
         return "accept" if self.slot > before else "back"
 
     def update(self, seconds: float) -> None:
-        """Let a letter roll."""
+        """Advance the roll animation."""
         self._rolling += seconds
 
 
@@ -60,9 +60,9 @@ def draw_letters(
     color: Color,
     open_: bool = True,
 ) -> None:
-    """Paint the letters round (x, y), `size` px high; a rolling one comes from `pitch` px away.
+    """Draw the letters centred on (x, y), `size` px high; a rolling letter starts `pitch` px away.
 
-    `open_`: the letter at the slot is lit, because it can still be turned.
+    `open_`: highlight the letter at the slot, as it can still be changed.
     """
     for i, (letter, x) in enumerate(zip(picker.spelled, xs, strict=True)):
         here = open_ and i == picker.slot
@@ -72,9 +72,9 @@ def draw_letters(
 
 @cached
 def cursor(w: int, h: int, arm: int, corner: int, width: float, arrows: tuple[float, int, float]) -> LitImage:
-    """Corners round a letter of w x h px, and the arrows that turn it; round (0, 0).
+    """Brackets round a letter of w x h px and the arrows above and below it, centred on (0, 0).
 
-    `arrows`: px from the middle to an arrow, its size, and how far the glow may reach.
+    `arrows`: px from the middle to an arrow, its size, and the vertical reach of the glow.
     """
     away, r, reach = arrows
     layer = Layer(-w / 2 - 20, -reach, w + 40, 2 * reach)

@@ -1,4 +1,4 @@
-"""What is painted over any scene: a sentence that stays for a while, and the numbers that F3 shows."""
+"""Overlays on any scene: timed notices and the frame meter (F3)."""
 
 from collections import deque
 
@@ -9,29 +9,29 @@ from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.caption import caption
 
 STAY = 5.0  # seconds
-Y = 1040  # px, below the row of hints
-ROOM = 1640  # px
-EVERY = 0.25  # seconds between two readings of the gauge
+Y = 1040  # px, below the row of prompts
+MAX_WIDTH = 1640  # px
+READING_PERIOD = 0.25  # seconds between two readings of the frame meter
 
 
 class Notices:
-    """One sentence after the other."""
+    """A queue of sentences, shown one at a time."""
 
     def __init__(self) -> None:
         self.waiting: deque[str] = deque()
         self.age = 0.0
 
     def say(self, sentence: str) -> None:
-        """Show a sentence, after those that wait already; the same one waits only once."""
+        """Queue a sentence, unless it is queued already."""
         if sentence not in self.waiting:
             self.waiting.append(sentence)
 
     def draw(self, screen: pygame.Surface, seconds: float) -> None:
-        """Paint the sentence of the moment, `seconds` after the frame before."""
+        """Draw the current sentence, `seconds` after the previous frame."""
         if not self.waiting:
             return
-        said = self.waiting[0]
-        caption(said, FOCUS, ICE, fit_size(said, BODY, ROOM, "body")).draw(screen, 960, Y)
+        sentence = self.waiting[0]
+        caption(sentence, FOCUS, ICE, fit_size(sentence, BODY, MAX_WIDTH, "body")).draw(screen, 960, Y)
         self.age += seconds
         if self.age > STAY:
             self.waiting.popleft()
@@ -39,23 +39,23 @@ class Notices:
 
 
 class FrameMeter:
-    """Frames a second, and the longest that scenes took to move and to paint since the last reading, ms."""
+    """Frame rate, and the longest update and draw times since the last reading."""
 
     def __init__(self) -> None:
-        self.shown, self.fps = False, 0.0
-        self._age = self._moved = self._painted = 0.0
+        self.visible, self.fps = False, 0.0
+        self._age = self._update = self._draw = 0.0
         self._text: pygame.Surface | None = None
 
-    def note(self, seconds: float, moved: float, painted: float) -> None:
-        """Take down one frame; all in seconds."""
+    def note(self, seconds: float, update: float, draw: float) -> None:
+        """Record one frame; all times in seconds."""
         self._age += seconds
-        self._moved, self._painted = max(self._moved, moved), max(self._painted, painted)
-        if self._age >= EVERY:
-            said = f"{self.fps:3.0f} fps   move {1e3 * self._moved:4.1f} ms   paint {1e3 * self._painted:4.1f} ms"
-            self._text = font("head", 28).render(said, True, ICE, (0, 0, 0)) if self.shown else None
-            self._age = self._moved = self._painted = 0.0
+        self._update, self._draw = max(self._update, update), max(self._draw, draw)
+        if self._age >= READING_PERIOD:
+            line = f"{self.fps:3.0f} fps   move {1e3 * self._update:4.1f} ms   paint {1e3 * self._draw:4.1f} ms"
+            self._text = font("head", 28).render(line, True, ICE, (0, 0, 0)) if self.visible else None
+            self._age = self._update = self._draw = 0.0
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Paint the last reading, if it is wished for."""
-        if self.shown and self._text:
+        """Draw the last reading, if enabled."""
+        if self.visible and self._text:
             screen.blit(self._text, (12, 1046))

@@ -1,6 +1,6 @@
-"""The card of a player, in the lobby and where initials are chosen: its size, and the bar at its foot.
+"""Layout of a player's card, in the lobby and in the choice of initials, and the bar at its foot.
 
-A card is W x H px, its upper left at (0, 0) of its own.
+A card is W x H px, with its upper left corner at (0, 0).
 """
 
 from pigaming_app.ui.draw import (
@@ -30,25 +30,25 @@ BAR = (24, 500, W - 48, 76)
 
 
 @cached
-def ready_bar(player: int, said: str) -> LitImage:
-    """The bar of somebody who is ready."""
+def ready_bar(player: int, sentence: str) -> LitImage:
+    """The bar of a player who is ready."""
     layer, color = Layer(*BAR), PLAYERS[player]
     layer.glow.fill(cut_box(*BAR, 14), dim(color, 0.28)).line(cut_box(*BAR, 14), color, THIN, True)
-    size = fit_size(said, LABEL, W - 150)
-    icon(layer.glow, "check", MIDDLE - text_width(said, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
-    layer.canvas.text(said, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
+    size = fit_size(sentence, LABEL, W - 150)
+    icon(layer.glow, "check", MIDDLE - text_width(sentence, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
+    layer.canvas.text(sentence, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
     return layer.done()
 
 
 @cached
-def ask_bar(label: str, said: str, level: int) -> LitImage:
-    """The bar of somebody who has to press a button to be ready."""
+def ask_bar(label: str, sentence: str, level: int) -> LitImage:
+    """The bar that asks a player to press a button when ready."""
     if level < LEVELS:
-        return dimmed(ask_bar(label, said, LEVELS), level / LEVELS)
+        return dimmed(ask_bar(label, sentence, LEVELS), level / LEVELS)
     wide = button_width(label)
-    size = fit_size(said, BODY, W - 40 - wide - 18, "body")
-    x = MIDDLE - (wide + 18 + text_width(said, size, "body")) / 2
+    size = fit_size(sentence, BODY, W - 40 - wide - 18, "body")
+    x = MIDDLE - (wide + 18 + text_width(sentence, size, "body")) / 2
     layer = Layer(*BAR)
-    layer.canvas.body(said, x, BAR_Y, ICE, "l", size)
-    button(layer.canvas, x + text_width(said, size, "body") + 18, BAR_Y, label, FOCUS)
+    layer.canvas.body(sentence, x, BAR_Y, ICE, "l", size)
+    button(layer.canvas, x + text_width(sentence, size, "body") + 18, BAR_Y, label, FOCUS)
     return layer.done()

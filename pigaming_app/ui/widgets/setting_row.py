@@ -1,4 +1,4 @@
-"""Rows of settings, one in focus: toggles, meters, values between arrows, deeds; and the panel that explains them."""
+"""Setting rows, one focused: toggles, meters, values between arrows, actions; and the panel that describes them."""
 
 import math
 from collections.abc import Sequence
@@ -42,7 +42,7 @@ TOP, PITCH, HIGH = 246, 88, 64  # px: the middle of the first row, from row to r
 
 @dataclass(frozen=True)
 class SettingValue:
-    """What a row shows: options of which one is lit, a number of ten, a text between arrows, or a thing to do."""
+    """The content of a row: options of a toggle, a meter of ten cells, a text between arrows, or an action."""
 
     kind: str  # toggle, meter, arrows, deed
     options: tuple[str, ...]
@@ -50,96 +50,96 @@ class SettingValue:
 
 
 def spots(names: Sequence[str]) -> list[FocusSpot]:
-    """Where rows with these names are."""
+    """The spots of rows with these names."""
     x, w = span(0, 8)
     return [FocusSpot(name, pygame.Rect(x, TOP - HIGH // 2 + PITCH * i, w, HIGH)) for i, name in enumerate(names)]
 
 
 def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values: dict[str, SettingValue]) -> None:
-    """Paint the rows of a page whose texts are in `table`."""
+    """Draw the rows of a page whose texts are in `table`."""
     glow_bar(screen, focus.box)
     for i, spot in enumerate(focus.spots):
-        box, shown, hot = spot.rect, values[spot.name], spot.name == focus.name
-        label(words(f"{table}.{spot.name}"), hot).draw(screen, box.x + 40, box.centery)
-        value(shown.kind, shown.options, shown.chosen, hot).draw(screen, box.x, box.centery)
+        box, content, focused = spot.rect, values[spot.name], spot.name == focus.name
+        label(words(f"{table}.{spot.name}"), focused).draw(screen, box.x + 40, box.centery)
+        value(content.kind, content.options, content.chosen, focused).draw(screen, box.x, box.centery)
         if i and box.y > (above := focus.spots[i - 1].rect.bottom):
             separator(box.w).draw(screen, box.x, (box.y + above) // 2)
     focus.draw(screen)
 
 
 def step_of(event: InputEvent, focus: Focus, value: SettingValue) -> int:
-    """By how much a press changes the row in focus: 1, -1, or 0; a click does what it hits."""
+    """The step of the focused row by an event: 1, -1 or 0; for a click on a toggle, the offset to the option hit."""
     if event.button in (Button.LEFT, Button.RIGHT):
         return 1 if event.button is Button.RIGHT else -1
     if event.button is Button.CLICK and event.at and focus.under(event) == focus.name and value.kind != "deed":
         across = event.at[0] - focus.spot.rect.x
         if value.kind == "toggle":
-            place = value_at(value.kind, value.options, value.chosen, across)
-            return 0 if place is None else place - value.chosen
+            hit = value_at(value.kind, value.options, value.chosen, across)
+            return 0 if hit is None else hit - value.chosen
         return 0 if across < AT else -1 if across < AT + ROOM / 2 else 1
     return 0
 
 
-def label(said: str, hot: bool) -> LitImage:
+def label(name: str, focused: bool) -> LitImage:
     """The name of a row, its middle at y = 0."""
-    return text(said, BODY, ICE if hot else MIST, "body", "l", AT - 60)
+    return text(name, BODY, ICE if focused else MIST, "body", "l", AT - 60)
 
 
 @cached
 def separator(w: int) -> LitImage:
-    """The hair line between two rows."""
+    """The thin line between two rows."""
     return LitImage(GlowCanvas(w, 4).line([(24, 2), (w - 24, 2)], dim(STEEL, 0.6), HAIR).plain(), (0, -2))
 
 
 @cached
-def value(kind: str, options: tuple[str, ...], chosen: int, hot: bool) -> LitImage:
-    """What is set, its middle at y = 0: a toggle, a meter, a text between arrows, or a deed."""
+def value(kind: str, options: tuple[str, ...], chosen: int, focused: bool) -> LitImage:
+    """The value of a row, its middle at y = 0: a toggle, a meter, a text between arrows, or an action."""
     layer = Layer(AT, -36, ROOM, 72)
     if kind == "toggle":
-        for said, (x, w), on in zip(options, chips(options), range(len(options)), strict=True):
+        for option, (x, w), on in zip(options, chips(options), range(len(options)), strict=True):
             lit = on == chosen
-            edge = (FOCUS if hot else ICE) if lit else STEEL
+            edge = (FOCUS if focused else ICE) if lit else STEEL
             layer.glow.line(cut_box(x, -27, w, 54, 12), edge, THIN, True)
-            layer.canvas.crisp.text(said, BODY, x + w / 2, 0, ICE if lit else MIST, "head", "c")
+            layer.canvas.crisp.text(option, BODY, x + w / 2, 0, ICE if lit else MIST, "head", "c")
     elif kind == "meter":
-        _meter(layer, chosen, hot)
+        _meter(layer, chosen, focused)
     elif kind == "arrows":
         for sign, x in (("left", AT + 14), ("right", W - 54)):
-            icon(layer.glow, sign, x, 0, 18, FOCUS if hot else MIST, 5)
-        said = options[chosen] if chosen < len(options) else ""
-        size = fit_size(said, BODY, ROOM - 120, "body")
-        layer.canvas.crisp.text(said, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
+            icon(layer.glow, sign, x, 0, 18, FOCUS if focused else MIST, 5)
+        option = options[chosen] if chosen < len(options) else ""
+        size = fit_size(option, BODY, ROOM - 120, "body")
+        layer.canvas.crisp.text(option, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
     else:
         w = chips(options)[0][1]
-        layer.glow.line(cut_box(AT, -27, w, 54, 12), FOCUS if hot else STEEL, THIN, True)
-        layer.canvas.crisp.text(options[0], BODY, AT + w / 2, 0, ICE if hot else MIST, "head", "c")
+        layer.glow.line(cut_box(AT, -27, w, 54, 12), FOCUS if focused else STEEL, THIN, True)
+        layer.canvas.crisp.text(options[0], BODY, AT + w / 2, 0, ICE if focused else MIST, "head", "c")
     return layer.done()
 
 
-def _meter(layer: Layer, chosen: int, hot: bool) -> None:
-    color = FOCUS if hot else MIST
+def _meter(layer: Layer, chosen: int, focused: bool) -> None:
+    color = FOCUS if focused else MIST
     for i in range(CELLS):
         box = cut_box(AT + CELL * i, -22, 30, 44, 6)
         if i < chosen:
             layer.glow.fill(box, color)
         else:
             layer.glow.line(box, STEEL, 3, True)
-    layer.canvas.crisp.text(str(chosen), BODY, W - 40, 0, ICE if hot else MIST, "head", "r")
+    layer.canvas.crisp.text(str(chosen), BODY, W - 40, 0, ICE if focused else MIST, "head", "r")
 
 
 def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
-    """x and width of the options of a toggle, px from the row's left edge."""
+    """x and width of a toggle's options, px from the row's left edge."""
     places: list[tuple[int, int]] = []
     x = AT
-    for said in options:
-        w = round(text_width(said, BODY)) + 40
+    for option in options:
+        w = round(text_width(option, BODY)) + 40
         places.append((x, w))
         x += w + 12
     return places
 
 
 def value_at(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | None:
-    """The value that a click means, x px from the row's left edge; None: it hits nothing."""
+    """The value selected by a click x px from the row's left edge; None if it hits nothing."""
     if kind == "toggle":
         return next((i for i, (left, w) in enumerate(chips(options)) if left <= x < left + w), None)
     if kind == "meter":
@@ -151,14 +151,14 @@ def value_at(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int 
     return max(0, min(len(options) - 1, chosen + by))
 
 
-def describe(screen: pygame.Surface, said: str, line: str) -> None:
-    """What a row is called and does, in the panel."""
-    for i, lit in enumerate(description(said, line)):
+def describe(screen: pygame.Surface, title: str, sentence: str) -> None:
+    """Draw the name and description of a row in the panel."""
+    for i, lit in enumerate(description(title, sentence)):
         lit.draw(screen, PANEL.x + 40, PANEL.y + 400 + (14 + 58 * i if i else 0))
 
 
 @cached
-def description(said: str, line: str) -> tuple[LitImage, ...]:
-    """A title, and a sentence in lines that fit into the panel."""
+def description(title: str, sentence: str) -> tuple[LitImage, ...]:
+    """A title and its description, wrapped to the panel."""
     room = PANEL.w - 80
-    return (text(said, LABEL, ICE, "head", "l", room), *paragraph(line, room, 3, MIST))
+    return (text(title, LABEL, ICE, "head", "l", room), *paragraph(sentence, room, 3, MIST))

@@ -1,4 +1,4 @@
-"""Words that nobody puts into the tables of the best: assets/rude.toml."""
+"""The filter of rude words for the high scores: assets/rude.toml."""
 
 import tomllib
 from functools import cache
@@ -6,11 +6,11 @@ from itertools import product
 
 from pigaming_app import ASSETS
 
-HARMLESS = "BOT"  # what stands in the place of a rude word
+HARMLESS = "BOT"  # replaces a rude word
 
 
 def is_rude(initials: str) -> bool:
-    """Whether three letters are, or can be read as, a rude word."""
+    """True if three letters are, or can be read as, a rude word."""
     words, read_as = _lists()
     readings = product(*((letter, *read_as.get(letter, "")) for letter in initials))
     return any("".join(reading) in words for reading in readings)

@@ -1,4 +1,4 @@
-"""The look into an AI's brain (F4): it goes round the AIs, says what they do, hides nobody and changes nothing."""
+"""The brain overlay (F4): it cycles through the AIs, describes their actions, covers no robot and changes nothing."""
 
 from itertools import pairwise
 
@@ -26,7 +26,7 @@ from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
 SEATS = {"pitanks": ["hard", "easy", "random", "idle"], "race": ["hard", "easy", "random", "idle"]}
 SEATS["factory"] = ["hard", "normal", "easy", "random"]
-READABLE = 0.85  # of its size, below which a text is not pressed together
+READABLE = 0.85  # minimum horizontal scale of readable text
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def arcade(controls: Controls) -> Arcade:
 
 
 def f4(arcade: Arcade) -> None:
-    """Somebody presses the key, and lets go."""
+    """Press and release F4."""
     for kind in (pygame.KEYDOWN, pygame.KEYUP):
         pygame.event.post(pygame.Event(kind, key=pygame.K_F4, scancode=pygame.KSCAN_F4, mod=0, unicode=""))
     arcade.frame(draw=True)
@@ -47,7 +47,7 @@ def stage_of(arcade: Arcade, game: str, seed: int = 1) -> MatchRunner:
     return MatchRunner(arcade.context, seated(wish), loud=False)
 
 
-def test_f4_goes_round_the_ais_and_then_away(arcade: Arcade) -> None:
+def test_f4_cycles_through_the_ais_and_then_hides_the_overlay(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human easy off hard", 1.0), KEYS[:1])
     arcade.open(match)
     shown = []
@@ -59,13 +59,13 @@ def test_f4_goes_round_the_ais_and_then_away(arcade: Arcade) -> None:
     assert arcade.context.controls.last == KEYS[0], "a look at an AI says nothing about what one plays with"
 
 
-def test_where_nobody_is_an_ai_that_is_said(arcade: Arcade) -> None:
+def test_without_ais_a_notice_is_shown(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human human off off", 1.0), KEYS[:2])
     arcade.open(match)
     f4(arcade)
     assert match.runner.brain.seat is None
     assert match.notice is not None
-    assert match.noticed > 0.0
+    assert match.notice_left > 0.0
 
 
 def test_alt_and_f4_is_for_the_window_manager(arcade: Arcade) -> None:
@@ -73,7 +73,7 @@ def test_alt_and_f4_is_for_the_window_manager(arcade: Arcade) -> None:
     assert arcade.context.controls.presses([event]) == []
 
 
-def test_somebody_who_takes_the_seat_is_not_looked_into(arcade: Arcade) -> None:
+def test_the_overlay_closes_when_a_person_takes_the_seat(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human easy off off", 1.0), [None])
     arcade.open(match)
     f4(arcade)
@@ -123,7 +123,7 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
         assert match.runner.brain.seat == 1
 
 
-def test_in_the_show_it_is_no_reason_to_leave(arcade: Arcade) -> None:
+def test_f4_does_not_end_attract_mode(arcade: Arcade) -> None:
     show = Attract(arcade.context)
     assert isinstance(show.show, DemoMatch)
     arcade.open(show)
@@ -158,8 +158,8 @@ def test_every_brain_is_drawn_and_the_match_plays_out_alike(controls: Controls, 
 
 
 @pytest.mark.parametrize("game", SEATS)
-def test_what_is_shown_is_seen(arcade: Arcade, game: str) -> None:
-    """Light round the robot, another text in place of the panels, the clock where it was; and all of it goes again."""
+def test_the_overlay_is_visible_and_disappears_again(arcade: Arcade, game: str) -> None:
+    """Light round the robot, texts in place of the panels, an unchanged clock; all of it disappears again."""
     stage = stage_of(arcade, game)
     for _ in range(120):
         stage.advance(1 / 60)
@@ -170,7 +170,7 @@ def test_what_is_shown_is_seen(arcade: Arcade, game: str) -> None:
     places = around.clip(arcade.screen.get_rect()), pygame.Rect(160, 0, 600, 130), clock.inflate(-60, -20)
     before = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
     stage.brain.next()
-    stage.unseen = 0.0
+    stage.undrawn = 0.0
     stage.draw(arcade.screen)
     now = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
     assert [old != new for old, new in zip(before, now, strict=True)] == [True, True, False]
@@ -181,7 +181,7 @@ def test_what_is_shown_is_seen(arcade: Arcade, game: str) -> None:
 
 
 def test_no_light_of_it_lies_on_a_robot(arcade: Arcade) -> None:
-    """Neither on its own robot nor on others, which stand in the rose and across the lines of sight."""
+    """Neither on its own robot nor on others in the rose and across the lines of sight."""
     stage = stage_of(arcade, "pitanks")
     state, overlay = stage.match.state, stage.brain
     for _ in range(30):
@@ -204,7 +204,7 @@ def test_no_light_of_it_lies_on_a_robot(arcade: Arcade) -> None:
 
 
 def test_the_petals_of_a_rose_turn_with_the_robot() -> None:
-    """A rose that wants to go ahead is lit where the robot looks."""
+    """A rose with the wish to go ahead is lit in front of the robot."""
     pygame.display.init()
     pygame.display.set_mode((1920, 1080))
     ahead = [1.0] + [0.0] * 15
@@ -234,7 +234,9 @@ def test_bars_follow_wishes_and_do_not_jump(arcade: Arcade) -> None:
     assert overlay.wishes == pytest.approx(dict(overlay.thoughts.wishes), abs=0.01)
 
 
-def test_it_asks_a_few_times_a_second_and_never_within_a_tick(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_brains_are_queried_a_few_times_a_second_and_never_within_a_tick(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
     stage = stage_of(arcade, "pitanks")
     asked = []
     brain = stage.match.brains[0]
@@ -252,7 +254,7 @@ def test_it_asks_a_few_times_a_second_and_never_within_a_tick(arcade: Arcade, mo
     assert 18 <= len(asked) <= 22
 
 
-def test_a_seat_without_a_brain_that_explains_itself_is_passed_over(arcade: Arcade) -> None:
+def test_seats_without_an_explaining_brain_are_skipped(arcade: Arcade) -> None:
     stage = stage_of(arcade, "pitanks")
     stage.match.sit(0, make("pitanks", "idle", 1))
     kind = stage.match.brains[0].kind

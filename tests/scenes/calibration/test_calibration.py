@@ -1,4 +1,4 @@
-"""The calibration wizard on the emulated arena: it finds what is true there; whatever is wrong is one sentence."""
+"""The calibration wizard on the emulated arena: it recovers the ground truth; every failure is one sentence."""
 
 import ast
 import os
@@ -37,12 +37,12 @@ from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from tests.scenes.operated import Operated
 
-LONG = 30.0  # s after which a test gives up waiting
+LONG = 30.0  # s, timeout of a test
 
 
 @pytest.fixture(scope="module")
 def made() -> Iterator[CalibrationResult]:
-    """A calibration by the wizard, made once for the tests of what comes after it."""
+    """A calibration by the wizard, shared by the tests of later pages."""
     with tempfile.TemporaryDirectory() as home, pytest.MonkeyPatch.context() as patch:
         patch.setenv("PIGAMING_HOME", home)
         pygame.display.init()
@@ -71,7 +71,7 @@ def arcade(controls: Controls, _home: None) -> Operated:
     return arcade
 
 
-def test_the_operator_sees_the_mat_calibrates_it_saves_and_is_told_so(arcade: Operated, tmp_path: Path) -> None:
+def test_an_operator_previews_calibrates_and_saves(arcade: Operated, tmp_path: Path) -> None:
     for _ in range(20):
         arcade.picture()
     first = arcade.shown(CalibrationPage)
@@ -104,7 +104,7 @@ def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
 
 
 @pytest.mark.long
-def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operated) -> None:
+def test_a_robot_on_the_spots_gives_the_camera_height(arcade: Operated) -> None:
     arcade.go("by")
     arcade.press(Button.RIGHT)
     assert "height" not in [spot.name for spot in arcade.shown(CalibrationPage).focus.spots]
@@ -119,7 +119,7 @@ def test_a_robot_on_the_outlines_tells_how_high_the_camera_hangs(arcade: Operate
 
 
 @pytest.mark.long
-def test_somebody_in_the_light_costs_one_sentence_and_again_helps(arcade: Operated) -> None:
+def test_a_person_in_the_light_is_reported_and_a_repeat_succeeds(arcade: Operated) -> None:
     arcade.begin()
     result = arcade.pictures(ResultPage, covered=True)
     assert not result.finding.good
@@ -156,7 +156,7 @@ def test_a_folder_that_cannot_be_written(arcade: Operated, made: CalibrationResu
     assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
 
 
-def test_what_cannot_be_saved_is_said_and_nothing_is_lost(
+def test_a_failed_save_is_reported_and_nothing_is_lost(
     arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(path: Path, text: str) -> None:
@@ -181,7 +181,7 @@ def test_the_way_back_leads_out_of_every_page(arcade: Operated, made: Calibratio
     assert arcade.stack.top is arcade.setup
 
 
-def test_a_camera_that_goes_blind_meanwhile(arcade: Operated) -> None:
+def test_a_camera_that_fails_during_calibration(arcade: Operated) -> None:
     arcade.begin()
     for _ in range(20):
         arcade.picture()
@@ -191,9 +191,7 @@ def test_a_camera_that_goes_blind_meanwhile(arcade: Operated) -> None:
     arcade.shown(ResultPage)
 
 
-def test_nobody_puts_a_robot_on_the_outline(
-    arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_missing_robot_times_out(arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(standing, "PATIENCE", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
     arcade.open(HeightPage(arcade.context, replace(made, site=arcade.site), lambda: boards(arcade, made)))
@@ -201,7 +199,7 @@ def test_nobody_puts_a_robot_on_the_outline(
     assert result.finding.trouble.key == "nobody"
 
 
-def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made: CalibrationResult) -> None:
+def test_a_moved_projector_is_detected_by_the_drift_page(arcade: Operated, made: CalibrationResult) -> None:
     concluded(arcade, made)
     arcade.press(Button.FIRE)
     arcade.press(Button.BACK)
@@ -217,7 +215,7 @@ def test_moved_since_then_is_seen_on_the_page_that_checks(arcade: Operated, made
         arcade.picture()
     assert checking.marker_mm == pytest.approx(50.0, rel=0.04), "the width of the mat was measured well"
     canvas = arcade.context.canvas
-    canvas.pin(CornerPin([8, 0, 1928, 0, 1928, 1080, 8, 1080]))  # somebody pushes the projector
+    canvas.pin(CornerPin([8, 0, 1928, 0, 1928, 1080, 8, 1080]))  # the projector is moved
     for _ in range(24):
         arcade.picture()
     assert checking.mm == pytest.approx(8 * checking.drift.ground.mm, abs=2.0)  # type: ignore[union-attr]
@@ -249,7 +247,7 @@ def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -
     site.close()
 
 
-def test_a_mouse_sets_what_it_hits(arcade: Operated) -> None:
+def test_a_click_sets_the_value_it_hits(arcade: Operated) -> None:
     first = arcade.go("by")
     spot = first.focus.spot.rect
     ruler, robot = (x + w / 2 for x, w in dials.chips((arcade.context.words("calibrate.ruler"), "Robot")))
@@ -289,7 +287,7 @@ def test_the_corner_pin_is_part_of_what_was_calibrated(arcade: Operated) -> None
     assert canvas.projection == straight
 
 
-def test_every_sentence_with_a_key_is_said_in_both_languages() -> None:
+def test_every_message_key_has_a_sentence_in_both_languages() -> None:
     keys = set()
     for file in Path(hardware.__file__).parent.rglob("*.py"):
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):

@@ -1,4 +1,4 @@
-"""The calibration wizard with real cameras, or none: what they do not do is one sentence, and no thread stays."""
+"""The calibration wizard with real cameras, or none: failures are one sentence, and no thread survives."""
 
 import time
 from pathlib import Path
@@ -28,11 +28,11 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.operated import Operated
 
-LONG = 30.0  # s after which a test gives up waiting
+LONG = 30.0  # s, timeout of a test
 
 
 class Driver:
-    """A `cv2.VideoCapture` of the tests': it opens, or not, and sends grey pictures."""
+    """A fake `cv2.VideoCapture` that opens or fails, and returns grey images."""
 
     def __init__(self, opens: bool = True) -> None:
         self.opens, self.sends = opens, True
@@ -68,7 +68,7 @@ def until(arcade: Operated, true: Any) -> None:
     end = time.monotonic() + LONG
     while not true():
         arcade.picture()
-        time.sleep(0.005)  # as the arcade does between two pictures; else the camera's thread may starve
+        time.sleep(0.005)  # like the arcade between two pictures; else the camera's thread may starve
         assert time.monotonic() < end, "it did not happen"
 
 
@@ -82,7 +82,7 @@ def _one_camera(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
-def test_the_camera_of_the_settings_is_gone_so_the_one_that_is_there_is_shown(controls: Controls) -> None:
+def test_a_missing_camera_is_replaced_by_a_connected_one(controls: Controls) -> None:
     arcade = real(controls, Driver())
     first = arcade.shown(CalibrationPage)
     assert first.number == 3
@@ -94,7 +94,7 @@ def test_the_camera_of_the_settings_is_gone_so_the_one_that_is_there_is_shown(co
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
 @pytest.mark.parametrize("language", ["en", "pt"])
-def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(
+def test_a_camera_that_fails_to_open_is_reported_and_retried(
     controls: Controls, language: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     driver = Driver(opens=False)
@@ -115,7 +115,7 @@ def test_a_camera_that_does_not_open_is_a_sentence_and_comes_back_by_itself(
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
-def test_a_camera_that_sees_no_board_is_told_so_and_one_that_stops_too(
+def test_a_camera_without_a_board_and_a_stalled_one_are_reported(
     controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(RealCalibrationSite, "settle", 0.05)
@@ -155,9 +155,7 @@ def test_without_opencv_the_page_says_so_and_the_arcade_goes_on(
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
-def test_what_breaks_in_the_thread_ends_in_a_sentence_not_in_silence(
-    controls: Controls, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_exception_in_the_thread_is_reported(controls: Controls, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(image: object) -> object:
         raise RuntimeError("nobody thought of this")
 
@@ -169,7 +167,7 @@ def test_what_breaks_in_the_thread_ends_in_a_sentence_not_in_silence(
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
-def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls, tmp_path: Path) -> None:
+def test_lengths_change_faster_while_held_and_are_saved(controls: Controls, tmp_path: Path) -> None:
     arcade = real(controls, Driver())
     first = arcade.go("width")
     before = first.measures.width
@@ -191,7 +189,7 @@ def test_lengths_are_set_with_a_pad_faster_when_held_and_kept(controls: Controls
 
 
 class Overhead(Driver):
-    """A driver whose camera hangs over an emulated mat, and sends its pictures in colour."""
+    """A fake camera above an emulated mat, with colour images."""
 
     def __init__(self, site: EmulatedCalibrationSite) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""The corner markers: they stand in the side margins, and tell when somebody has run into the camera."""
+"""The corner markers: they lie in the side margins and reveal a displaced camera."""
 
 from pathlib import Path
 
@@ -25,7 +25,7 @@ def test_the_markers_stand_beside_the_arena_and_on_the_canvas() -> None:
 
 @pytest.mark.long
 @pytest.mark.usefixtures("controls")
-def test_who_runs_into_the_camera_is_noticed_and_who_does_not_is_left_alone(home: Path) -> None:
+def test_a_bumped_camera_is_detected_without_false_alarms(home: Path) -> None:
     mat = EmulatedSession(live=False)
     rig = mat.open()
     screen = pygame.Surface((1920, 1080), depth=32)

@@ -1,4 +1,4 @@
-"""The corner pin by hand: the picture follows, only what is saved stays, and nothing impossible is ever shown."""
+"""The manual corner pin: live preview, only saved corners persist, impossible ones are never shown."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision import markers
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.app import App, Options
-from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, FARTHEST, CornerPinPage, handle
+from pigaming_app.scenes.calibration.corner_pin_page import CORNERS, MAX_OFFSET, CornerPinPage, handle
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import FOCUS
@@ -71,7 +71,7 @@ def test_the_arrow_points_at_the_chosen_corner_of_the_picture(corner: int) -> No
     assert not pygame.mask.from_threshold(picture, "white", (200,) * 3).count(), "and nowhere else"
 
 
-def test_fire_goes_round_the_four_corners_and_a_click_takes_one(arcade: Arcade) -> None:
+def test_fire_cycles_through_the_corners_and_a_click_selects_one(arcade: Arcade) -> None:
     page = arcade.shown(CornerPinPage)
     for corner in (1, 2, 3, 0):
         arcade.press(Button.FIRE)
@@ -81,7 +81,7 @@ def test_fire_goes_round_the_four_corners_and_a_click_takes_one(arcade: Arcade) 
         assert page.chosen == corner
 
 
-def test_what_is_saved_is_there_tomorrow(arcade: Arcade, tmp_path: Path) -> None:
+def test_a_saved_pin_persists(arcade: Arcade, tmp_path: Path) -> None:
     for button in (Button.RIGHT, Button.DOWN, Button.FIRE, Button.LEFT, Button.START):
         arcade.press(button)
     assert arcade.stack.top is arcade.setup
@@ -94,7 +94,7 @@ def test_what_is_saved_is_there_tomorrow(arcade: Arcade, tmp_path: Path) -> None
     assert list(arcade.context.canvas.corners) == settings.corners
 
 
-def test_who_leaves_without_saving_leaves_it_as_it_was(arcade: Arcade) -> None:
+def test_leaving_without_saving_restores_the_pin(arcade: Arcade) -> None:
     arcade.press(Button.BACK)
     arcade.context.canvas.pin(CornerPin(ASKEW))
     arcade.open(CornerPinPage(arcade.context))
@@ -117,13 +117,13 @@ def test_corners_do_not_cross_and_do_not_get_lost(arcade: Arcade) -> None:
     for _ in range(300):
         arcade.press(Button.RIGHT)
         arcade.press(Button.DOWN)
-    assert page.corners[0] <= FARTHEST
-    assert page.said > 0.0 or page.corners[0] == FARTHEST
+    assert page.corners[0] <= MAX_OFFSET
+    assert page.sentence_left > 0.0 or page.corners[0] == MAX_OFFSET
     arcade.shown(CornerPinPage)
     arcade.context.canvas.flip()
 
 
-def test_a_full_disk_is_said_and_the_page_stays(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_is_reported_and_the_page_stays(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(self: Settings, folder: Path) -> None:
         raise NotSaved("the disk is full")
 
@@ -167,7 +167,7 @@ def test_a_window_of_another_size_is_pinned_too_and_watchers_see_it(arcade: Arca
 
 
 @pytest.mark.parametrize("corners", ["none", [1, 2], [0.5] * 8, [99999] * 8, [True] * 9])
-def test_a_setting_of_corners_that_makes_no_sense_is_said_and_ignored(tmp_path: Path, corners: object) -> None:
+def test_invalid_corners_in_the_settings_are_reported_and_ignored(tmp_path: Path, corners: object) -> None:
     text = f'corners = "{corners}"' if isinstance(corners, str) else f"corners = {str(corners).lower()}"
     (tmp_path / "settings.toml").write_text(text + "\n")
     settings, wrong = Settings.load(tmp_path)
@@ -175,7 +175,7 @@ def test_a_setting_of_corners_that_makes_no_sense_is_said_and_ignored(tmp_path: 
     assert "corners" in wrong[0]
 
 
-def test_corners_into_which_nothing_fits_are_said_at_the_start(arcade: Arcade) -> None:
+def test_impossible_corners_are_reported_at_the_start(arcade: Arcade) -> None:
     arcade.press(Button.BACK)
     arcade.context.settings.corners = [0, 0, 1920, 0, 0, 1080, 1920, 1080]
     app = App(Options(headless=True), arcade.context, [])

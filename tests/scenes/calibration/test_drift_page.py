@@ -1,4 +1,4 @@
-"""The page that checks the calibration: no sentence of it runs into the spot for a robot, in either language."""
+"""The drift page: no text overlaps the spot for a robot, in either language."""
 
 import re
 from types import SimpleNamespace
@@ -24,7 +24,7 @@ SPOT_BOX = pygame.Rect(LEFT + SPOT[0] - DISC, TOP + SPOT[1] - DISC, 2 * DISC, 2 
 
 
 def longest(language: str) -> OperatorMessage:
-    """The message with the longest sentence, every value as long as its name in braces."""
+    """The message with the longest sentence, with every value as long as its placeholder."""
     sentences = {key: text for key, text in texts(language).items() if key.startswith("hardware.")}
     key = max(sentences, key=lambda key: len(sentences[key]))
     holes = re.findall(r"{(\w+)}", sentences[key])
@@ -43,7 +43,7 @@ STATES: dict[str, dict[str, Any]] = {
 
 @pytest.fixture(scope="module")
 def site() -> EmulatedCalibrationSite:
-    """A site that is only asked what it is."""
+    """A site that only answers queries."""
     return EmulatedCalibrationSite(2)
 
 

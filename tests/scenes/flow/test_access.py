@@ -1,4 +1,4 @@
-"""Whose press counts: pads that are seated, pads that are not, and people who walk off."""
+"""Access control: seated pads, free pads, and idle people."""
 
 import random
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import HUMAN
 from pigaming_app.scenes.play.device_table import DeviceTable
-from pigaming_app.scenes.play.idle_seats import ASK, REST
+from pigaming_app.scenes.play.idle_seats import ANSWER_LIMIT, IDLE_LIMIT
 from pigaming_app.scenes.play.pause import SURE, Pause
 from pigaming_app.scenes.play.reconnect import StillThere
 from pigaming_app.scenes.play.scene import MatchScene
@@ -67,7 +67,7 @@ def tap(arcade: Arcade, pad: VirtualPad, *buttons: str) -> None:
 
 
 def key(arcade: Arcade, scancode: int, seconds: float = 0.0) -> None:
-    """Hold a key of the keyboard for so long."""
+    """Hold a key for `seconds`."""
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=scancode, mod=0))
     arcade.wait(max(seconds, 1 / 30))
     pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=scancode, mod=0))
@@ -107,7 +107,7 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
     assert arcade.shown(Lobby) is page
 
 
-def test_in_a_full_lobby_a_free_pad_hears_only_that_it_is_full(arcade: Arcade) -> None:
+def test_in_a_full_lobby_a_free_pad_gets_only_a_notice(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
     page = Lobby(arcade.context, "pitanks")
     arcade.open(page)
@@ -152,7 +152,7 @@ def test_a_shared_key_counts_for_the_seated_half_of_the_keyboard(arcade: Arcade)
     arcade.open(page)
     key(arcade, pygame.KSCAN_SPACE)
     key(arcade, pygame.KSCAN_SPACE)
-    key(arcade, pygame.KSCAN_UP)  # a hand of nobody on the arrows
+    key(arcade, pygame.KSCAN_UP)  # a key of an unseated cluster
     assert page.seats.places[0].ready
     key(arcade, pygame.KSCAN_ESCAPE)
     assert not page.seats.places[0].ready
@@ -228,7 +228,7 @@ def test_while_ais_play_alone_any_device_pauses(arcade: Arcade, pads: ExitStack)
         assert arcade.stack.top is match
 
 
-def test_whoever_paused_owns_the_pause_for_twenty_seconds(arcade: Arcade) -> None:
+def test_a_pause_belongs_to_its_owner_for_twenty_seconds(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
     arcade.press(Button.START, KEYS[1])
     page = arcade.shown(Pause)
@@ -253,7 +253,7 @@ def test_whoever_paused_owns_the_pause_for_twenty_seconds(arcade: Arcade) -> Non
     assert arcade.stack.top is match
 
 
-def test_f4_of_the_keyboard_shows_thoughts_in_any_match_but_ends_no_pause_of_somebody_else(
+def test_f4_of_the_keyboard_works_in_any_match_but_ends_no_pause_of_another_device(
     arcade: Arcade, pads: ExitStack
 ) -> None:
     pad, first = plug(arcade, pads)
@@ -356,26 +356,26 @@ def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arc
     assert sum(fired) == 1
 
 
-# ---- seats that change hands
+# ---- seats with a new driver
 
 
-def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pressed(
-    arcade: Arcade, pads: ExitStack
-) -> None:
+def test_an_idle_seat_is_asked_then_an_ai_drives_until_a_button_is_pressed(arcade: Arcade, pads: ExitStack) -> None:
     (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
     match = running(arcade, "human human off off", [first, second])
     one.stick(0.0, -1.0)
-    arcade.wait(REST - 1.0, fps=20)
-    assert not match.idle_seats.asked()
-    arcade.until(lambda: bool(match.idle_seats.asked()))
-    assert list(match.idle_seats.asked()) == [1]
+    arcade.wait(IDLE_LIMIT - 1.0, fps=20)
+    assert not match.idle_seats.prompted()
+    arcade.until(lambda: bool(match.idle_seats.prompted()))
+    assert list(match.idle_seats.prompted()) == [1]
     arcade.stack.top.draw(arcade.screen)
     tap(arcade, two, "x")
-    assert not match.idle_seats.asked(), "any button answers"
-    arcade.wait(REST + 1.0, fps=20)
+    assert not match.idle_seats.prompted(), "any button answers"
+    arcade.wait(IDLE_LIMIT + 1.0, fps=20)
     before = match.match.state.tick
     arcade.until(lambda: isinstance(match.match.brains[1], BrainPlayer))
-    assert match.match.state.tick - before == pytest.approx((ASK - 1.0) * 50, abs=20), "nobody else had to wait"
+    assert match.match.state.tick - before == pytest.approx((ANSWER_LIMIT - 1.0) * 50, abs=20), (
+        "nobody else had to wait"
+    )
     assert arcade.stack.top is match
     assert isinstance(match.match.brains[0], HumanPlayer)
     tap(arcade, two, "a")
@@ -383,17 +383,17 @@ def test_a_child_who_walks_off_is_asked_then_an_ai_drives_until_a_button_is_pres
     assert isinstance(match.match.brains[1], HumanPlayer)
 
 
-def test_time_in_a_pause_is_no_walking_off(arcade: Arcade) -> None:
+def test_paused_time_does_not_count_as_idle(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
     arcade.press(Button.START)
-    arcade.wait(REST + ASK + 5.0, fps=10)
+    arcade.wait(IDLE_LIMIT + ANSWER_LIMIT + 5.0, fps=10)
     arcade.press(Button.START)
     arcade.wait(3.0)
     assert arcade.stack.top is match
     assert match.devices[:2] == KEYS[:2]
 
 
-def test_when_all_have_gone_the_match_asks_as_before_and_the_first_press_brings_its_seat_back(
+def test_when_all_are_idle_the_match_asks_and_the_first_press_returns_its_seat(
     arcade: Arcade,
 ) -> None:
     match = running(arcade, "human human off off", KEYS[:2], 5.0)
@@ -477,7 +477,7 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
     assert [seat.brain for seat in match.setup.seats[:2]] == ["human", "human"]
 
 
-def test_change_game_changes_the_game_and_keeps_everybodys_seat(arcade: Arcade) -> None:
+def test_change_game_keeps_all_seats(arcade: Arcade) -> None:
     ended(arcade, "human off human hard", [KEYS[2], None, KEYS[0], None])  # type: ignore[list-item]
     arcade.wait(3.0)
     arcade.press(Button.X, KEYS[1])
@@ -500,16 +500,16 @@ def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(ar
     pad, device = plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
     scene = Title(arcade.context)
     arcade.open(scene)
-    assert scene.asked == ("Press {button} to play", "SPACE")
+    assert scene.call_text == ("Press {button} to play", "SPACE")
     tap(arcade, pad, "down")
     assert arcade.context.controls.last == device
-    assert scene.asked == ("Lab: press {button}", "Cross")
+    assert scene.call_text == ("Lab: press {button}", "Cross")
     pad.unplug()
     arcade.frame()
-    assert scene.asked[1] == "SPACE", "not the button of a pad that is gone"
+    assert scene.call_text[1] == "SPACE", "not the button of a pad that is gone"
 
 
-# ---- anything may happen
+# ---- random input
 
 
 def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) -> None:

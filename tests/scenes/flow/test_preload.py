@@ -1,4 +1,4 @@
-"""What the arcade prepares behind the title: arenas, racing lines, and the Lab's compiler, once in a run."""
+"""The preloader: arenas, racing lines, and the Lab's compiler, once per run."""
 
 import sys
 import time
@@ -32,7 +32,7 @@ def until(true: Callable[[], bool]) -> None:
 
 @pytest.fixture
 def prepared(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
-    """The arenas as they are prepared, without the work."""
+    """The arenas in the order of preparation, without the work."""
     done: list[tuple[str, str]] = []
     monkeypatch.setattr(arena_jobs, "read", lambda game, name: None)
     monkeypatch.setattr(arena_jobs, "prepare", lambda game, name: done.append((game, name)))
@@ -51,7 +51,7 @@ def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tu
     assert all(preloader.ready(*one) for one in prepared)
 
 
-def test_where_preparing_fails_matches_begin_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failing_preload_does_not_block_matches(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken() -> list[tuple[str, str]]:
         raise MemoryError("no more")
 

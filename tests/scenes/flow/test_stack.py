@@ -1,4 +1,4 @@
-"""Scenes that hold something are told when they are taken off the stack, however that happens."""
+"""Scenes that hold a resource are closed whenever they are removed from the stack."""
 
 import pytest
 
@@ -17,7 +17,7 @@ class Camera(Floor):
 
 
 @pytest.mark.parametrize("turn", [Pop(), Swap(Floor()), Home(), Home(Floor()), Quit()])
-def test_whoever_is_taken_off_lets_go(turn: Turn) -> None:
+def test_removed_scenes_are_closed(turn: Turn) -> None:
     told: list[str] = []
     stack = Stack(Floor())
     stack.turn(Push(Camera("one", told)))
@@ -26,7 +26,7 @@ def test_whoever_is_taken_off_lets_go(turn: Turn) -> None:
     assert told == ["one"]
 
 
-def test_a_page_above_does_not_make_it_let_go_and_all_let_go_from_the_top() -> None:
+def test_covered_scenes_stay_open_and_all_close_topmost_first() -> None:
     told: list[str] = []
     stack = Stack(Floor())
     stack.turn(Push(Camera("low", told)))

@@ -1,4 +1,4 @@
-"""The test of the controls shows what is held, and can be left with everything."""
+"""The controls test shows pressed buttons, and every device can leave it."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def light(arcade: Arcade, x: int, y: int, w: int, h: int) -> int:
-    """How bright a part of the page is."""
+    """Brightness of a part of the page."""
     arcade.stack.top.draw(arcade.screen)
     return sum(pygame.transform.average_color(arcade.screen, pygame.Rect(x, y, w, h))[:3])
 

@@ -1,4 +1,4 @@
-"""The options: what is changed is so at once, and is still so tomorrow."""
+"""The options: changes apply immediately and persist."""
 
 import tomllib
 from datetime import datetime
@@ -33,7 +33,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def go(arcade: Arcade, name: str) -> OptionsPage:
-    """Put the focus on a row."""
+    """Focus a row."""
     page = arcade.shown(OptionsPage)
     while page.focus.name != name:
         arcade.press(Button.DOWN)
@@ -44,7 +44,7 @@ def kept(tmp_path: Path) -> dict[str, object]:
     return tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
 
 
-def test_the_language_changes_under_ones_hands(arcade: Arcade, tmp_path: Path) -> None:
+def test_the_language_changes_immediately(arcade: Arcade, tmp_path: Path) -> None:
     go(arcade, "language")
     arcade.press(Button.RIGHT)
     assert arcade.context.words("options.title") == "Opções"
@@ -62,7 +62,7 @@ def test_volumes_go_from_0_to_10_and_no_further(arcade: Arcade, tmp_path: Path) 
     assert kept(tmp_path)["music"] == 10
 
 
-def test_fire_goes_round(arcade: Arcade) -> None:
+def test_fire_cycles_through_the_values(arcade: Arcade) -> None:
     go(arcade, "flashes")
     before = arcade.context.settings.flashes
     seen = [before]
@@ -151,7 +151,9 @@ def test_a_mouse_holds_its_button_to_clear_high_scores(arcade: Arcade) -> None:
         assert bool(arcade.context.scores.best(TABLE)) is kept
 
 
-def test_what_cannot_be_saved_is_said_and_is_so_for_today(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failed_save_is_reported_and_the_change_still_applies(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def full(self: Settings, folder: Path) -> None:
         raise NotSaved("the disk is full")
 

@@ -1,4 +1,4 @@
-"""Matches as people live them: the countdown, pads that are pulled, who takes over, pauses, and what comes after."""
+"""Matches as played: the countdown, unplugged pads, replacements, pauses, and the results."""
 
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -81,7 +81,7 @@ def test_time_is_up_then_the_results(arcade: Arcade) -> None:
     assert match.match.state.tick == last
 
 
-def test_a_nap_of_the_machine_is_no_burst_of_ticks(arcade: Arcade) -> None:
+def test_a_suspended_machine_causes_no_burst_of_ticks(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("easy hard off off", 1.0))
     arcade.open(match)
     arcade.wait(COUNTDOWN + 0.2)
@@ -156,7 +156,7 @@ def test_a_pulled_pad_pauses_and_any_free_pad_takes_its_seat(arcade: Arcade, pad
     arcade.wait(2.0, draw=True)
     assert arcade.stack.top is page, "the pad of the other seat is not free"
     three, device = plug(arcade, pads)
-    assert page.found
+    assert page.replugged
     arcade.shown(Reconnect)
     three.tap("a")
     arcade.frame()
@@ -228,7 +228,7 @@ def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade, pads: E
     assert match.devices[1] is not None
 
 
-def test_still_there(arcade: Arcade) -> None:
+def test_a_match_without_input_asks_and_then_returns_to_the_title(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human easy off off", 5.0), KEYS[:1])
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
@@ -240,14 +240,14 @@ def test_still_there(arcade: Arcade) -> None:
     arcade.until(lambda: arcade.stack.top is arcade.title, 20.0)
 
 
-def test_a_hand_on_the_stick_is_somebody(arcade: Arcade, pads: ExitStack) -> None:
+def test_a_held_stick_counts_as_input(arcade: Arcade, pads: ExitStack) -> None:
     match, one, _ = two_pads(arcade, pads, 3.0)
     one.stick(1.0, 0.0)
     arcade.wait(70.0, fps=20)
     assert arcade.stack.top is match
 
 
-def test_ais_among_themselves_are_not_asked(arcade: Arcade) -> None:
+def test_a_match_of_ais_never_asks(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("easy easy off off", 1.2))
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, Results), 80.0)

@@ -1,4 +1,4 @@
-"""Watching: what runs while nobody plays, and matches that were recorded."""
+"""Demonstration matches and replays."""
 
 from pathlib import Path
 
@@ -72,7 +72,7 @@ def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Pat
     arcade.shown(ReplayScene)
 
 
-def test_a_replay_waits_hurries_and_begins_again(arcade: Arcade, recorded: tuple[Path, str]) -> None:
+def test_a_replay_pauses_speeds_up_and_restarts(arcade: Arcade, recorded: tuple[Path, str]) -> None:
     scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arcade.open(scene)
     arcade.wait(1.0, draw=True)
@@ -136,7 +136,7 @@ def test_a_replay_of_another_engine_plays_with_a_notice(
     arcade.until(lambda: scene.ended)
 
 
-def test_a_replay_says_what_fire_does_now(arcade: Arcade, recorded: tuple[Path, str]) -> None:
+def test_the_prompts_of_a_replay_match_its_state(arcade: Arcade, recorded: tuple[Path, str]) -> None:
     scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arcade.open(scene)
     assert [text for _, text in scene.prompts.said] == ["Pause", "Speed", "From the start", "Back"]

@@ -1,4 +1,4 @@
-"""Every lesson and a whole round of attract mode run to their end, in both languages, without a failed scene."""
+"""Every lesson and a whole round of attract mode run to the end, in both languages, without a failing scene."""
 
 from pathlib import Path
 
@@ -19,9 +19,9 @@ from pigaming_app.ui.input.controls import Controls
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 
-LONGEST = 12.0  # s; the longest picture, machine A and then B, starts again after 9.1 s
+LONGEST = 12.0  # s; the longest animation, machine A, then B, repeats after 9.1 s
 PHASES = 0.1  # s between two frames
-FASTEST = 0.08  # s of a frame in which a match still runs at full speed
+FASTEST = 0.08  # s per frame at which a match still runs at full speed
 
 
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES))
@@ -69,7 +69,7 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
 
 
 def named(show: object) -> tuple[str, str]:
-    """What is shown, and of which game."""
+    """Class and game of a show."""
     if isinstance(show, TimedPage):
         assert isinstance(show.page, HowTo | HighScores)
         return type(show.page).__name__, show.page.game
@@ -78,7 +78,7 @@ def named(show: object) -> tuple[str, str]:
 
 
 def scores_of(context: Context, game: str) -> None:
-    """Somebody has scored in a game's first arena."""
+    """Add a score in a game's first arena."""
     rules = games()[game]
     contest = ScoreTable(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
     for board in high_score_tables(contest):

@@ -1,4 +1,4 @@
-"""The title: what leads where, what is not there yet, and how an operator gets in."""
+"""The title: its targets, missing pages, and the operator's access."""
 
 from itertools import combinations
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Pictures under a budget: what is missing is made over several frames, and the last whole picture stays meanwhile."""
+"""Frame budget: missing sprites are built over several frames, while the last complete picture stays."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -23,12 +23,12 @@ from pigaming_app.ui.draw.frame_budget import (
 from pigaming_app.ui.draw.surface_cache import SurfaceCache
 from pigaming_app.ui.input.events import Button, InputEvent
 
-PIECE = 0.004  # s that a piece takes
-FRAME = 0.010  # s of a frame for pieces
+PIECE = 0.004  # s to build a sprite
+FRAME = 0.010  # s per frame for sprites
 
 
 class Watch:
-    """A clock that only work moves."""
+    """A clock advanced by work only."""
 
     def __init__(self) -> None:
         self.now = 0.0
@@ -49,7 +49,7 @@ def watch(monkeypatch: pytest.MonkeyPatch) -> Watch:
 
 
 def pieces(watch: Watch, seconds: float = PIECE) -> tuple[list[int], "partial[pygame.Surface]"]:
-    """A cached function, and the arguments for which it was really called."""
+    """A cached function, and the arguments of its actual calls."""
     made: list[int] = []
 
     def make(number: int) -> pygame.Surface:
@@ -116,7 +116,7 @@ def test_interrupted_work_goes_on_where_it_was(watch: Watch) -> None:
     assert done == [*range(6)]
 
 
-def test_work_that_nobody_asks_for_again_is_dropped(watch: Watch) -> None:
+def test_abandoned_work_is_dropped(watch: Watch) -> None:
     begun: list[int] = []
 
     @resumable
@@ -183,7 +183,7 @@ def test_what_was_made_ahead_in_a_frame_counts_for_its_picture(watch: Watch) -> 
 
 
 class Slow:
-    """A page of thirty pieces in the colour (30, 0, 0), painted over the whole screen as it grows."""
+    """A page of thirty sprites in the colour (30, 0, 0), drawn over the whole screen as it grows."""
 
     def __init__(self, watch: Watch) -> None:
         self.made, self.piece = pieces(watch)
@@ -226,13 +226,13 @@ def test_the_last_picture_stays_until_the_next_one_is_whole(app: App, watch: Wat
         began = watch.now
         app._frame(1 / 60)
         frames += 1
-        assert watch.now - began <= arcade.PAINTING + PIECE
+        assert watch.now - began <= arcade.PREWARM_UNTIL + PIECE
     assert shown == [(30, 0, 0)]
     assert frames > 5
     assert page.made == [*range(30)]
 
 
-def test_a_tap_while_a_picture_is_made_is_heard(app: App, watch: Watch) -> None:
+def test_a_tap_while_a_picture_is_incomplete_counts(app: App, watch: Watch) -> None:
     page = Slow(watch)
     app.stack.turn(Push(page))
     assert not app.compose(1 / 60)
@@ -245,7 +245,7 @@ def test_a_tap_while_a_picture_is_made_is_heard(app: App, watch: Watch) -> None:
 def test_a_picture_that_never_gets_ready_is_completed_after_a_while(
     app: App, watch: Watch, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(arcade, "LATEST", 3)
+    monkeypatch.setattr(arcade, "MAX_UNFINISHED", 3)
     app.stack.turn(Push(Slow(watch)))
     assert [app.compose(1 / 60) for _ in range(4)] == [False, False, False, True]
 

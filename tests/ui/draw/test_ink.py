@@ -1,4 +1,4 @@
-"""Ink glows near what is drawn, and black stays black away from it."""
+"""Glow rendering: light near the drawing, black elsewhere."""
 
 from itertools import pairwise
 

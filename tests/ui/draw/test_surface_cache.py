@@ -1,4 +1,4 @@
-"""The cache of surfaces: never more bytes than its budget, the least recently used result goes first."""
+"""The surface cache: never more bytes than its budget; least recently used results are evicted first."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ KB = 1024
 
 
 def square(kilobytes: int) -> pygame.Surface:
-    """A surface of 32 bits a pixel, one row of 256 pixels for each kilobyte."""
+    """A 32-bit surface, one row of 256 pixels per kilobyte."""
     return pygame.Surface((256, kilobytes), depth=32)
 
 
@@ -35,7 +35,7 @@ def test_the_budget_holds_and_what_was_not_used_for_longest_goes_first(
         made.append(which)
         return LitImage(square(sizes[which]), (0, 0))
 
-    used: dict[int, int] = {}  # of each that is kept: how many had been kept in all at its last use, oldest first
+    used: dict[int, int] = {}  # insertion counter at the last use of each entry, oldest first
     kept = 0
     for which in calls:
         fresh, before = which not in used, len(made)
@@ -128,7 +128,7 @@ def test_a_result_without_surfaces_costs_nothing() -> None:
     assert cache.bytes == 0
 
 
-def test_a_function_that_fails_is_asked_again() -> None:
+def test_a_function_that_raises_is_called_again() -> None:
     cache = SurfaceCache(KB)
     tries: list[int] = []
 

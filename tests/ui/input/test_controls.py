@@ -1,4 +1,4 @@
-"""Pads that come and go, told with virtual ones: real events of the real library."""
+"""Controls, tested with virtual pads: real events of the real library."""
 
 import os
 import subprocess
@@ -28,7 +28,7 @@ def pads() -> Iterator[ExitStack]:
 
 
 def heard(controls: Controls) -> list[tuple[Button, Device]]:
-    """What the controls make of everything that SDL has to say now."""
+    """The button presses for all pending SDL events."""
     return [(press.button, press.device) for press in controls.presses(pygame.event.get())]
 
 
@@ -76,7 +76,7 @@ def test_a_pad_that_was_there_at_the_start_is_known_and_not_found_again(pads: Ex
         ("up", Button.UP),
     ],
 )
-def test_every_press_is_heard_once(controls: Controls, pads: ExitStack, button: str, meaning: Button) -> None:
+def test_every_press_is_reported_once(controls: Controls, pads: ExitStack, button: str, meaning: Button) -> None:
     pad, device = plug(controls, pads)
     pad.press(button)
     assert heard(controls) == [(meaning, device)]
@@ -199,7 +199,7 @@ def test_a_held_direction_presses_again_until_it_is_let_go(controls: Controls, p
     assert controls.repeats(0.02) == again
     assert controls.repeats(NEXT_REPEAT - 0.01) == []
     assert controls.repeats(0.02) == again
-    assert controls.repeats(5.0) == again  # one at most, however long a frame took
+    assert controls.repeats(5.0) == again  # at most one, however long a frame took
     pad.stick(0.0, 0.0)
     assert heard(controls) == []
     assert controls.repeats(5.0) == []
@@ -257,7 +257,7 @@ with VirtualPad(plain=True) as pad:
     pad.press(3, 11)
     print(*sorted(press.button.name for press in controls.presses(pygame.event.get())), controls.name(controls.last))
 """
-    there = {**os.environ, "SDL_GAMECONTROLLERCONFIG_FILE": str(file)}  # SDL reads it once, so ask a fresh process
+    there = {**os.environ, "SDL_GAMECONTROLLERCONFIG_FILE": str(file)}  # SDL reads it once, so use a fresh process
     root = Path(__file__).parents[3]
     said = subprocess.run(
         [sys.executable, "-c", story], env=there, cwd=root, capture_output=True, text=True, check=True
@@ -280,7 +280,7 @@ def test_hints_name_the_button_as_it_is_printed(
     [(_, device)] = heard(controls)
     assert controls.name(device) == kind
     assert controls.label(device, Button.FIRE) == fire
-    assert controls.label(None, Button.FIRE) == "SPACE"  # nobody has pressed anything on the pad yet
+    assert controls.label(None, Button.FIRE) == "SPACE"  # the pad has not been used yet
 
 
 def test_hints_follow_the_device_used_last(controls: Controls, pads: ExitStack) -> None:

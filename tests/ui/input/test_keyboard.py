@@ -11,7 +11,7 @@ STILL = StickState()
 
 
 def key(code: int, down: bool = True, mod: int = 0) -> pygame.Event:
-    """A key, with a keycode that no layout has: only its place counts."""
+    """A key event with a keycode of no layout: only its scancode counts."""
     return pygame.Event(pygame.KEYDOWN if down else pygame.KEYUP, key=0, scancode=code, mod=mod, unicode="")
 
 
@@ -37,7 +37,7 @@ def test_four_drive_on_one_keyboard_at_once(controls: Controls) -> None:
     assert all(controls.drive(device) == STILL for device in (WASD, ARROWS, IJKL, KEYPAD))
 
 
-def test_both_ways_at_once_is_no_way(controls: Controls) -> None:
+def test_opposite_keys_cancel_out(controls: Controls) -> None:
     controls.presses([key(pygame.KSCAN_A), key(pygame.KSCAN_D), key(pygame.KSCAN_W)])
     assert controls.drive(WASD) == StickState(linear=1.0)
 

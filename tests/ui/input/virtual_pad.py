@@ -1,7 +1,7 @@
-"""Gamepads without hardware: SDL's virtual joysticks, attached to the very SDL library that pygame has loaded.
+"""Gamepads without hardware: SDL's virtual joysticks, attached to the SDL library loaded by pygame.
 
-A virtual pad makes real events (added, axes, buttons, removed), also under the dummy video driver. A `plain` one is a
-pad for which SDL has no game-controller mapping.
+A virtual pad causes real events (added, axes, buttons, removed), also under the dummy video driver. A `plain` one has
+no game-controller mapping.
 """
 
 import ctypes
@@ -15,7 +15,7 @@ XBOX = (0x045E, 0x028E)
 PLAYSTATION = (0x054C, 0x09CC)
 NINTENDO = (0x057E, 0x2009)
 
-_GAME_CONTROLLER, _ARCADE_STICK = 1, 3  # SDL_JoystickType; SDL makes a mapping for the first only
+_GAME_CONTROLLER, _ARCADE_STICK = 1, 3  # SDL_JoystickType; SDL creates a mapping only for the first
 _FULL = 32767
 _BUTTONS = (
     "a", "b", "x", "y", "back", "guide", "start", "leftstick", "rightstick",
@@ -25,7 +25,7 @@ _LEFT_TRIGGER, _RIGHT_TRIGGER = 4, 5  # axes
 
 
 class VirtualPad:
-    """A pad that is plugged in when it is made. Use it in a `with`, or `unplug` it."""
+    """A pad, connected on construction. Use it in a `with`, or call `unplug`."""
 
     def __init__(self, name: str = "Xbox 360 Controller", usb: tuple[int, int] = XBOX, plain: bool = False) -> None:
         self._sdl = _sdl()
@@ -45,19 +45,19 @@ class VirtualPad:
             self._set(button, 1)
 
     def release(self, *buttons: str | int) -> None:
-        """Let buttons come up."""
+        """Release buttons."""
         for button in buttons:
             self._set(button, 0)
 
     def tap(self, *buttons: str | int) -> None:
-        """Press and release within one frame, with SDL looking in between."""
+        """Press and release within one frame, with an SDL poll in between."""
         self.press(*buttons)
         self._sdl.SDL_JoystickUpdate()
         self.release(*buttons)
         self._sdl.SDL_JoystickUpdate()
 
     def stick(self, x: float, y: float) -> None:
-        """Push the left stick, each way in [-1, 1], y down."""
+        """Move the left stick, each axis in [-1, 1], y down."""
         self._sdl.SDL_JoystickSetVirtualAxis(self._pad, 0, round(x * _FULL))
         self._sdl.SDL_JoystickSetVirtualAxis(self._pad, 1, round(y * _FULL))
 
@@ -67,12 +67,11 @@ class VirtualPad:
             self._sdl.SDL_JoystickSetVirtualAxis(self._pad, axis, round((2.0 * value - 1.0) * _FULL))
 
     def hat(self, x: int, y: int) -> None:
-        """Push the d-pad of a plain pad, each way -1, 0 or 1, y up."""
+        """Press the d-pad of a plain pad, each axis -1, 0 or 1, y up."""
         value = (1 if y > 0 else 4 if y < 0 else 0) | (2 if x > 0 else 8 if x < 0 else 0)
         self._sdl.SDL_JoystickSetVirtualHat(self._pad, 0, value)
 
     def unplug(self) -> None:
-        """Pull the cable."""
         if not self.plugged:
             return
         self.plugged = False

@@ -70,7 +70,7 @@ def test_the_corners_are_there_after_120_ms_and_most_of_the_way_after_half_of_th
     assert pytest.approx(0.12) == GLIDE
 
 
-def test_other_spots_keep_what_was_meant_if_it_is_still_there(focus: Focus) -> None:
+def test_replaced_spots_keep_the_focus_if_it_still_exists(focus: Focus) -> None:
     go(focus, Button.RIGHT)
     focus.place([FocusSpot("race", pygame.Rect(0, 0, 100, 100)), FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
     assert focus.name == "race"
