@@ -85,6 +85,8 @@ def graph():
             elif isinstance(node, ast.ImportFrom):
                 inner = {alias.name: f"{node.module}.{alias.name}" for alias in node.names}
                 found[name] |= {inner[one] if inner[one] in names else node.module for one in inner} & names.keys()
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                found[name] |= {node.value} & names.keys()  # imported by name
         found[name].discard(name)
     return found
 

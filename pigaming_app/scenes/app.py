@@ -26,6 +26,7 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.camera_window import CameraWindow
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.preloaded import MODULES
 from pigaming_app.storage.log import log_file, require_file
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved
@@ -95,6 +96,7 @@ def opened(options: Options) -> "Iterator[App]":
     context.sounds.volume(settings.music, settings.sounds)
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
+    context.preloader.modules = MODULES
     context.preloader.then = context.compiler.start
     old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
     try:

@@ -6,39 +6,19 @@ No frame waits for it. The compiler of the Lab is started afterwards.
 import logging
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib import import_module
 
-MODULES = (
-    "numpy",
-    "pigaming_app.scenes.lobby.scene",
-    "pigaming_app.scenes.play.scene",
-    "pigaming_app.scenes.views.race.mud",
-    "pigaming_app.scenes.robots.start_match",
-    "pigaming_app.scenes.options.page",
-    "pigaming_app.scenes.options.controls_test",
-    "pigaming_app.scenes.title.attract",
-    "pigaming_app.scenes.lab.scene",
-    "pigaming_app.scenes.lab.menu",
-    "pigaming_app.scenes.lab.name_page",
-    "pigaming_app.scenes.lab.open_page",
-    "pigaming_app.scenes.lab.compare_page",
-    "pigaming_app.scenes.lab.challenge",
-    "pigaming_app.scenes.robots.menu",
-    "pigaming_app.scenes.calibration.drift_page",
-    "pigaming_app.scenes.calibration.setup_page",
-    "pigaming_app.scenes.calibration.corner_pin_page",
-    "pigaming_app.scenes.robots.fleet_page",
-)
 SWITCH_INTERVAL = 0.001  # s, interpreter switch interval while the thread runs
 
 log = logging.getLogger("pigaming")
 
 
 class Preloader:
-    """The preloader thread; `then`, set before the start, is called in it at the end."""
+    """The preloader thread. Before the start, set `modules` (names to import) and `then`, which it calls at the end."""
 
     def __init__(self) -> None:
+        self.modules: Sequence[str] = ()
         self.then: Callable[[], None] = lambda: None
         self._thread: threading.Thread | None = None
         self._ended = False
@@ -82,17 +62,18 @@ class Preloader:
 
     def _do(self) -> None:
         """All steps, in the order in which they are likely to be needed."""
-        arena_jobs = import_module("pigaming_app.scenes.flow.arena_preload")  # late: the title does not wait for it
-        all_arenas = arena_jobs.every_arena()
+        from pigaming_app.scenes.flow import arena_preload  # late: the title does not wait for it
+
+        all_arenas = arena_preload.every_arena()
         for arena in all_arenas:
             if not self._ended:
-                arena_jobs.read(*arena)
-        for module in MODULES:
+                arena_preload.read(*arena)
+        for module in self.modules:
             if not self._ended:
                 import_module(module)
         for arena in all_arenas:
             if not self._ended:
-                arena_jobs.prepare(*arena)
+                arena_preload.prepare(*arena)
                 self._ready.add(arena)
         if not self._ended:
             self.then()
