@@ -65,7 +65,7 @@ def _refused_in_one_line(words: list[str]) -> int:
         line = str(refusal)
     except OSError as error:  # NotSaved, or a full standard output
         line = console.sentence(error)
-    console.say(line)
+    console.print_error(line)
     if name in LOGGED:
         files.log(line)
     return 2

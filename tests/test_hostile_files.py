@@ -82,7 +82,7 @@ def test_robots():
 
 @pytest.mark.filterwarnings("error")
 def test_calibrations(tmp_path):
-    tree = tomllib.loads(ground.written(nominal()))
+    tree = tomllib.loads(ground.to_toml(nominal()))
     tree.pop("check")
     path = tmp_path / "calibration.toml"
     used = 0
@@ -173,7 +173,7 @@ def test_ghosts(tmp_path, caplog):
     path.parent.mkdir()
     for raw in BYTES:
         path.write_bytes(raw)
-        assert ghosts.call(tmp_path, arena) == (None, "lost")
+        assert ghosts.load_ghost(tmp_path, arena) == (None, "lost")
 
 
 def packed_replay(path):

@@ -16,15 +16,15 @@ from pathlib import Path
 from typing import IO
 
 from pigaming_app.boot.interpreter import (
-    Trouble,
+    StartError,
+    environment_folders,
     fingerprint,
-    lacks,
+    is_missing,
     packages,
-    places,
     python_of,
     ready,
+    report,
     requirements,
-    say,
     site_packages,
 )
 
@@ -46,7 +46,7 @@ CAUSES = (  # (pattern in the output of a tool, message); the first match applie
 )
 
 
-def prepared(needed: set[str], optional: set[str]) -> Path:
+def prepare(needed: set[str], optional: set[str]) -> Path:
     """An environment with the needed groups, and the optional ones if they can be installed. Raises Trouble.
 
     Waits while another process is installing.
@@ -61,34 +61,36 @@ def prepared(needed: set[str], optional: set[str]) -> Path:
         if not optional <= complete:
             try:
                 install(place, complete | optional)
-            except Trouble as trouble:
-                say(f"{trouble} Going on without {_names(requirements(optional))}.")
+            except StartError as trouble:
+                report(f"{trouble} Going on without {_names(requirements(optional))}.")
                 install(place, complete)
     return place
 
 
 def _claimed() -> tuple[Path, IO[str]]:
     """The first writable place and its lock file, locked until it is closed or this process ends. Raises Trouble."""
-    for place in places():
+    for place in environment_folders():
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
             lock = open(place.with_name(f"{place.name}.lock"), "a", encoding="utf-8")  # noqa: SIM115
         except OSError as error:
             if error.errno not in NOT_ALLOWED:
-                raise Trouble(_cause(str(error), place, [])) from error
+                raise StartError(_cause(str(error), place, [])) from error
             continue
         if not place.exists() or os.access(place, os.W_OK):
             _wait_for(lock)
             return place, lock
         lock.close()
-    raise Trouble(f"neither {' nor '.join(str(place.parent) for place in places())} can be written: allow one of them.")
+    raise StartError(
+        f"neither {' nor '.join(str(place.parent) for place in environment_folders())} can be written: allow one of them."
+    )
 
 
 def _wait_for(lock: IO[str]) -> None:
     waited = False
     while not _locked(lock):
         if not waited:
-            say("another start is installing at this moment; waiting for it.")
+            report("another start is installing at this moment; waiting for it.")
         waited = True
         time.sleep(0.2)
 
@@ -123,14 +125,14 @@ def works(place: Path) -> bool:
 def make(place: Path) -> None:
     """Create an empty environment, replacing a broken one. Raises Trouble."""
     if not (importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip")):
-        raise Trouble(NO_VENV)
+        raise StartError(NO_VENV)
     if place.exists():
-        say(f"{place} is not whole, or its Python has gone; making it again.")
+        report(f"{place} is not whole, or its Python has gone; making it again.")
     else:
-        say(f"first start: making {place}, for this program only.")
+        report(f"first start: making {place}, for this program only.")
     code, output = _run([sys.executable, "-I", "-m", "venv", "--clear", str(place)])
     if code:
-        raise Trouble(_cause(output, place, []))
+        raise StartError(_cause(output, place, []))
 
 
 def install(place: Path, groups: set[str]) -> None:
@@ -139,14 +141,14 @@ def install(place: Path, groups: set[str]) -> None:
     try:
         (place / "ready").unlink(missing_ok=True)
         installed = packages([site_packages(place)])
-        if missing := [requirement for requirement in wanted if lacks(installed, requirement)]:
-            say(f"fetching {_names(missing)} (only once; it may take a minute).")
+        if missing := [requirement for requirement in wanted if is_missing(installed, requirement)]:
+            report(f"fetching {_names(missing)} (only once; it may take a minute).")
         code, output = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], names=True)
         if code:
-            raise Trouble(_cause(output, place, wanted))
+            raise StartError(_cause(output, place, wanted))
         _write(place / "ready", "\n".join([fingerprint(place), *sorted(groups)]))
     except OSError as error:
-        raise Trouble(_cause(str(error), place, wanted)) from error
+        raise StartError(_cause(str(error), place, wanted)) from error
 
 
 def _write(path: Path, text: str) -> None:
@@ -180,7 +182,7 @@ def _run(command: list[str], names: bool = False) -> tuple[int, str]:
             for line in process.stdout or []:
                 output.append(line)
                 if names and (match := re.match(r"\s*Downloading (?:\S*/)?(\w+)-([^-]+)-\S+\.whl \((.+?)\)", line)):
-                    say(f"  {match[1]} {match[2]}, {match[3]}")
+                    report(f"  {match[1]} {match[2]}, {match[3]}")
         except KeyboardInterrupt:
             process.terminate()
             raise

@@ -16,11 +16,11 @@ ARCADE = "arcade"  # group of packages that every job needs; the other groups ar
 WINDOWS = sys.platform == "win32"
 
 
-class Trouble(Exception):
+class StartError(Exception):
     """The program cannot start. The text is a sentence with the remedy."""
 
 
-def say(text: str) -> None:
+def report(text: str) -> None:
     """Print a line on standard error; standard output is reserved for the job."""
     print(f"PiGaming: {text}", file=sys.stderr, flush=True)
 
@@ -34,7 +34,7 @@ def requirements(groups: Iterable[str]) -> list[str]:
         listed = {**project["optional-dependencies"], ARCADE: project["dependencies"]}
         return [requirement for group in sorted(groups) for requirement in listed[group]]
     except (OSError, ValueError, KeyError) as error:
-        raise Trouble(f"{PROJECT} cannot be read ({error}): get the whole folder again.") from error
+        raise StartError(f"{PROJECT} cannot be read ({error}): get the whole folder again.") from error
 
 
 def packages(folders: Iterable[Path]) -> dict[str, str]:
@@ -47,7 +47,7 @@ def packages(folders: Iterable[Path]) -> dict[str, str]:
     return versions
 
 
-def lacks(installed: dict[str, str], requirement: str) -> bool:
+def is_missing(installed: dict[str, str], requirement: str) -> bool:
     """True if no installed package satisfies the requirement, of the form `name>=1.2,<3`."""
     name, *bounds = re.split(r"(?=[<>])|,", requirement)
     if name not in installed:
@@ -69,7 +69,7 @@ def both_pygames(installed: dict[str, str]) -> bool:
     return "pygame" in installed and "pygame-ce" in installed
 
 
-def places() -> list[Path]:
+def environment_folders() -> list[Path]:
     """Possible folders of the environment, in order: next to main.py, and in the user's data folder."""
     home = Path.home()
     if override := os.environ.get("PIGAMING_HOME"):

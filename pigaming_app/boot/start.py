@@ -12,15 +12,15 @@ from pigaming_app.boot.interpreter import (
     ARCADE,
     ROOT,
     WINDOWS,
-    Trouble,
+    StartError,
     both_pygames,
-    lacks,
+    environment_folders,
+    is_missing,
     packages,
-    places,
     python_of,
     ready,
+    report,
     requirements,
-    say,
     site_packages,
 )
 
@@ -45,18 +45,18 @@ def start(args: list[str]) -> int | None:
         optional = OPTIONAL.get(job, set()) | {EXTRA_OF_WORD[word] for word in words if word in EXTRA_OF_WORD}
         place = environment({ARCADE} | NEEDED.get(job, set()), optional)
         return None if place is None else hand_over(place, args)
-    except Trouble as trouble:
-        say(str(trouble))
+    except StartError as trouble:
+        report(str(trouble))
         return 2
     except KeyboardInterrupt:
-        say("stopped. Start it again, and it goes on from there.")
+        report("stopped. Start it again, and it goes on from there.")
         return 130
 
 
 def hand_over(place: Path, args: list[str]) -> int:
     """Run main.py in an environment, replacing this process, or on Windows as its child. Raises Trouble."""
     if both_pygames(packages([site_packages(place)])):
-        say(f"{place} holds both pygame and pygame-ce, which overwrite each other: delete it and start again.")
+        report(f"{place} holds both pygame and pygame-ce, which overwrite each other: delete it and start again.")
     command = [str(python_of(place)), "-X", HANDED_OVER, str(ROOT / "main.py"), *args]
     try:
         if not WINDOWS:
@@ -65,7 +65,7 @@ def hand_over(place: Path, args: list[str]) -> int:
 
         process = subprocess.Popen(command)
     except OSError as error:
-        raise Trouble(f"{command[0]} cannot be run ({error.strerror}).") from error
+        raise StartError(f"{command[0]} cannot be run ({error.strerror}).") from error
     while True:
         try:
             return process.wait()
@@ -76,16 +76,16 @@ def hand_over(place: Path, args: list[str]) -> int:
 def environment(needed: set[str], optional: set[str]) -> Path | None:
     """An environment with these groups, prepared if there is none; None: this Python has them. Raises Trouble."""
     groups = needed | optional
-    place = next((place for place in places() if groups <= ready(place)), None)
+    place = next((place for place in environment_folders() if groups <= ready(place)), None)
     if place and sys.prefix == sys.base_prefix:
         return place
     own = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
-    if not both_pygames(own) and not any(lacks(own, requirement) for requirement in requirements(groups)):
+    if not both_pygames(own) and not any(is_missing(own, requirement) for requirement in requirements(groups)):
         return None
     if place:
         return place
     if both_pygames(own):
-        say(f"{sys.prefix} holds both pygame and pygame-ce, which overwrite each other: it is not used.")
-    from pigaming_app.boot.environment import prepared
+        report(f"{sys.prefix} holds both pygame and pygame-ce, which overwrite each other: it is not used.")
+    from pigaming_app.boot.environment import prepare
 
-    return prepared(needed, optional)
+    return prepare(needed, optional)

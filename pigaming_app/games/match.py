@@ -74,7 +74,7 @@ class Match:
             self.brains[seat].think(state, seat)
         self.log.append(state.actions)
         self.game.judge(state)
-        self.plant.drive([(robot.ask_linear, robot.ask_angular) for robot in state.robots], DT)
+        self.plant.drive([(robot.requested_linear, robot.requested_angular) for robot in state.robots], DT)
         for robot, line in zip(state.robots, self.series, strict=True):
             if robot.score != line[-1][1]:
                 line.append((state.tick * DT, robot.score))

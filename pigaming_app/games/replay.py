@@ -28,7 +28,7 @@ FORMATS = ("pigaming-replay-1", "pigaming-replay-2")  # the last is written; 1 h
 BYTES_PER_TICK = 3 * ROBOTS
 MAX_TICKS = 60 * 60 * HZ
 MAX_HEAD = 1_000_000  # bytes; an arena file has at most 100,000, before JSON escapes
-MOST_BYTES = MAX_HEAD + BYTES_PER_TICK * MAX_TICKS  # upper bound: ticks are compressed
+MAX_BYTES = MAX_HEAD + BYTES_PER_TICK * MAX_TICKS  # upper bound: ticks are compressed
 
 
 class ReplayError(ValueError):

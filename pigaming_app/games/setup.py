@@ -8,7 +8,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.world import ROBOTS
 
 PEOPLE = ("human", "off")
-LEAST_MINUTES, MOST_MINUTES = 0.05, 60.0
+MIN_MINUTES, MAX_MINUTES = 0.05, 60.0
 
 
 class ChoiceError(ValueError):
@@ -41,8 +41,8 @@ def make_setup(
         raise ChoiceError(f"teams are numbers from 0 to {ROBOTS - 1}")
     check_teams(rules, [team for brain, team in zip(brains, teams, strict=True) if brain != "off"])
     minutes = float(rules.default_minutes if minutes is None else minutes)
-    if not LEAST_MINUTES <= minutes <= MOST_MINUTES:
-        raise ChoiceError(f"{minutes:g} minutes; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
+    if not MIN_MINUTES <= minutes <= MAX_MINUTES:
+        raise ChoiceError(f"{minutes:g} minutes; possible are {MIN_MINUTES:g} to {MAX_MINUTES:g}")
     variant = rules.variants[0] if variant is None else variant
     require_one_of("variant", variant, rules.variants)
     goal = rules.default_goal if goal is None else goal

@@ -42,15 +42,15 @@ class RobotRecording:
     Times are s; poses are px, px, rad, with the heading unwrapped.
     """
 
-    told_at: Floats
+    command_times: Floats
     wheels: Floats  # shares; 0 where the motors were off
-    seen_at: Floats
+    pose_times: Floats
     poses: Floats
 
     def between(self, begin: float, end: float) -> "RobotRecording":
         """The observations from `begin` to `end` (s, exclusive), with all commands."""
-        seen = (self.seen_at >= begin) & (self.seen_at < end)
-        return RobotRecording(self.told_at, self.wheels, self.seen_at[seen], self.poses[seen])
+        seen = (self.pose_times >= begin) & (self.pose_times < end)
+        return RobotRecording(self.command_times, self.wheels, self.pose_times[seen], self.poses[seen])
 
 
 @dataclass(frozen=True)

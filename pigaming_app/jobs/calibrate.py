@@ -9,7 +9,7 @@ from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import display, mat_settings, path, real, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
-from pigaming_app.ui.i18n import in_every_language
+from pigaming_app.ui.i18n import all_languages
 
 
 def options(parser: ArgumentParser) -> None:
@@ -47,7 +47,7 @@ def _write(path: Path, edge: float) -> int:
         raise Refusal(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     with refused(OperatorError, ValueError):
         require_writable(path)
-        write_atomic(path, sheet(edge, in_every_language("sheet.print", "sheet.cut")))
+        write_atomic(path, sheet(edge, all_languages("sheet.print", "sheet.cut")))
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")
     return 0
 

@@ -83,7 +83,7 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
         if page is None:
             return {"saved": False, "trouble": "The calibration timed out."}
         finding, reason = page.finding, page.finding.trouble
-        trouble = reason and english().explained(reason)
+        trouble = reason and english().long_sentence(reason)
         if finding.good:
             operator.press(Button.FIRE)
             trouble = page.navigation.sentence or None

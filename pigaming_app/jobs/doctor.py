@@ -16,7 +16,7 @@ from importlib import metadata
 from pathlib import Path
 
 from pigaming_app import ASSETS, INSTALLED, ROOT
-from pigaming_app.boot.interpreter import ARCADE, Trouble, both_pygames, lacks, packages
+from pigaming_app.boot.interpreter import ARCADE, StartError, both_pygames, is_missing, packages
 from pigaming_app.boot.interpreter import requirements as listed
 from pigaming_app.jobs.terminal.options import shared
 from pigaming_app.jobs.terminal.refusal import remedy
@@ -86,12 +86,12 @@ def _packages() -> Iterator[Line]:
     for group in (ARCADE, *EXTRAS):
         try:
             wanted = requirements(group)
-        except Trouble as trouble:
+        except StartError as trouble:
             yield Line("packages", "problem", str(trouble), REINSTALL)
             return
         for requirement in wanted:
             name = re.split("[<>]", requirement)[0]
-            if not lacks(installed, requirement):
+            if not is_missing(installed, requirement):
                 yield Line(name, "ok", installed[name])
             elif group == ARCADE:
                 yield Line(name, "problem", f"{installed.get(name, 'missing')}, but {requirement} is needed", RESTART)
@@ -110,7 +110,7 @@ def requirements(group: str) -> list[str]:
     try:
         lines = [line.partition(";") for line in metadata.requires("pigaming-app") or ()]
     except metadata.PackageNotFoundError:
-        raise Trouble("the list of packages is missing") from None
+        raise StartError("the list of packages is missing") from None
     extra = "" if group == ARCADE else group
     return [requirement.strip() for requirement, _, marker in lines if marker.partition("==")[2].strip(" '\"") == extra]
 

@@ -53,7 +53,7 @@ def record(arguments: Namespace) -> dict[str, Any]:
     from pigaming_app.storage.safe_files import require_writable
 
     if arguments.emulate is None and (problem := unfit(Settings.load(folders().config)[0])):
-        raise Refusal(english().explained(problem))
+        raise Refusal(english().long_sentence(problem))
     require("hardware")
     require_writable(arguments.file)
     with refused(RobotsUnavailable):
@@ -166,7 +166,7 @@ def replay(arguments: Namespace) -> dict[str, Any]:
     lines, robots = [], {}
     for robot, result in simulate(run, drivetrains).items():
         errors = ((result.seen - result.predicted)[:, :2] ** 2).sum(axis=1) ** 0.5 * run.mm
-        elapsed = result.seen_at - result.seen_at[0]
+        elapsed = result.pose_times - result.pose_times[0]
         marks = {second: float(errors[elapsed >= second][0]) for second in (1, 2, 5, 10, 30) if elapsed[-1] >= second}
         robots[str(robot + 1)] = {str(second): miss for second, miss in marks.items()}
         lines.append(f"robot {robot + 1}  " + "   ".join(f"after {s} s {miss:.0f} mm" for s, miss in marks.items()))

@@ -157,7 +157,7 @@ def _check_radio(chosen: dict[str, Any]) -> None:
     settings, _ = Settings.load(folders().config)
     settings.radio = chosen.get("radio", settings.radio)
     if reason := unfit(settings):
-        raise Refusal(f"--radio: {english().explained(reason)}")
+        raise Refusal(f"--radio: {english().long_sentence(reason)}")
 
 
 def _speed(text: str) -> float:

@@ -95,7 +95,7 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
 
 
 def _sentence(message: OperatorMessage | None) -> str | None:
-    return english().explained(message) if message else None
+    return english().long_sentence(message) if message else None
 
 
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES, ChoiceError, require_one_of
+from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.options import game_option, path, real, shared, whole
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.scenes.files import load_table, save_table
@@ -99,8 +99,8 @@ def _check(arguments: Namespace) -> None:
         raise Refusal(f"train {arguments.learner}: learns {training.GAME} only, not {arguments.game}")
     if not 1 <= arguments.matches <= 1_000_000:
         raise Refusal(f"--matches: {arguments.matches}; possible are 1 to 1000000")
-    if not LEAST_MINUTES <= arguments.minutes <= MOST_MINUTES:
-        raise Refusal(f"--minutes: {arguments.minutes:g}; possible are {LEAST_MINUTES:g} to {MOST_MINUTES:g}")
+    if not MIN_MINUTES <= arguments.minutes <= MAX_MINUTES:
+        raise Refusal(f"--minutes: {arguments.minutes:g}; possible are {MIN_MINUTES:g} to {MAX_MINUTES:g}")
     load_arena(training.GAME, arguments.arena)
     if arguments.out.suffix != ".npz":
         raise Refusal(f"--out: {arguments.out}: the name of a table ends in .npz")

@@ -178,7 +178,7 @@ class App:
         try:
             self.context.canvas.pin(CornerPin(corners))
         except OperatorError as trouble:
-            log.warning("%s", english().explained(trouble.message))
+            log.warning("%s", english().long_sentence(trouble.message))
             self.notices.say(self.context.words("app.pin"))
 
     def _frame_failed(self, seconds: float) -> bool:
@@ -373,7 +373,7 @@ def _session(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSe
         session.open()  # now, while no picture is waiting; reopened by the first match
         session.close()
     except RobotsUnavailable as trouble:
-        print(f"PiGaming: {english().explained(trouble.message)}", file=sys.stderr)
+        print(f"PiGaming: {english().long_sentence(trouble.message)}", file=sys.stderr)
     return session
 
 

@@ -22,7 +22,7 @@ def save_replay(match: Match, path: Path) -> None:
 
 def load_replay(path: Path) -> Replay:
     """Read and check a replay. Raises ReplayError, whose text begins with the file name."""
-    return _load(path, replay.MOST_BYTES, replay.decode, ReplayError)
+    return _load(path, replay.MAX_BYTES, replay.decode, ReplayError)
 
 
 def save_table(trained: Trained, path: Path) -> None:
@@ -32,7 +32,7 @@ def save_table(trained: Trained, path: Path) -> None:
 
 def load_table(path: Path) -> Trained:
     """Read and check a trained table. Raises TableError, whose text begins with the file name."""
-    return _load(path, table_files.MOST_BYTES, table_files.decode, TableError)
+    return _load(path, table_files.MAX_BYTES, table_files.decode, TableError)
 
 
 def _load(path: Path, limit: int, decode: Callable[[bytes, str], T], error: type[ValueError]) -> T:

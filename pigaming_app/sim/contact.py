@@ -14,7 +14,7 @@ crush catapults a robot.
 from math import sqrt
 from typing import Any
 
-from pigaming_app.sim.grid import ONE_NEAR, node_at
+from pigaming_app.sim.grid import NEAR_UNIT, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import offset_from_wall
@@ -112,7 +112,7 @@ def push_out_of_walls(world: Any, robot: Any) -> int:
     elif robot.y > HEIGHT - RADIUS:
         robot.y = HEIGHT - RADIUS
         moved = 1
-    if world.grid[node_at(robot.x, robot.y)] < ONE_NEAR:
+    if world.grid[node_at(robot.x, robot.y)] < NEAR_UNIT:
         return moved
     for i in range(world.wall_count):
         wall = world.walls[i]
@@ -134,7 +134,7 @@ def in_wall(world: Any, x: float, y: float) -> int:
     """1 if a robot with its centre at (x, y) would overlap a wall."""
     if x < RADIUS or x > WIDTH - RADIUS or y < RADIUS or y > HEIGHT - RADIUS:
         return 1
-    if world.grid[node_at(x, y)] < ONE_NEAR:
+    if world.grid[node_at(x, y)] < NEAR_UNIT:
         return 0
     for i in range(world.wall_count):
         wall = world.walls[i]

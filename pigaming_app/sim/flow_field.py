@@ -11,7 +11,7 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_KEPT, ROWS
+from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_PADDED, ROWS
 
 SLACK = 2  # nodes that a goal may move before the field is rebuilt
 LOOK = 7  # lookahead down the field, nodes
@@ -29,8 +29,8 @@ class Route:
     straight: int  # 1: it is the goal itself
     root: int  # the node from which the field was built; 0: there is no field
     walls: int  # number of walls standing at that time
-    reach: Annotated[list[int], NODES_KEPT, "h"]  # steps to the root, 1 at the root, 0 not reached
-    queue: Annotated[list[int], NODES_KEPT, "h"]  # frontier of the breadth-first search
+    reach: Annotated[list[int], NODES_PADDED, "h"]  # steps to the root, 1 at the root, 0 not reached
+    queue: Annotated[list[int], NODES_PADDED, "h"]  # frontier of the breadth-first search
 
 
 @kernel

@@ -15,7 +15,7 @@ from pigaming_app.sim.world import CELL, COLUMNS, ROWS
 SPARE = 4.0  # px between a robot on a free node and the wall
 NEAR = 72.0  # px: the node nearest to anything that touches the wall is within RADIUS + half a cell's diagonal
 BLOCKED = 63  # mask of the bits that count blocking walls
-ONE_NEAR = 64  # one nearby wall: a node of at least this value has a wall near it
+NEAR_UNIT = 64  # one nearby wall: a node of at least this value has a wall near it
 
 
 @kernel
@@ -45,7 +45,7 @@ def wall_on_grid(world: Any, wall: Any, change: int) -> None:
             dx, dy = offset_from_wall(wall, column * CELL, y)
             gap = sqrt(dx * dx + dy * dy) - wall.half
             if gap < NEAR:
-                world.grid[row * COLUMNS + column] += ONE_NEAR * change
+                world.grid[row * COLUMNS + column] += NEAR_UNIT * change
                 if gap < RADIUS + SPARE:
                     world.grid[row * COLUMNS + column] += change
 

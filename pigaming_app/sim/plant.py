@@ -53,7 +53,7 @@ class SimPlant:
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         for robot, (linear, angular) in zip(self.world.robots, self._delayed(twists), strict=True):
-            robot.ask_linear, robot.ask_angular = linear, angular
+            robot.requested_linear, robot.requested_angular = linear, angular
         drive(self.world)
 
     def place(self, poses: Sequence[Pose]) -> None:

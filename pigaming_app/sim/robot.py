@@ -18,8 +18,8 @@ def integrate(robot: Any) -> None:
 
     Midpoint rule: exact on a straight line, and to 1e-4 px in the tightest bend.
     """
-    robot.linear += (robot.ask_linear - robot.linear) * robot.gain
-    robot.angular += (robot.ask_angular - robot.angular) * robot.gain
+    robot.linear += (robot.requested_linear - robot.linear) * robot.gain
+    robot.angular += (robot.requested_angular - robot.angular) * robot.gain
     middle = robot.heading + 0.5 * DT * robot.angular
     robot.x += DT * robot.linear * cos(middle)
     robot.y += DT * robot.linear * sin(middle)
@@ -46,7 +46,7 @@ def use_turbo(robot: Any, wanted: int, drain: float, refill: float) -> None:
 @kernel
 def stop(robot: Any) -> None:
     """Request zero speed of a robot."""
-    robot.ask_linear, robot.ask_angular, robot.boosting = 0.0, 0.0, 0
+    robot.requested_linear, robot.requested_angular, robot.boosting = 0.0, 0.0, 0
 
 
 @kernel

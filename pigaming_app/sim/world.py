@@ -12,7 +12,7 @@ WALLS = 24
 CELL = 50.0  # px between the nodes of the grid
 COLUMNS, ROWS = 33, 19  # nodes at 0, 50 .. 1600 and 0, 50 .. 900 px; those on the rim are never free
 NODES = COLUMNS * ROWS
-NODES_KEPT = NODES + 1  # length of the arrays, padded to a multiple of 8 bytes
+NODES_PADDED = NODES + 1  # length of the arrays, padded to a multiple of 8 bytes
 
 
 @record
@@ -28,8 +28,8 @@ class Robot:
     heading: float
     linear: float  # px/s, current speed
     angular: float  # rad/s
-    ask_linear: float  # speeds that the game requests of the plant
-    ask_angular: float
+    requested_linear: float  # speeds that the game requests of the plant
+    requested_angular: float
     gain: float  # share of the speed error that the motors remove in one tick
     turbo: float  # charge of the meter, 0..1
 
@@ -76,4 +76,4 @@ class World:
     actions: Annotated[list[Action], ROBOTS]
     wall_count: int
     walls: Annotated[list[Wall], WALLS]
-    grid: Annotated[list[int], NODES_KEPT, "h"]  # see grid.py: walls that block a node, and walls near it
+    grid: Annotated[list[int], NODES_PADDED, "h"]  # see grid.py: walls that block a node, and walls near it

@@ -42,7 +42,7 @@ class Words:
         """The short on-screen sentence of a hardware message."""
         return self(f"hardware.{message.key}", **message.values)
 
-    def explained(self, message: Message) -> str:
+    def long_sentence(self, message: Message) -> str:
         """The sentence of a hardware message for terminal and log: from the table `terminal` if present there."""
         table = "terminal" if f"terminal.{message.key}" in self._texts else "hardware"
         return self(f"{table}.{message.key}", **message.values)
@@ -61,7 +61,7 @@ class Words:
         """The other language."""
         return LANGUAGES[1 - LANGUAGES.index(self.language)]
 
-    def printed(self, label: str) -> str:
+    def key_name(self, label: str) -> str:
         """The local name of the button labelled `label`: the space bar, for example, is translated."""
         return self._texts.get(f"keys.{label}", label)
 
@@ -77,7 +77,7 @@ def english() -> Words:
     return Words("en")
 
 
-def in_every_language(*keys: str) -> list[str]:
+def all_languages(*keys: str) -> list[str]:
     """The texts of these keys in all languages, language by language."""
     return [Words(language)(key) for language in LANGUAGES for key in keys]
 

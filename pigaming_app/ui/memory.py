@@ -28,7 +28,7 @@ _busy = Event()  # set while collection is paused
 
 
 @contextmanager
-def uncollected() -> Iterator[None]:
+def gc_paused() -> Iterator[None]:
     """Pause garbage collection in all threads: with this many new objects it would take long."""
     _busy.set()
     enabled = gc.isenabled()

@@ -27,7 +27,7 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.race.course import POINTS, Course
 from pigaming_app.games.race.start import set_rules
-from pigaming_app.games.race.state import MOST_LAPS, Rules
+from pigaming_app.games.race.state import MAX_LAPS, Rules
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import compiled, kernel
 from pigaming_app.sim.robot import RADIUS
@@ -150,7 +150,7 @@ def follow(rest: Any, ring: Any, bends: Any, limits: Any, path: Any) -> None:
 def alone(track: str, strength: str, turbo: bool) -> float:
     """Mean time of the flying laps of a driver alone on the track, s."""
     seats = Seat(strength, 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
-    setups = [Setup("race", track, seats, 10.0, seed, "standard", MOST_LAPS) for seed in range(1, SOLO + 1)]
+    setups = [Setup("race", track, seats, 10.0, seed, "standard", MAX_LAPS) for seed in range(1, SOLO + 1)]
     batch = Batch(setups, [BRAINS["race"][strength]], True)
     if not turbo:
         batch.matches["robots"]["turbo"] = 0.0

@@ -202,7 +202,7 @@ def test_offline_the_remedy_is_reported_and_nothing_is_lost(clone):
 
 def test_without_the_venv_module_its_package_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr(install.importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(interpreter.Trouble, match="apt install python3-venv"):
+    with pytest.raises(interpreter.StartError, match="apt install python3-venv"):
         install.make(tmp_path / "venv")
 
 
@@ -262,7 +262,7 @@ def test_a_disk_that_fills_up_under_the_stamp_leaves_the_groups_uninstalled(furn
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(install.os, "fsync", full)
-    with pytest.raises(interpreter.Trouble, match="the disk is full"):
+    with pytest.raises(interpreter.StartError, match="the disk is full"):
         install.install(place, {interpreter.ARCADE, "train"})
     assert interpreter.ready(place) == set()
 
@@ -303,7 +303,7 @@ def test_in_a_read_only_folder_the_environment_goes_to_the_user(tmp_path, monkey
 def test_where_nothing_can_be_written_both_folders_are_named(tmp_path, monkeypatch):
     monkeypatch.setattr(install, "places", lambda: [tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"])
     monkeypatch.setattr(install, "open", no_writing_below(tmp_path), raising=False)
-    with pytest.raises(interpreter.Trouble, match=r"neither .*clone nor .*home can be written"):
+    with pytest.raises(interpreter.StartError, match=r"neither .*clone nor .*home can be written"):
         install._claimed()
 
 
@@ -328,7 +328,7 @@ def test_a_missing_project_file_is_reported_in_one_line(clone):
     ],
 )
 def test_a_version_fits_or_not(requirement, version, lacking):
-    assert interpreter.lacks({"numpy": version}, requirement) is lacking
+    assert interpreter.is_missing({"numpy": version}, requirement) is lacking
 
 
 def test_the_project_file_has_only_requirements_that_boot_supports():

@@ -13,7 +13,7 @@ from pigaming_app.ui.i18n import english
 
 def sentence(trouble: Any) -> str:
     """The text of an OperatorMessage or OperatorError."""
-    return english().explained(trouble.message if isinstance(trouble, OperatorError) else trouble)
+    return english().long_sentence(trouble.message if isinstance(trouble, OperatorError) else trouble)
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from pigaming_app.boot.interpreter import Trouble
+from pigaming_app.boot.interpreter import StartError
 from pigaming_app.cli import main
 from pigaming_app.jobs import doctor
 from pigaming_app.storage.scores import Scores
@@ -92,7 +92,7 @@ def test_a_package_that_is_too_old_is_a_problem(monkeypatch):
 
 def test_a_project_file_that_cannot_be_read_is_a_line(monkeypatch):
     def refuse(_):
-        raise Trouble("pyproject.toml cannot be read")
+        raise StartError("pyproject.toml cannot be read")
 
     monkeypatch.setattr(doctor, "requirements", refuse)
     assert line("packages").state == "problem"

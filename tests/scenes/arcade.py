@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, Stack, Turn
+from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
@@ -37,10 +37,10 @@ class Floor:
     def entered(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from pigaming_app.scenes.app import App, Options, run
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, Turn
+from pigaming_app.scenes.flow.stack import Scene, StackOperation
 from pigaming_app.scenes.title.scene import Title
 from tests.scenes.arcade import Floor
 
@@ -30,7 +30,7 @@ class Quiet(Floor):
     def __init__(self, context: Context) -> None:
         self.context, self.frames = context, 0
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.frames += 1
         return None
 
@@ -41,7 +41,7 @@ class Quiet(Floor):
 class Broken(Quiet):
     """A scene that fails in `update`."""
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         raise ValueError("on purpose")
 
 
@@ -99,7 +99,7 @@ def test_robots_stand_still_when_a_scene_fails_and_when_the_arcade_ends() -> Non
 
 def test_a_supervisor_ends_it_and_the_settings_are_kept(home: Path) -> None:
     class Ended(Quiet):
-        def update(self, seconds: float) -> Turn:
+        def update(self, seconds: float) -> StackOperation:
             os.kill(os.getpid(), signal.SIGTERM)
             return None
 
@@ -132,7 +132,7 @@ def test_closing_the_window_ends_it_but_not_in_a_kiosk(kiosk: bool, frames: int)
     scenes: list[Quiet] = []
 
     class Closing(Quiet):
-        def update(self, seconds: float) -> Turn:
+        def update(self, seconds: float) -> StackOperation:
             pygame.event.post(pygame.Event(pygame.QUIT))
             return super().update(seconds)
 
@@ -147,7 +147,7 @@ def test_closing_the_window_ends_it_but_not_in_a_kiosk(kiosk: bool, frames: int)
 @pytest.mark.parametrize("kiosk", [False, True])
 def test_f12_takes_a_picture_but_not_in_a_kiosk(home: Path, kiosk: bool) -> None:
     class Pressing(Quiet):
-        def update(self, seconds: float) -> Turn:
+        def update(self, seconds: float) -> StackOperation:
             for key in (pygame.K_F3, pygame.K_F12):
                 pygame.event.post(pygame.Event(pygame.KEYDOWN, key=key, scancode=0, mod=0))
             return None

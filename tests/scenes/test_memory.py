@@ -14,7 +14,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, Swap, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.sprites import robot as tank
@@ -107,11 +107,11 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
 class Leaving(Floor):
     """A scene in a reference cycle that leaves the stack in its third frame."""
 
-    def __init__(self, turn: Turn) -> None:
+    def __init__(self, turn: StackOperation) -> None:
         self.turn, self.frames = turn, 0
         self.cycle = lambda: self.turn
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.frames += 1
         return self.cycle() if self.frames == 3 else None
 
@@ -123,7 +123,7 @@ class Leaving(Floor):
     "turn", [Pop(), Home(), Swap(Leaving(None)), Home(Leaving(None))], ids=["pop", "home", "swap", "home and on"]
 )
 def test_a_scene_that_has_left_is_freed_in_the_next_frame(
-    turn: Turn, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    turn: StackOperation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     scenes: list[weakref.ref[Leaving]] = []

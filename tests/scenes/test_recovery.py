@@ -10,7 +10,7 @@ import pytest
 from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Scene, Turn
+from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
 from pigaming_app.scenes.title import scene as title
 from tests.scenes.arcade import Floor
 
@@ -123,7 +123,7 @@ def test_a_scene_that_fails_in_left_does_not_stop_recovery(home: Path, under: bo
     class Opening(Failing):
         """A scene that pushes another onto itself."""
 
-        def update(self, seconds: float) -> Turn:
+        def update(self, seconds: float) -> StackOperation:
             return Push(Failing(self.context, clip))
 
         def left(self) -> None:
@@ -146,7 +146,7 @@ def test_all_scenes_are_closed_even_if_one_raises() -> None:
             gone.append("low")
 
     class Bottom(Holding):
-        def update(self, seconds: float) -> Turn:
+        def update(self, seconds: float) -> StackOperation:
             return Push(Clinging(self.context, clip))
 
     pictures(lambda context: Bottom(context, clip))

@@ -21,7 +21,7 @@ DEEPEST = 2.0  # px by which two robots may overlap
 
 
 def ask(robot, linear, angular=0.0):
-    robot.ask_linear, robot.ask_angular = linear, angular
+    robot.requested_linear, robot.requested_angular = linear, angular
 
 
 def driven(world, seconds):

@@ -28,8 +28,8 @@ def follow(world, robot, to, seconds):
     for tick in range(round(seconds * HZ)):
         update_route(world, to, robot.x, robot.y)
         bearing = turn_to(atan2(to.way_y - robot.y, to.way_x - robot.x) - robot.heading)
-        robot.ask_angular = max(-3.0, min(3.0, 6.0 * bearing))
-        robot.ask_linear = 260.0 * max(0.0, cos(bearing)) ** 3
+        robot.requested_angular = max(-3.0, min(3.0, 6.0 * bearing))
+        robot.requested_linear = 260.0 * max(0.0, cos(bearing)) ** 3
         drive(world)
         if hypot(to.goal_x - robot.x, to.goal_y - robot.y) < 20.0:
             return tick / HZ

@@ -13,7 +13,7 @@ RULE_DRAIN, RULE_REFILL = 1 / (2 * HZ), 1 / (4 * HZ)
 def robot(linear=0.0, angular=0.0, **fields):
     made = Robot()
     made.gain, made.turbo = GAIN, 1.0
-    made.ask_linear, made.ask_angular = linear, angular
+    made.requested_linear, made.requested_angular = linear, angular
     for name, value in fields.items():
         setattr(made, name, value)
     return made

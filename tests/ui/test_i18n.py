@@ -95,8 +95,8 @@ def decimals(node: ast.FormattedValue) -> bool:
 
 
 def test_a_space_bar_has_a_name_and_a_button_is_called_what_is_printed_on_it() -> None:
-    assert Words("pt").printed("SPACE") == "ESPAÇO"
-    assert Words("pt").printed("R CTRL") == "R CTRL"
+    assert Words("pt").key_name("SPACE") == "ESPAÇO"
+    assert Words("pt").key_name("R CTRL") == "R CTRL"
 
 
 def test_an_unknown_key_is_an_error() -> None:

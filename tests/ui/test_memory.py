@@ -6,7 +6,7 @@ from pigaming_app.ui import memory as heap
 
 
 def test_nothing_is_collected_while_many_objects_are_being_made() -> None:
-    with heap.uncollected():
+    with heap.gc_paused():
         assert not gc.isenabled()
         assert not heap.collect()
     assert gc.isenabled()

@@ -21,11 +21,11 @@ from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.games.engine_hash import engine_hash
-from pigaming_app.games.setup import LEAST_MINUTES, MOST_MINUTES
+from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES
 from pigaming_app.sim.record import dtype
 
 FORMAT, RULE = "pigaming-table-1", "pitanks classic"
-MOST_BYTES = 4_000_000  # size limit of a file; a full training takes about 60,000
+MAX_BYTES = 4_000_000  # size limit of a file; a full training takes about 60,000
 COUNTS = ("experiences", "pairs", "states", "matches", "random")
 PARTS = {"head": 100_000, "q": 8 * PAIRS + 1000, "n": 8 * PAIRS + 1000}  # limits of the unpacked sizes, bytes
 
@@ -157,7 +157,7 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
             rows=rows,
             engine=str(head["engine"]),
         )
-        if trained.matches < 0 or not LEAST_MINUTES <= trained.minutes <= MOST_MINUTES:
+        if trained.matches < 0 or not MIN_MINUTES <= trained.minutes <= MAX_MINUTES:
             raise TableError("the table contradicts itself")
         return trained
     except TableError:

@@ -8,7 +8,7 @@ from pigaming_app.games.factory.state import (
     ENTRY,
     IN_MACHINE,
     IN_SLOT,
-    MOST_PALLETS,
+    MAX_PALLETS,
     ON_ROBOT,
     SHELVES,
     SHIPPED,
@@ -71,7 +71,7 @@ def is_destination(match: Any, s: int) -> bool:
 @kernel
 def stock_up(match: Any, team: int) -> None:
     """Move waiting pallets to the free slots of their team's entry."""
-    for p in range(team * MOST_PALLETS, (team + 1) * MOST_PALLETS):
+    for p in range(team * MAX_PALLETS, (team + 1) * MAX_PALLETS):
         if match.pallets[p].exists and match.pallets[p].place == WAITING:
             s = free_shelf(match, team, ENTRY)
             if s < 0:

@@ -204,5 +204,5 @@ def steer(match: Any, k: int) -> None:
     use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
     if robot.boosting:
         speed *= rules.turbo_factor
-    robot.ask_linear = action.linear * speed
-    robot.ask_angular = action.angular * rules.turn_rate
+    robot.requested_linear = action.linear * speed
+    robot.requested_angular = action.angular * rules.turn_rate

@@ -8,7 +8,7 @@ from pigaming_app.games.factory.pedestrians import send
 from pigaming_app.games.factory.state import (
     FIRE,
     ICE,
-    MOST_PALLETS,
+    MAX_PALLETS,
     RAW,
     WAITING,
     Factory,
@@ -20,8 +20,8 @@ from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 PALLETS = Rules().pallets  # per team, the default goal
-GOALS = tuple(range(2, MOST_PALLETS + 1))
-STEPS_BEFORE = 1000.0  # steps of work that weigh as much as one delivery: more than a match can have
+GOALS = tuple(range(2, MAX_PALLETS + 1))
+STEPS_PER_DELIVERY = 1000.0  # steps of work that weigh as much as one delivery: more than a match can have
 
 
 def start(match: Factory, arena: Arena, setup: Setup) -> None:
@@ -39,7 +39,7 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
     _place_equipment(match, floor)
     for team in (ICE, FIRE):
         for i in range(match.rules.pallets):
-            pallet = match.pallets[team * MOST_PALLETS + i]
+            pallet = match.pallets[team * MAX_PALLETS + i]
             pallet.exists, pallet.team, pallet.state = 1, team, RAW
             pallet.place, pallet.at = WAITING, team
         stock_up(match, team)
@@ -79,9 +79,9 @@ def ranking_key(match: Factory, seat: int) -> float:
     """
     team = match.robots[seat].team
     if match.delivered[team] == match.rules.pallets:
-        return match.delivered[team] * STEPS_BEFORE
+        return match.delivered[team] * STEPS_PER_DELIVERY
     steps = sum(match.loads[i].steps for i in range(ROBOTS) if match.robots[i].team == team)
-    return match.delivered[team] * STEPS_BEFORE + min(STEPS_BEFORE - 1.0, steps)
+    return match.delivered[team] * STEPS_PER_DELIVERY + min(STEPS_PER_DELIVERY - 1.0, steps)
 
 
 def stats(match: Factory, seat: int) -> Mapping[str, float]:

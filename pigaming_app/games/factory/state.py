@@ -13,8 +13,8 @@ from pigaming_app.sim.world import HZ, ROBOTS, World
 
 ICE, FIRE = 0, 1  # the teams
 TEAMS = 2
-MOST_PALLETS = 8  # per team
-PALLETS = TEAMS * MOST_PALLETS  # those of team t begin at index t * MOST_PALLETS
+MAX_PALLETS = 8  # per team
+PALLETS = TEAMS * MAX_PALLETS  # those of team t begin at index t * MAX_PALLETS
 SHELVES = 4  # slots of a warehouse
 MACHINES = 4
 WORKERS = 3

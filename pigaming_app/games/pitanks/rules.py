@@ -12,7 +12,7 @@ from typing import Any
 
 from pigaming_app.games.pitanks.items import lay_mine, score, update_mines, update_pickups
 from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, RAPID, RICOCHET, SPEED, TRIPLE
-from pigaming_app.sim.grid import ONE_NEAR, node_at, wall_on_grid
+from pigaming_app.sim.grid import NEAR_UNIT, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, stop_all, use_turbo
 from pigaming_app.sim.sweep import bounds_contact, disc_contact, offset_from_wall, wall_contact
@@ -68,8 +68,8 @@ def steer(match: Any, k: int) -> None:
             speed *= rules.turbo_factor
     if match.tanks[k].powers[SPEED]:
         speed *= rules.speed_factor
-    robot.ask_linear = action.linear * speed
-    robot.ask_angular = action.angular * rules.turn_rate
+    robot.requested_linear = action.linear * speed
+    robot.requested_angular = action.angular * rules.turn_rate
 
 
 # ------------------------------------------------------------------------------------------------------------ bullets
@@ -143,7 +143,7 @@ def move_bullet(match: Any, k: int, bullet: Any, seconds: float) -> None:
     struck = OUTER if first <= 1.0 else 0
     left, right = (x, x + dx) if dx > 0.0 else (x + dx, x)
     top, bottom = (y, y + dy) if dy > 0.0 else (y + dy, y)
-    if bullet.fresh or match.grid[node_at(x, y)] >= ONE_NEAR:
+    if bullet.fresh or match.grid[node_at(x, y)] >= NEAR_UNIT:
         for i in range(match.wall_count):
             wall = match.walls[i]
             if left < wall.right and right > wall.left and top < wall.bottom and bottom > wall.top and wall.health:

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.world import NODES_KEPT
+from pigaming_app.sim.world import NODES_PADDED
 
 POINTS = 320
 
@@ -26,8 +26,8 @@ class Course:
     xs: Annotated[list[float], POINTS]
     ys: Annotated[list[float], POINTS]
     half: Annotated[list[float], POINTS]  # px from the line to either edge
-    near: Annotated[list[int], NODES_KEPT, "h"]  # the nearest point to each node of the grid
-    other: Annotated[list[int], NODES_KEPT, "h"]  # the nearest point of another stretch, -1 if none is near
+    near: Annotated[list[int], NODES_PADDED, "h"]  # the nearest point to each node of the grid
+    other: Annotated[list[int], NODES_PADDED, "h"]  # the nearest point of another stretch, -1 if none is near
 
 
 @record

@@ -205,8 +205,8 @@ def steer(match: Any, k: int) -> None:
         speed *= rules.turbo_factor
     if not racer.place.on:
         speed *= rules.mud
-    robot.ask_linear = action.linear * speed
-    robot.ask_angular = action.angular * rules.turn_rate
+    robot.requested_linear = action.linear * speed
+    robot.requested_angular = action.angular * rules.turn_rate
 
 
 @kernel

@@ -19,7 +19,7 @@ from pigaming_app.games.game import Setup
 from pigaming_app.games.race.circuit import read_course
 from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.racing_line import fastest_line
-from pigaming_app.games.race.state import LINES, MOST_LAPS, Race, Rules, TimingLine
+from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, Rules, TimingLine
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
 from pigaming_app.sim.record import copy
 from pigaming_app.sim.rng import seeded
@@ -27,7 +27,7 @@ from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import DT, HZ
 
 LAPS = Rules().laps  # the default goal
-GOALS = tuple(range(1, MOST_LAPS + 1))
+GOALS = tuple(range(1, MAX_LAPS + 1))
 BEHIND = 55.0  # px between a robot's start and its line
 APART = 300.0  # px, least distance between two lines
 

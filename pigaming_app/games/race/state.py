@@ -6,7 +6,7 @@ from pigaming_app.games.race.course import POINTS, Course, CoursePosition
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ, ROBOTS, World
 
-MOST_LAPS = 9
+MAX_LAPS = 9
 LINES = ROBOTS  # one for each seat, taken or not
 
 
@@ -57,7 +57,7 @@ class Racer:
     lap_began: float  # time of its last crossing of its own line
     last_lap: float  # 0: none yet
     best_lap: float
-    laps: Annotated[list[float], MOST_LAPS]
+    laps: Annotated[list[float], MAX_LAPS]
     splits: Annotated[list[float], LINES]  # of this lap: time from its beginning to each line, [0] is 0
     best_splits: Annotated[list[float], LINES]  # of its best lap
     delta: float  # the last split, or lap, less that of the best lap

@@ -64,7 +64,7 @@ class CameraTask(BackgroundWorker):
         frame = self._camera.newest()
         if frame is not None:
             self._newest = now
-            self.small = shrunk(frame.image)
+            self.small = scaled_preview(frame.image)
             self.look(frame)
         else:
             self.idle(now - self._newest, self._camera.trouble)
@@ -160,7 +160,7 @@ class DriftCheck(CameraTask):
             self.give_up(trouble or NO_PICTURE)
 
 
-def shrunk(image: Image) -> Image:
+def scaled_preview(image: Image) -> Image:
     """A picture scaled to fit SMALL, with its aspect ratio kept."""
     cv = opencv()
     h, w = image.shape

@@ -22,7 +22,7 @@ MIN_SIDE = 0.2  # of the canvas's sides; smaller is unplayable
 Pixels = NDArray[np.uint8]  # (height, width, 4)
 
 
-def crooked(corners: Sequence[float]) -> bool:
+def is_degenerate(corners: Sequence[float]) -> bool:
     """True if no picture fits these corners: they cross, are nearly collinear, or leave it tiny."""
     if len(corners) != 8 or not all(isfinite(value) for value in corners):
         return True
@@ -41,7 +41,7 @@ class CornerPin:
     """A corner pin for windows of any size. Raises CornerPinError or OpenCVMissing."""
 
     def __init__(self, corners: Sequence[float]) -> None:
-        if crooked(corners):
+        if is_degenerate(corners):
             raise CornerPinError(OperatorMessage("corners"))
         opencv()
         self.corners = tuple(corners)

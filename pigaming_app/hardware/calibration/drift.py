@@ -79,7 +79,7 @@ class DriftMonitor:
         """A corner marker at its calibrated position in the picture."""
         half = EDGE / 2.0
         square = half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
-        return DetectedMarker(number, self.ground.seen_at(self._places[number] + square))
+        return DetectedMarker(number, self.ground.pose_times(self._places[number] + square))
 
 
 def _spot(mark: DetectedMarker) -> SearchWindow:

@@ -59,7 +59,7 @@ class GroundPlane:
 
     def on_mat(self, seen: Points) -> Points:
         """Camera px to arena px for points on the mat, (n, 2) -> (n, 2)."""
-        return project(self._onto, self.lens.straighten(seen))  # type: ignore[attr-defined]
+        return project(self._onto, self.lens.undistort(seen))  # type: ignore[attr-defined]
 
     def at_height(self, seen: Points, height: float) -> Points:
         """Camera px to arena px for points `height` mm above the mat, (n, 2) -> (n, 2)."""
@@ -67,11 +67,11 @@ class GroundPlane:
         foot = np.array(self.foot)
         return np.asarray(foot + (apparent - foot) * ((self.height - height) / self.height))
 
-    def seen_at(self, places: Points, height: float = 0.0) -> Points:
+    def pose_times(self, places: Points, height: float = 0.0) -> Points:
         """Arena px to camera px for points `height` mm above the mat, (n, 2) -> (n, 2)."""
         foot = np.array(self.foot)
         apparent = foot + (places - foot) * (self.height / (self.height - height))
-        return self.lens.bend(project(self._back, apparent))  # type: ignore[attr-defined]
+        return self.lens.distort(project(self._back, apparent))  # type: ignore[attr-defined]
 
     def fixes(self, marks: Sequence[DetectedMarker], captured: float) -> list[Fix | str]:
         """A fix for each marker, or the reason why it cannot be on a robot: `size` or `tilted`."""
@@ -107,7 +107,7 @@ def project(matrix: NDArray[np.float64], points: Points) -> Points:
     return np.asarray(flat[:, :2] / flat[:, 2:])
 
 
-def written(ground: GroundPlane) -> str:
+def to_toml(ground: GroundPlane) -> str:
     """Serialize a calibration as TOML with a checksum."""
     import tomli_w
 
@@ -133,11 +133,11 @@ def read(text: str, display: str | None = None, camera: tuple[int, int] | None =
     if display is not None and ground.display != display:
         raise CalibrationError(OperatorMessage("other_display", theirs=ground.display, ours=display))
     if camera is not None and ground.lens.size != camera:
-        raise CalibrationError(misfit(ground, camera))
+        raise CalibrationError(size_mismatch(ground, camera))
     return ground
 
 
-def misfit(ground: GroundPlane, camera: tuple[int, int]) -> OperatorMessage:
+def size_mismatch(ground: GroundPlane, camera: tuple[int, int]) -> OperatorMessage:
     """The message for pictures of another size than the calibration's."""
     theirs, ours = ("{} x {}".format(*size) for size in (ground.lens.size, camera))
     return OperatorMessage("other_camera", theirs=theirs, ours=ours)

@@ -28,14 +28,14 @@ class Lens:
         if self.centre[0] < 0.0:
             object.__setattr__(self, "centre", ((self.size[0] - 1) / 2.0, (self.size[1] - 1) / 2.0))
 
-    def bend(self, straight: Points) -> Points:
+    def distort(self, straight: Points) -> Points:
         """Distort points, (n, 2) px."""
         away = (straight - self.centre) / self.size[0]
         r2 = (away * away).sum(axis=1)
         grown = 1.0 + r2 * (self.k1 + r2 * self.k2)
         return np.asarray(self.centre + away * (grown * self.size[0])[:, None])
 
-    def straighten(self, seen: Points) -> Points:
+    def undistort(self, seen: Points) -> Points:
         """Undistort points, (n, 2) px: the inverse of `bend`, by Newton's method."""
         away = (seen - self.centre) / self.size[0]
         bent = np.sqrt((away * away).sum(axis=1))

@@ -14,7 +14,7 @@ from pigaming_app.hardware.calibration.camera_position import height_by_ruler
 from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, CameraTask
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
-from pigaming_app.hardware.calibration.solver import Residuals, solve, verified, verify
+from pigaming_app.hardware.calibration.solver import Residuals, solve, verify, with_verification
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame
 
@@ -111,7 +111,7 @@ class Calibration(CameraTask):
         assert self.ground is not None
         self.residuals = verify(self.ground, samples.corners(), HELD_OUT)
         if self.residuals.accepted:
-            self.ground = verified(self.ground, self.residuals)
+            self.ground = with_verification(self.ground, self.residuals)
         self.stage, self.board, self._samples = CalibrationStage.DONE, None, None
 
     def end(self) -> None:

@@ -81,7 +81,7 @@ def verify(ground: GroundPlane, seen: Mapping[int, Points], board: CalibrationBo
     return Residuals(places, misses, float(errors.mean()), float(errors.max()))
 
 
-def verified(ground: GroundPlane, residuals: Residuals) -> GroundPlane:
+def with_verification(ground: GroundPlane, residuals: Residuals) -> GroundPlane:
     """The ground with its verification errors. Raises CalibrationError if they are too large."""
     if not residuals.accepted:
         raise CalibrationError(residuals.verdict)
@@ -113,7 +113,7 @@ def _model(parameters: Vector, places: Points, size: tuple[int, int]) -> Points:
     """Project places (arena px) to camera px."""
     matrix = np.append(parameters[:8], 1.0).reshape(3, 3)
     lens = _lens(parameters, size)
-    return lens.bend(np.array(lens.centre) + size[0] * project(matrix, places / 1000.0))
+    return lens.distort(np.array(lens.centre) + size[0] * project(matrix, places / 1000.0))
 
 
 def _lens(parameters: Vector, size: tuple[int, int]) -> Lens:

@@ -84,7 +84,7 @@ class Pairing:
         self._watch(counts=time > REST)
         if self._astray is not None and time < REST + SPIN:
             self._ticks, time = round((REST + SPIN) / DT), REST + SPIN + DT
-        self.rig.tell_one(
+        self.rig.send_to_channel(
             self._todo[0], WheelCommand(SHARE, -SHARE) if REST < time <= REST + SPIN else WheelCommand(0.0, 0.0)
         )
         if time >= REST + SPIN + BRAKE:

@@ -31,7 +31,7 @@ class MixedPlant(RealPlant):
         super().drive(twists, dt)
         simulated = [i for i, robot in enumerate(self.world.robots) if robot.present and i not in self.real]
         for i in simulated:
-            self.world.robots[i].ask_linear, self.world.robots[i].ask_angular = twists[i]
+            self.world.robots[i].requested_linear, self.world.robots[i].requested_angular = twists[i]
         simulate(self.world, simulated)
 
     def place(self, poses: Sequence[Pose]) -> None:
@@ -61,12 +61,12 @@ class MixedPlant(RealPlant):
         """One tick of homing; true if all have arrived."""
         done = super().take_places()
         if done:
-            self.accept_places()
+            self.start_from_here()
         return done
 
-    def accept_places(self) -> None:
+    def start_from_here(self) -> None:
         """Start from the present poses; robots that were summoned take over."""
-        super().accept_places()
+        super().start_from_here()
         self.real |= self.arriving
         self.arriving.clear()
 

@@ -98,14 +98,14 @@ class RealPlant:
             self._homing = None
         return self._homing is None
 
-    def accept_places(self) -> None:
+    def start_from_here(self) -> None:
         """Start from the present poses."""
         self._homing = None
 
-    def forgive(self, robot: int) -> None:
+    def clear_fault(self, robot: int) -> None:
         """Clear the latched fault of a robot after somebody has checked it."""
         self.rig.forget(robot)
-        self.safety.forgive(robot)
+        self.safety.clear_fault(robot)
 
     def watch(self) -> list[Fault]:
         """One tick of a paused match: all robots stand. Returns the present faults."""

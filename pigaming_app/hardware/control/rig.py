@@ -165,7 +165,7 @@ class Rig:
         self.link.send(sent)
         self.pump()
 
-    def tell_one(self, channel: int, wheels: WheelCommand) -> None:
+    def send_to_channel(self, channel: int, wheels: WheelCommand) -> None:
         """Command the robot on one radio channel, regardless of its marker; the others are off."""
         sent: list[WheelCommand | None] = [None] * ROBOTS
         sent[channel] = wheels
@@ -204,7 +204,7 @@ class Rig:
                 silence=now - (report.heard if report else self._begun),
                 battery=report.battery if report else Health().battery,
                 refuses=report is not None and bool(report.flags & EMPTY),
-                deaf=self._deaf(robot, report),
+                deadman_seconds=self._deaf(robot, report),
                 astray=contradictions[robot].astray,
                 stuck=contradictions[robot].stuck,
                 leaving=contradictions[robot].leaving,

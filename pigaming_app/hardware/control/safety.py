@@ -39,7 +39,7 @@ class Health(NamedTuple):
     silence: float = 0.0  # s since its last report
     battery: float = 9.9  # V
     refuses: bool = False  # its battery was empty; it keeps its motors off until the battery has recovered
-    deaf: float = 0.0  # s of reports that its deadman stopped it
+    deadman_seconds: float = 0.0  # s of reports that its deadman stopped it
     unlinked: bool = False  # no radio
     drift: float = 0.0  # mm, drift of the corner markers
     stopped: bool = False  # the all-stop was pressed
@@ -77,8 +77,8 @@ RULES = (
     SafetyRule("unseen", lambda s: s.unseen > 0.100, Response.HALF),
     SafetyRule("empty", lambda s: s.battery < 4.0 or s.refuses, Response.OFF, pauses=True),
     SafetyRule("silent", lambda s: s.silence > 1.0, Response.OFF, pauses=True),
-    SafetyRule("deadman", lambda s: s.deaf > 0.5, Response.STOP, pauses=True),
-    SafetyRule("deadman", lambda s: s.deaf > 0.0, Response.WARN),
+    SafetyRule("deadman", lambda s: s.deadman_seconds > 0.5, Response.STOP, pauses=True),
+    SafetyRule("deadman", lambda s: s.deadman_seconds > 0.0, Response.WARN),
     SafetyRule("outside", lambda s: s.unseen > 1.000 and s.refused == BEYOND, Response.STOP, pauses=True),
     SafetyRule("outside", lambda s: s.outside > 3.0, Response.INWARD, pauses=True),
     SafetyRule("outside", lambda s: s.outside > 0.0, Response.INWARD),
@@ -119,13 +119,13 @@ class Safety:
         """Robots with a latched fault."""
         return {robot for _, robot in self._lasting}
 
-    def forgive(self, robot: int) -> None:
+    def clear_fault(self, robot: int) -> None:
         """Clear the latched faults of a robot after somebody has checked it."""
         self._lasting = {key for key in self._lasting if key[1] != robot}
 
     def forget(self, robot: int, last: bool) -> None:
         """Drop all faults of a robot that is no longer real; `last`: no real robot remains."""
-        self.forgive(robot)
+        self.clear_fault(robot)
         self._bad = {key: times for key, times in self._bad.items() if key[1] != robot and not last}
         self.faults = [fault for fault in self.faults if fault.robot != robot and not last]
 

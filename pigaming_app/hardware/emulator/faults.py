@@ -106,9 +106,9 @@ class FaultInjector:
         elif name == "exposure_step":
             arena.gain = DARKER if on else 1.0
         elif name == "radio_lossy":
-            arena.radio.more_loss = 0.33 * on
+            arena.radio.extra_loss = 0.33 * on
         elif name == "garbage":
-            arena.radio.more_garbage = 300.0 * on  # bytes a second
+            arena.radio.extra_garbage = 300.0 * on  # bytes a second
         elif name == "battery_low":
             target.battery = EMPTY_CELLS if on else target.body.battery
         elif name == "robot_off":

@@ -45,7 +45,7 @@ class EmulatedRadio:
     def __init__(self, firmwares: list[Firmware], air: RadioChannel, clock: Clock, seed: int) -> None:
         self.firmwares, self.air, self.clock = firmwares, air, clock
         self.dead = self.unplugged = False
-        self.more_loss = self.more_garbage = 0.0  # in addition to those of `air`
+        self.extra_loss = self.extra_garbage = 0.0  # in addition to those of `air`
         self.frames = 0  # valid frames from the computer
         self._random = Random(f"radio {seed}")
         self._lock = Lock()
@@ -177,7 +177,7 @@ class EmulatedRadio:
 
     def _add_garbage(self, seconds: float) -> None:
         """Put random bytes on the lines, for `seconds` of time."""
-        random, garbage = self._random, self.air.garbage + self.more_garbage
+        random, garbage = self._random, self.air.garbage + self.extra_garbage
         for line in range(1 + len(self.firmwares)):
             if garbage and random.random() < garbage * seconds:
                 noise = random.randbytes(1)
@@ -189,7 +189,7 @@ class EmulatedRadio:
     def _lost(self, to: int) -> bool:
         """True if a packet is lost; the radio tries acknowledged packets four times."""
         tries = 1 if to == xbee.BROADCAST else 4
-        return all(self._random.random() < self.air.loss + self.more_loss for _ in range(tries))
+        return all(self._random.random() < self.air.loss + self.extra_loss for _ in range(tries))
 
     def _flight(self) -> float:
         return self._random.uniform(self.air.soonest, self.air.latest)

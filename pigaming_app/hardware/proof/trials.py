@@ -163,7 +163,7 @@ def _clear_faults(plant: RealPlant) -> int:
     """Clear the lasting faults that wait for an operator; returns their number."""
     waiting = plant.safety.lasting
     for robot in waiting:
-        plant.forgive(robot)
+        plant.clear_fault(robot)
     return len(waiting)
 
 

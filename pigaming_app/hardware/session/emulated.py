@@ -213,7 +213,7 @@ def calibrated(arena: "EmulatedArena") -> "GroundPlane":
     from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
     from pigaming_app.hardware.calibration.ground_plane import CalibrationError
     from pigaming_app.hardware.calibration.procedure import Calibration
-    from pigaming_app.hardware.calibration.solver import verified
+    from pigaming_app.hardware.calibration.solver import with_verification
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 
     site = EmulatedCalibrationSite(arena=arena)
@@ -229,4 +229,4 @@ def calibrated(arena: "EmulatedArena") -> "GroundPlane":
     if work.ground is None or work.residuals is None:
         assert work.trouble is not None
         raise CalibrationError(work.trouble)
-    return verified(work.ground, work.residuals)
+    return with_verification(work.ground, work.residuals)

@@ -120,13 +120,13 @@ class SizedCamera:
 
     def newest(self) -> "CameraFrame | None":
         """The newest frame, once; None if there is none since the last call, or if it has the wrong size."""
-        from pigaming_app.hardware.calibration.ground_plane import misfit
+        from pigaming_app.hardware.calibration.ground_plane import size_mismatch
 
         frame = self.camera.newest()
         if frame is None:
             return None
         size = (frame.image.shape[1], frame.image.shape[0])
-        self._misfit = None if size == self.ground.lens.size else misfit(self.ground, size)
+        self._misfit = None if size == self.ground.lens.size else size_mismatch(self.ground, size)
         return frame if self._misfit is None else None
 
     def close(self) -> None:

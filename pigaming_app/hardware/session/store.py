@@ -6,7 +6,7 @@ Files of the emulated arena have separate names, so they never overwrite those o
 from collections.abc import Sequence
 from pathlib import Path
 
-from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, written
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
 from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
@@ -37,7 +37,7 @@ def load(path: Path, projection: str | None = None, camera: tuple[int, int] | No
 
 def save(ground: GroundPlane, path: Path) -> None:
     """Save a calibration, keeping the previous one as `.bak`. Raises NotSaved."""
-    write_with_backup(path, written(ground))
+    write_with_backup(path, to_toml(ground))
 
 
 def robots_file(emulated: bool) -> Path:

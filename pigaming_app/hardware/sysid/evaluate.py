@@ -50,7 +50,7 @@ class Identification(NamedTuple):
 class Prediction(NamedTuple):
     """One prediction: times (m,), observed poses (m, 3) and predicted poses (m, 3) at the same times."""
 
-    seen_at: Floats
+    pose_times: Floats
     seen: Floats
     predicted: Floats
 
@@ -62,7 +62,7 @@ def measure(run: Recording, nominal: Drivetrain = NOMINAL) -> list[Identificatio
     """
     verdicts = []
     for robot, course in run.courses.items():
-        begin, end = course.seen_at[0], course.seen_at[-1]
+        begin, end = course.pose_times[0], course.pose_times[-1]
         if end - begin < SHORTEST:
             lengths = {"seconds": f"{end - begin:.0f}", "needed": f"{SHORTEST:.0f}"}
             raise RecordingTooShort(OperatorMessage("run_short", robot=robot + 1, **lengths))
@@ -98,7 +98,7 @@ def errors(course: RobotRecording, drivetrain: Drivetrain, mm: float) -> Predict
         misses = [
             (ahead.seen - ahead.predicted)[-1]
             for ahead in predictions(course, drivetrain, horizon)
-            if len(ahead.seen_at)
+            if len(ahead.pose_times)
         ]
         miss = np.array(misses) if misses else np.full((1, 3), np.nan)
         lengths.append(float(np.sqrt(np.mean(miss[:, 0] ** 2 + miss[:, 1] ** 2)) * mm))
@@ -108,7 +108,7 @@ def errors(course: RobotRecording, drivetrain: Drivetrain, mm: float) -> Predict
 
 def predictions(course: RobotRecording, drivetrain: Drivetrain, horizon: float) -> list[Prediction]:
     """Predictions over `horizon` s, one every EVERY s, each at the times of its fixes."""
-    times = course.seen_at
+    times = course.pose_times
     there = track(course, drivetrain, times[0], times[-1]).at(times)
     ahead = []
     for now in np.arange(times[0] + BEFORE, times[-1] - horizon + 1e-9, EVERY):
@@ -134,8 +134,8 @@ def replay(run: Recording, drivetrains: Sequence[Drivetrain]) -> dict[int, Predi
         record.present, record.x, record.y, record.heading = 1, float(x), float(y), float(heading % (2.0 * np.pi))
         record.x, record.y = min(max(record.x, RADIUS), WIDTH - RADIUS), min(max(record.y, RADIUS), HEIGHT - RADIUS)
     plant = SimPlant(world, drivetrains)
-    begin = min(course.seen_at[0] for course in run.courses.values())
-    end = max(course.seen_at[-1] for course in run.courses.values())
+    begin = min(course.pose_times[0] for course in run.courses.values())
+    end = max(course.pose_times[-1] for course in run.courses.values())
     times = np.arange(begin, end, DT)
     ways = np.zeros((len(times), ROBOTS, 3))
     twists = {robot: _commanded(course, drivetrains[robot], times) for robot, course in run.courses.items()}
@@ -148,12 +148,12 @@ def replay(run: Recording, drivetrains: Sequence[Drivetrain]) -> dict[int, Predi
 
 def _commanded(course: RobotRecording, drivetrain: Drivetrain, times: Floats) -> list[tuple[float, float]]:
     """Commanded twist at each time."""
-    acting = np.searchsorted(course.told_at, times + 0.5 * DT, side="right") - 1
+    acting = np.searchsorted(course.command_times, times + 0.5 * DT, side="right") - 1
     return [twist(drivetrain, *course.wheels[i]) if i >= 0 else (0.0, 0.0) for i in acting]
 
 
 def _seen_along(course: RobotRecording, times: Floats, way: Floats) -> Prediction:
     """Simulated poses `way` (n, 3) at `times` (n,), interpolated at the times of the fixes."""
-    covered = course.seen_at <= times[-1]
-    at = course.seen_at[covered]
+    covered = course.pose_times <= times[-1]
+    at = course.pose_times[covered]
     return Prediction(at, course.poses[covered], np.column_stack([np.interp(at, times, way[:, i]) for i in range(3)]))

@@ -47,7 +47,7 @@ class Trajectory(NamedTuple):
 def track(course: RobotRecording, drivetrain: Drivetrain, begin: float, end: float) -> Trajectory:
     """Simulate the commands of a recording with this drivetrain from `begin` to `end`, s."""
     times = np.asarray(begin - EARLY + STEP * np.arange(int((end - begin + EARLY) / STEP) + 2), dtype=np.float64)
-    acts = course.told_at + drivetrain.dead_time
+    acts = course.command_times + drivetrain.dead_time
     left, right = (
         _follow(_mean(acts, _speed(course.wheels[:, i], wheel), times), drivetrain.lag)
         for i, wheel in enumerate((drivetrain.left, drivetrain.right))
@@ -114,14 +114,14 @@ def _fitted(course: RobotRecording, start: Drivetrain, free: int) -> tuple[float
 
 def _residual(course: RobotRecording, drivetrain: Drivetrain) -> Floats:
     """Residuals of all windows in standard deviations, each window placed at its best fit."""
-    whole = track(course, drivetrain, course.seen_at[0], course.seen_at[-1])
-    window = ((course.seen_at - course.seen_at[0]) / WINDOW).astype(int)
+    whole = track(course, drivetrain, course.pose_times[0], course.pose_times[-1])
+    window = ((course.pose_times - course.pose_times[0]) / WINDOW).astype(int)
     usable = np.bincount(window)[window] >= FEWEST
     seen, window = course.poses[usable], window[usable]
     if not len(seen):
         return np.zeros(1)
     firsts = np.flatnonzero(np.diff(window, prepend=-1))
-    fitted, _ = placed(whole.at(course.seen_at[usable]), seen, firsts)
+    fitted, _ = placed(whole.at(course.pose_times[usable]), seen, firsts)
     return np.asarray(((seen - fitted) / NOISE).ravel())
 
 

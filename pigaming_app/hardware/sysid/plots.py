@@ -56,7 +56,7 @@ def _paths(figure: Any, run: Recording, verdicts: Sequence[Identification]) -> N
     grid = figure.subplots(2, 2, squeeze=True).ravel()
     for axes, verdict in zip(grid, verdicts, strict=False):
         course = run.courses[verdict.robot]
-        begin, end = course.seen_at[0], course.seen_at[-1]
+        begin, end = course.pose_times[0], course.pose_times[-1]
         rest = course.between(end - HELD_OUT * (end - begin), end + 1.0)
         for model, style, label in ((NOMINAL, "C3:", "nominal"), (verdict.drivetrain, "C0-", "identified")):
             ahead = predictions(rest, model, HORIZONS[-1])

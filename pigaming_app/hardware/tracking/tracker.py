@@ -132,7 +132,7 @@ class Tracker:
         if not poses:
             return {}
         corners = np.array([_outline(pose, self.ground.marker / self.ground.mm) for pose in poses.values()])
-        seen = self.ground.seen_at(corners.reshape(-1, 2), self.ground.lid).reshape(-1, 4, 2)
+        seen = self.ground.pose_times(corners.reshape(-1, 2), self.ground.lid).reshape(-1, 4, 2)
         spots = {}
         for (robot, pose), square in zip(poses.items(), seen, strict=True):
             (x, y), edge = square.mean(axis=0).tolist(), mean_edge(square)
@@ -143,7 +143,7 @@ class Tracker:
     def _expected_edge(self) -> float:
         """Edge of a marker in the middle of the arena, camera px."""
         middle = Sighting(WIDTH / 2.0, HEIGHT / 2.0, 0.0, 0.0)
-        return mean_edge(self.ground.seen_at(_outline(middle, self.ground.marker / self.ground.mm), self.ground.lid))
+        return mean_edge(self.ground.pose_times(_outline(middle, self.ground.marker / self.ground.mm), self.ground.lid))
 
     def _credible(self, marks: Sequence[DetectedMarker], captured: float) -> list[list[Fix]]:
         """Plausible fixes by robot; rejections are recorded with their reason."""

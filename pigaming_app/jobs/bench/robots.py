@@ -197,6 +197,6 @@ def _result(future: Future[Result], name: str) -> Result:
     try:
         return future.result()
     except CalibrationError as reason:
-        raise Unproven(f"{name}: {english().explained(reason.message)}") from reason
+        raise Unproven(f"{name}: {english().long_sentence(reason.message)}") from reason
     except RuntimeError as reason:
         raise Unproven(f"{name}: {reason}") from reason

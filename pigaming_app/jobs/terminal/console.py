@@ -55,12 +55,12 @@ def flushed(code: int) -> int:
         return code or 1
     except OSError as error:
         _mute()
-        say(f"the output cannot be written: {describe_error(error)}")
+        print_error(f"the output cannot be written: {describe_error(error)}")
         return 2
     return code
 
 
-def say(line: str) -> None:
+def print_error(line: str) -> None:
     """Print a line on standard error; standard output is reserved for the job."""
     with contextlib.suppress(OSError):
         print(f"PiGaming: {one_line(line)}", file=sys.stderr, flush=True)

@@ -27,7 +27,7 @@ def refused(*errors: type[Exception]) -> Iterator[None]:
 
 def sentence(error: Exception) -> str:
     """The text of an error; hardware errors carry a key, whose English sentence this is."""
-    return english().explained(error.message) if isinstance(error, OperatorError) else str(error)
+    return english().long_sentence(error.message) if isinstance(error, OperatorError) else str(error)
 
 
 def require(extra: str) -> None:

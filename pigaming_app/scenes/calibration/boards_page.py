@@ -12,7 +12,7 @@ from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration.height_page import HeightPage
 from pigaming_app.scenes.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
+from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -36,7 +36,7 @@ class BoardsPage:
         """Release the camera."""
         self.work.close()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """BACK aborts."""
         if event.button is Button.BACK:
             self.context.sounds.play("back")
@@ -44,7 +44,7 @@ class BoardsPage:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Poll the camera; switch to the result when done."""
         self.site.advance(seconds)
         self.work.pump()

@@ -10,7 +10,7 @@ import pygame
 from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
@@ -39,7 +39,7 @@ from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
-from pigaming_app.ui.widgets.focus import WAYS
+from pigaming_app.ui.widgets.focus import DIRECTIONS
 
 STEPS = (10, 1)  # px
 CORNERS = ((0, 0), (1920, 0), (1920, 1080), (0, 1080))
@@ -81,7 +81,7 @@ class CornerPinPage:
         """Discard unsaved changes."""
         self._restore()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Directions move the corner; FIRE selects the next one."""
         event = self.prompts.as_button(event)
         match event.button:
@@ -103,11 +103,11 @@ class CornerPinPage:
                 self._pin()
             case Button.CLICK if event.at:
                 self._select(event.at)
-            case button if button in WAYS:
-                self._move(*WAYS[button])
+            case button if button in DIRECTIONS:
+                self._move(*DIRECTIONS[button])
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.sentence_left -= seconds
         if self.context.idle > IDLE:
             self._restore()
@@ -152,7 +152,7 @@ class CornerPinPage:
             self.context.canvas.pin(None if straight else CornerPin(self.corners))
             return True
         except OperatorError as trouble:
-            log.warning("%s", english().explained(trouble.message))
+            log.warning("%s", english().long_sentence(trouble.message))
             self._say(self.context.words.sentence(trouble.message))
             return False
 
@@ -160,9 +160,9 @@ class CornerPinPage:
         try:
             self.context.canvas.pin(CornerPin(self.before) if self.before else None)
         except OperatorError as trouble:
-            log.warning("%s", english().explained(trouble.message))
+            log.warning("%s", english().long_sentence(trouble.message))
 
-    def _save(self) -> Turn:
+    def _save(self) -> StackOperation:
         """Save the pin, or show that it could not be saved."""
         canvas, settings = self.context.canvas, self.context.settings
         settings.corners = [round(value) for value in canvas.corners]

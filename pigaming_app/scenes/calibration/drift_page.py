@@ -14,7 +14,7 @@ from pigaming_app.scenes.calibration.height_page import DISC, GREY
 from pigaming_app.scenes.calibration.result_page import MAX_SIZE_ERROR
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut_box
 from pigaming_app.ui.draw.layers import Layer, LitImage
@@ -50,7 +50,7 @@ class DriftPage:
         """Release the camera."""
         self.work.close()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Any button leads back."""
         if self.prompts.as_button(event).button in (Button.BACK, Button.FIRE, Button.START):
             self.context.sounds.play("back")
@@ -58,7 +58,7 @@ class DriftPage:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.clock += seconds
         self.site.advance(seconds)
         self.work.pump()

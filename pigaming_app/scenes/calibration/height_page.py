@@ -8,7 +8,7 @@ import pygame
 from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, HeightProcedure
 from pigaming_app.scenes.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
+from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, GlowCanvas, dim
 from pigaming_app.ui.draw.layers import LitImage
@@ -39,7 +39,7 @@ class HeightPage:
         """Release the camera."""
         self.work.close()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """BACK aborts."""
         if self.prompts.as_button(event).button is Button.BACK:
             self.context.sounds.play("back")
@@ -47,7 +47,7 @@ class HeightPage:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Poll for the robot on the next spot; after the last, show the result."""
         work = self.work
         self.finding.site.advance(seconds)

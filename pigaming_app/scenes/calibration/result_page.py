@@ -18,7 +18,7 @@ from pigaming_app.hardware.signals import Image
 from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Pop, Scene, Swap, Turn
+from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL
 from pigaming_app.ui.draw.layers import LitImage, backdrop
@@ -73,9 +73,9 @@ class ResultPage:
     def entered(self) -> None:
         """Log the errors."""
         if self.finding.residuals and not self.finding.trouble:
-            log.info("calibration: %s", english().explained(self.finding.residuals.verdict))
+            log.info("calibration: %s", english().long_sentence(self.finding.residuals.verdict))
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Left and right select, FIRE activates."""
         event = self.navigation.prompts.as_button(event)
         if turn := self.navigation.on(event):
@@ -83,7 +83,7 @@ class ResultPage:
         chosen = self.focus.chosen(event)
         return self._do(chosen) if chosen else None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.finding.site.advance(seconds)
         return self.navigation.update(seconds)
 
@@ -165,7 +165,7 @@ class ResultPage:
 
     # ---- actions
 
-    def _do(self, name: str) -> Turn:
+    def _do(self, name: str) -> StackOperation:
         finding = self.finding
         if name == "leave":
             self.context.sounds.play("back")

@@ -13,7 +13,7 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Push, Turn
+from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
@@ -79,7 +79,7 @@ class CalibrationPage:
         if self.preview is not None:
             self.preview.close()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Up and down select a row, left and right change it; the last row starts the calibration."""
         event = self.navigation.prompts.as_button(event)
         if turn := self.navigation.on(event):
@@ -94,7 +94,7 @@ class CalibrationPage:
             return self._accept("begin")
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.since_scan += seconds
         if self.since_scan > SCAN_PERIOD:
             self.since_scan, self.cameras = 0.0, self.site.cameras()
@@ -156,7 +156,7 @@ class CalibrationPage:
             ground = store.load(file, self.context.canvas.projection, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
         except CalibrationError as trouble:
-            log.warning("%s", english().explained(trouble.message))
+            log.warning("%s", english().long_sentence(trouble.message))
             self.state = words.sentence(trouble.message)
 
     # ---- rows
@@ -186,7 +186,7 @@ class CalibrationPage:
         name = next((camera.name for camera in self.cameras if camera.number == self.number), "")
         return words("calibrate.camera_name", number=self.number, name=name) if name else str(self.number)
 
-    def _accept(self, name: str) -> Turn:
+    def _accept(self, name: str) -> StackOperation:
         if name == "begin":
             return self._begin()
         if name in ("display", "camera", "by"):
@@ -247,7 +247,7 @@ class CalibrationPage:
         self.preview = CameraPreview(self.site, self.number)
         self.preview.begin()
 
-    def _begin(self) -> Turn:
+    def _begin(self) -> StackOperation:
         """Start the calibration, full screen."""
         self.context.sounds.play("accept")
         self.left()

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 
@@ -33,7 +33,7 @@ class Navigation:
         """Show a sentence for a while."""
         self._sentence, self._remaining = sentence, self.stay
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """BACK leaves the page; directions and the mouse move the focus."""
         if event.button is Button.BACK:
             self.context.sounds.play("back")
@@ -42,7 +42,7 @@ class Navigation:
             self.context.sounds.play("move")
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Animate; return to the title after a while without input."""
         self.focus.update(seconds)
         self._remaining -= seconds

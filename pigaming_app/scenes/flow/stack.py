@@ -14,10 +14,10 @@ class Scene(Protocol):
     def entered(self) -> None:
         """Called when the scene becomes the top one: after a push, or when the scene above is popped."""
 
-    def on(self, event: InputEvent) -> "Turn":
+    def on(self, event: InputEvent) -> "StackOperation":
         """Handle an input event."""
 
-    def update(self, seconds: float) -> "Turn":
+    def update(self, seconds: float) -> "StackOperation":
         """Advance by `seconds` of real time."""
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -63,7 +63,7 @@ class Quit:
     """Close the arcade."""
 
 
-Turn = Push | Pop | Swap | Home | Quit | None
+StackOperation = Push | Pop | Swap | Home | Quit | None
 
 
 class Stack:
@@ -77,7 +77,7 @@ class Stack:
     def top(self) -> Scene:
         return self.scenes[-1]
 
-    def turn(self, turn: Turn) -> None:
+    def turn(self, turn: StackOperation) -> None:
         """Apply a stack operation. An empty stack closes the arcade."""
         if turn is None:
             return

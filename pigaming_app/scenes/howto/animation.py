@@ -20,17 +20,17 @@ class Loop:
 
     w: float
     h: float
-    bend: float
+    distort: float
 
     @property
     def straights(self) -> tuple[float, float]:
         """Lengths of the horizontal and of the vertical straights, px."""
-        return self.w - 2 * self.bend, self.h - 2 * self.bend
+        return self.w - 2 * self.distort, self.h - 2 * self.distort
 
     @property
     def length(self) -> float:
         """Perimeter, px."""
-        return 2 * sum(self.straights) + math.tau * self.bend
+        return 2 * sum(self.straights) + math.tau * self.distort
 
     def at(self, way: float) -> tuple[float, float, float, bool]:
         """x, y, heading (rad) and whether it turns, `way` px from the left end of the upper straight."""
@@ -40,15 +40,15 @@ class Loop:
         for i, straight in enumerate((across, down, across, down)):
             heading = i * math.pi / 2
             cx, cy = corners[i][0] * across / 2, corners[i][1] * down / 2  # centre of the following bend
-            nx, ny = math.sin(heading) * self.bend, -math.cos(heading) * self.bend
+            nx, ny = math.sin(heading) * self.distort, -math.cos(heading) * self.distort
             if way < straight:
                 back = straight - way
                 return cx + nx - back * math.cos(heading), cy + ny - back * math.sin(heading), heading, False
             way -= straight
-            if way < self.bend * math.pi / 2:
-                a = heading + way / self.bend
-                return cx + math.sin(a) * self.bend, cy - math.cos(a) * self.bend, a, True
-            way -= self.bend * math.pi / 2
+            if way < self.distort * math.pi / 2:
+                a = heading + way / self.distort
+                return cx + math.sin(a) * self.distort, cy - math.cos(a) * self.distort, a, True
+            way -= self.distort * math.pi / 2
         return nx, ny, 0.0, False
 
     def outline(self, out: float, points: int = 120) -> list[Point]:

@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import FIRES, last_minutes, limits_line
-from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.howto.lessons import LESSONS
 from pigaming_app.ui.draw import (
     BLACK,
@@ -45,7 +45,7 @@ class HowTo:
         """Restart the animations."""
         self.clock = 0.0
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Switch games, or leave."""
         clicked = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
         if event.button in (Button.LEFT, Button.RIGHT):
@@ -58,7 +58,7 @@ class HowTo:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.clock += seconds
         return Home() if self.context.idle > IDLE else None
 
@@ -108,7 +108,7 @@ class HowTo:
             (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
         if self.game in FIRES:
-            pairs.insert(1, (words.printed(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
+            pairs.insert(1, (words.key_name(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
         return tuple((label, action) for label, action in pairs if label)
 
 

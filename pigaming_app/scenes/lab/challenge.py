@@ -7,7 +7,7 @@ from pigaming_app.ai.experiments.training import ARENA, GAME, VARIANT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
@@ -38,10 +38,10 @@ class Challenge:
     def entered(self) -> None:
         self.inner.entered()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         return self.inner.on(event)
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Advance the match; stopped by hand, it returns to the Lab at once."""
         inner = self.inner
         if inner.repeated:
@@ -79,7 +79,7 @@ class ChallengeResult:
         own, theirs = self.scores
         self.context.sounds.play("win" if own > theirs else "lose" if own < theirs else "tie", 0)
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE starts a rematch with the device that pressed it; BACK, held, returns to the Lab."""
         event = self.prompts.as_button(event)
         admitted = self.access.admit(event)
@@ -98,11 +98,11 @@ class ChallengeResult:
                 self.leaving.begin(admitted)
         return None
 
-    def _leave(self) -> Turn:
+    def _leave(self) -> StackOperation:
         self.context.sounds.play("back")
         return Pop()
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.age += seconds
         self.idle += seconds
         if self.leaving.update(seconds) or self.access.update(seconds):

@@ -13,7 +13,7 @@ from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.experiments.training import GAME
-from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.bench import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box, icon
@@ -73,7 +73,7 @@ class ComparePage:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Any button returns to the Lab."""
         event = self.prompts.as_button(event)
         if event.button in (Button.BACK, Button.FIRE, Button.START):
@@ -81,7 +81,7 @@ class ComparePage:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Advance the matches within the time slice, and animate the rows."""
         if self.context.idle > IDLE:
             return Pop()

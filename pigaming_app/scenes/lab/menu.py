@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.lab.bench import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.compare_page import ComparePage
 from pigaming_app.scenes.lab.name_page import NamePage
@@ -33,7 +33,7 @@ class LabMenu:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE selects the focused item; START and BACK return to the Lab."""
         event = self.prompts.as_button(event)
         if event.button in (Button.START, Button.BACK):
@@ -45,7 +45,7 @@ class LabMenu:
         chosen = self.focus.chosen(event)
         return self._do(chosen) if chosen else None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.focus.update(seconds)
         return Pop() if self.context.idle > IDLE else None
 
@@ -60,7 +60,7 @@ class LabMenu:
         word(label, LABEL, ALARM if self.sure else FOCUS, "head", 0.45).draw(screen, *self.focus.spot.rect.center)
         self.prompts.draw(screen)
 
-    def _do(self, name: str) -> Turn:
+    def _do(self, name: str) -> StackOperation:
         self.context.sounds.play("accept")
         match name:
             case "save":

@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.bench import IDLE, LabHost
 from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, RobotFileError, names, proposal, save_robot
 from pigaming_app.ui.draw import (
@@ -49,7 +49,7 @@ class NamePage:
         """The current spelling."""
         return self.picker.spelled.strip()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Edit letters; START saves; BACK goes back one letter, and from the first one to the Lab."""
         event = self.prompts.as_button(event)
         if self.age < DEAF:
@@ -76,7 +76,7 @@ class NamePage:
                 pass
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.age += seconds
         self.picker.update(seconds)
         return Pop() if self.context.idle > IDLE else None
@@ -114,7 +114,7 @@ class NamePage:
                 if abs(at[1] - MIDDLE) > H / 2:
                     self._play(self.picker.turn(-1 if at[1] < MIDDLE else 1))
 
-    def _save(self) -> Turn:
+    def _save(self) -> StackOperation:
         """Save, unless the name is in use and not yet confirmed."""
         name = self.name
         if not name:

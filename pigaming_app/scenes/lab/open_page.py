@@ -4,7 +4,7 @@ from datetime import datetime
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.bench import IDLE, LabHost
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, file_of, load_robot, names
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
@@ -33,7 +33,7 @@ class OpenPage:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE opens, BACK returns to the Lab, Y shows the next page."""
         event = self.prompts.as_button(event)
         if event.button is Button.BACK or (not self.names and event.button in (Button.FIRE, Button.START)):
@@ -50,7 +50,7 @@ class OpenPage:
             return self._open(chosen) if chosen and self.age > DEAF else None
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.age += seconds
         self.focus.update(seconds)
         return Pop() if self.context.idle > IDLE else None
@@ -86,7 +86,7 @@ class OpenPage:
         more = [(Button.Y, "lab.hint_page")] if self.pages > 1 else []
         return ([(Button.FIRE, "lab.hint_open")] if self.names else []) + more + [(Button.BACK, "lab.hint_lab")]
 
-    def _open(self, name: str) -> Turn:
+    def _open(self, name: str) -> StackOperation:
         words, trainer = self.context.words, self.lab.trainer
         try:
             training, other_engine = load_robot(name, trainer.fast)

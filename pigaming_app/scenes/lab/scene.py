@@ -12,7 +12,7 @@ import pygame
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.scenes.lab.knob import LIMIT
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
 from pigaming_app.scenes.lab.learning_curve import EVEN
@@ -72,7 +72,7 @@ class Lab:
         if self.page and self.page.language != self.context.words.language:
             self.page = None
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Adjust the held knob, or select, play, change speed, open the menu, leave."""
         event = (self.turning if self.held else self.prompts).as_button(event)
         if self.held and event.button not in (Button.X, Button.Y):
@@ -96,7 +96,7 @@ class Lab:
                     self.context.sounds.play("move")
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Feed the trainer and update the page."""
         self.age += seconds
         self.message_left -= seconds
@@ -137,7 +137,7 @@ class Lab:
         self.sentence, self.wrong, self.message_left = sentence, wrong, MESSAGE_SECONDS
         self.context.sounds.play("error" if wrong else "accept")
 
-    def play(self, device: Device) -> Turn:
+    def play(self, device: Device) -> StackOperation:
         """A challenge match against the robot as trained so far."""
         from pigaming_app.scenes.lab.challenge import Challenge
 
@@ -152,14 +152,14 @@ class Lab:
         self.trainer.begin(new_seed())
         self.name, self.seen = "", -1
 
-    def leave(self, turn: Turn) -> Turn:
+    def leave(self, turn: StackOperation) -> StackOperation:
         """Pause the training and return `turn`."""
         self.trainer.close()
         return turn
 
     # ---- inside
 
-    def _choose(self, event: InputEvent) -> Turn:
+    def _choose(self, event: InputEvent) -> StackOperation:
         chosen = self.focus.chosen(event)
         if chosen == "play":
             return self.play(event.device)
@@ -174,7 +174,7 @@ class Lab:
             self.context.sounds.play("lift")
         return None
 
-    def _turn(self, event: InputEvent) -> Turn:
+    def _turn(self, event: InputEvent) -> StackOperation:
         """Handle input while a knob is held."""
         if event.button in TURNS:
             self._set(self.held, self._value(self.held) + TURNS[event.button])
@@ -187,7 +187,7 @@ class Lab:
         self.trainer.speed = speed
         self.context.sounds.play("move")
 
-    def _menu(self) -> Turn:
+    def _menu(self) -> StackOperation:
         from pigaming_app.scenes.lab.menu import LabMenu
 
         self.context.sounds.play("accept")

@@ -170,7 +170,7 @@ class Trainer:
                 sleep(0.05)
             if code:
                 raise RuntimeError(f"compiling ended with exit code {code}")
-            with heap.uncollected():  # a collection over numba's objects takes up to 100 ms and would stall a frame
+            with heap.gc_paused():  # a collection over numba's objects takes up to 100 ms and would stall a frame
                 compile_all()
                 gc.freeze()  # they stay loaded
             self._switch_to(fast=True)

@@ -9,7 +9,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
-from pigaming_app.scenes.flow.stack import Home, Pop, Scene, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, Scene, StackOperation
 from pigaming_app.scenes.views.game_tile import TILE_H, tile, tile_rect
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -37,7 +37,7 @@ class GameChoice:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE selects a game, BACK returns to the results."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
@@ -50,7 +50,7 @@ class GameChoice:
         game = self.focus.chosen(admitted)
         return self._open(game) if game else None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Animate the focus; leave when idle or abandoned."""
         self.focus.update(seconds)
         if self.access.update(seconds):
@@ -71,7 +71,7 @@ class GameChoice:
         self.focus.draw(screen)
         self.prompts.draw(screen)
 
-    def _open(self, game: str) -> Turn:
+    def _open(self, game: str) -> StackOperation:
         """Open the lobby of a game with the connected devices and the AIs already seated."""
         self.context.sounds.play("accept")
         drivers: list[Device | str | None] = []

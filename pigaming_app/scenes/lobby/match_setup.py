@@ -16,11 +16,11 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, last_choice, load_cached, playable_arenas
 from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Pop, Push, Turn
+from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.seats import EMPTY, Seats
 from pigaming_app.scenes.results.high_score_tables import contest, format_score, table_of
-from pigaming_app.scenes.results.scene import After
+from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -50,7 +50,7 @@ log = logging.getLogger(__name__)
 class MatchSetupPage:
     """Setup page for the match of `seats`. `game_choice`: see `Results`."""
 
-    def __init__(self, context: Context, game: str, seats: Seats, game_choice: After | None = None) -> None:
+    def __init__(self, context: Context, game: str, seats: Seats, game_choice: SceneFactory | None = None) -> None:
         self.context, self.game, self.seats, self.game_choice = context, games()[game], seats, game_choice
         self.arenas = playable_arenas(game)
         self.chosen = last_choice(context, game)
@@ -67,7 +67,7 @@ class MatchSetupPage:
         self.clock, self.going = 0.0, False
         self.context.sounds.music(True)
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Change a value, start or go back."""
         admitted = self.access.admit(self.navigation.prompts.as_button(event))
         if admitted is None or self.going:
@@ -85,7 +85,7 @@ class MatchSetupPage:
                 return self.navigation.on(event)
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Animate the preview; go back if a seat lost its device, leave when abandoned."""
         self.clock += seconds
         if any(device and not self.context.controls.connected(device) for device in self.seats.devices()):
@@ -113,13 +113,13 @@ class MatchSetupPage:
 
     # ---- inside
 
-    def _go(self) -> Turn:
+    def _go(self) -> StackOperation:
         self._save_selection()
         self.context.sounds.play("accept")
         self.going = True
         return self._begin()
 
-    def _begin(self) -> Turn:
+    def _begin(self) -> StackOperation:
         """Push the match, or return None while the preloader is busy."""
         from pigaming_app.scenes.play.scene import new_seed
         from pigaming_app.scenes.robots.start_match import match_of
@@ -177,7 +177,7 @@ class MatchSetupPage:
             self.context.sounds.play("move")
         self.context.settings.games[game.name] = now
 
-    def _click(self, event: InputEvent) -> Turn:
+    def _click(self, event: InputEvent) -> StackOperation:
         """Handle a click on the arrows or chips of a row, the preview (next arena) or the start button."""
         name = self.focus.under(event)
         at = event.at or (0.0, 0.0)

@@ -17,7 +17,7 @@ from pigaming_app.hardware.session.robot_session import unfit
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import choice_summary, last_choice
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
@@ -64,7 +64,7 @@ class Lobby:
             if device and not self.context.controls.connected(device):
                 self._unplugged(device)
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Handle joining, readiness, leaving, AIs, teams and start."""
         mapped = self.page.prompts.as_button(event)
         admitted = self.access.admit(mapped)
@@ -98,7 +98,7 @@ class Lobby:
         self._update_countdown()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Animate; go on when everyone is ready, leave when abandoned."""
         self.now.pass_by(seconds)
         self.focus.update(seconds)
@@ -139,7 +139,7 @@ class Lobby:
             words = self.context.words
             full = len(self.seats.of_kind(HUMAN)) == PLACES
             self.now.message = words("lobby.full") if full else words("lobby.join_first", button="{button}")
-            self.now.label = words.printed(self.context.controls.label(event.device, Button.FIRE))
+            self.now.label = words.key_name(self.context.controls.label(event.device, Button.FIRE))
             self.now.message_left = MESSAGE_SECONDS
 
     def _fire(self, device: Device) -> None:
@@ -159,7 +159,7 @@ class Lobby:
             self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
 
-    def _begin(self, device: Device) -> Turn:
+    def _begin(self, device: Device) -> StackOperation:
         """START: everyone counts as ready. In an empty lobby the device joins instead."""
         if not self.seats.robots and device.kind != "mouse":
             self._fire(device)
@@ -170,12 +170,12 @@ class Lobby:
             return None
         return self._go()
 
-    def _go(self) -> Turn:
+    def _go(self) -> StackOperation:
         self.now.starting = None
         self.context.sounds.play("accept")
         return Push(MatchSetupPage(self.context, self.game, self.seats, game_choice))
 
-    def _back(self, device: Device) -> Turn:
+    def _back(self, device: Device) -> StackOperation:
         """BACK: revoke readiness, then leave the seat, then return to the title."""
         self.context.sounds.play("back")
         seat = self.seats.of(device)

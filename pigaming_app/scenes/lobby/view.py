@@ -81,7 +81,7 @@ class LobbyPage:
         """Distinct labels of the buttons with which free devices can join: pads first, then keyboard clusters."""
         controls, words = self.context.controls, self.context.words
         free = [device for device in controls.players() if self.seats.of(device) is None]
-        return tuple(dict.fromkeys(words.printed(controls.label(device, Button.FIRE)) for device in free))
+        return tuple(dict.fromkeys(words.key_name(controls.label(device, Button.FIRE)) for device in free))
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
@@ -117,7 +117,7 @@ class LobbyPage:
         elif place.ready:
             ready_bar(seat, words("lobby.ready")).draw(screen, x, y)
         else:
-            label = words.printed(self.context.controls.label(place.device, Button.FIRE))
+            label = words.key_name(self.context.controls.label(place.device, Button.FIRE))
             ask_bar(label, words("lobby.if_ready"), pulse(self.now.clock, 5)).draw(screen, x, y)
 
     def _robot(self, screen: pygame.Surface, seat: int) -> None:
@@ -147,7 +147,7 @@ class LobbyPage:
         if waiting:
             place = self.seats.places[waiting[0]]
             message = words("lobby.wait", player=waiting[0] + 1, button="{button}")
-            label = words.printed(self.context.controls.label(place.device, Button.FIRE))
+            label = words.key_name(self.context.controls.label(place.device, Button.FIRE))
         else:
             message, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
         call_to_action(message, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)

@@ -9,7 +9,7 @@ import math
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.options import controls_pictures as gadgets
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
@@ -44,7 +44,7 @@ class ControlsTest:
     def entered(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Highlight the button; Escape, the prompt, and B held, leave."""
         action = self._prompts().as_button(event)
         if action.button is Button.BACK and action.device.kind != "pad":
@@ -58,7 +58,7 @@ class ControlsTest:
         self.lit[event.device, event.button] = LIT
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Turn the robots, fade highlights, check for B held."""
         controls = self.context.controls
         self.lit = {key: left - seconds for key, left in self.lit.items() if left > seconds}
@@ -96,7 +96,7 @@ class ControlsTest:
         pad = self.context.controls.last.kind == "pad"
         return self.context.prompts([(Button.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
 
-    def _leave(self) -> Turn:
+    def _leave(self) -> StackOperation:
         self.context.sounds.play("back")
         return Pop()
 
@@ -114,9 +114,9 @@ class ControlsTest:
 
     def _cluster(self, screen: pygame.Surface, x: int, y: int, number: int) -> None:
         device = Device("keys", number)
-        drive, labels = self.context.controls.drive(device), CLUSTERS[number].printed
+        drive, labels = self.context.controls.drive(device), CLUSTERS[number].key_name
         for button, box in gadgets.KEYS.items():
-            label = self.context.words.printed(labels[button])
+            label = self.context.words.key_name(labels[button])
             gadgets.cap(label, *box.size, _down(drive, button)).draw(screen, x + box.x, y + box.y)
         heading = self.headings[number]
         ahead = 10 * drive.linear

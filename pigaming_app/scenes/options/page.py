@@ -11,9 +11,9 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Push, Quit, Turn
+from pigaming_app.scenes.flow.stack import Push, Quit, StackOperation
 from pigaming_app.scenes.options import pictures
-from pigaming_app.scenes.views.race.ghost_files import forget
+from pigaming_app.scenes.views.race.ghost_files import delete_ghosts
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import LABEL
@@ -61,7 +61,7 @@ class OptionsPage:
     def entered(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Up and down select a row, left and right change it, FIRE changes or activates it."""
         event = self.navigation.prompts.as_button(event)
         match event.button:
@@ -79,7 +79,7 @@ class OptionsPage:
                 return turn
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.clock += seconds
         if self.clearing.update(seconds):
             self._clear()
@@ -154,7 +154,7 @@ class OptionsPage:
         limit = {"meter": 10, "deed": 0}.get(value.kind, len(value.options) - 1)
         self._set(name, max(0, min(limit, value.chosen + by)))
 
-    def _do(self, name: str, event: InputEvent) -> Turn:
+    def _do(self, name: str, event: InputEvent) -> StackOperation:
         """FIRE: the next value, cyclically, or the action."""
         value = self._value(name)
         if value.kind != "deed":
@@ -176,7 +176,7 @@ class OptionsPage:
         self.clearing.begin(event)
         return None
 
-    def _click(self, event: InputEvent) -> Turn:
+    def _click(self, event: InputEvent) -> StackOperation:
         name = self.focus.under(event)
         if name is None or event.at is None:
             return None
@@ -218,7 +218,7 @@ class OptionsPage:
         self.context.sounds.play("accept")
         self._save(scores=True)
         try:
-            forget(folders().data)
+            delete_ghosts(folders().data)
         except OSError as trouble:
             log.warning("%s", trouble)
 

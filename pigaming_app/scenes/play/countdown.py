@@ -133,6 +133,6 @@ def arcs(count: int) -> Steps[Sprite]:
         lit = i < count
         ink.arc(0, 0, 215, start, start + math.tau / 3 - 0.28, FOCUS if lit else (58, 54, 16), BOLD if lit else 4)
     yield
-    image = yield from ink.spriting(1.0)
+    image = yield from ink.sprite_steps(1.0)
     yield
     return trim(image, half, half)

@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.ui.draw import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.ui.draw.frame_budget import Steps, budget
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
@@ -31,7 +31,7 @@ class DeviceTable:
     def entered(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Any button leads back."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted and admitted.button in (Button.FIRE, Button.START, Button.BACK):
@@ -39,7 +39,7 @@ class DeviceTable:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.access.update(seconds)
         return None
 
@@ -77,7 +77,7 @@ class DeviceTable:
         layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, 264, "body"))
         self._moves(layer, device, y)
         for x, function, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
-            wide = button(layer.canvas, x, y, words.printed(controls.label(device, function)))
+            wide = button(layer.canvas, x, y, words.key_name(controls.label(device, function)))
             layer.canvas.body(words(name), x + wide + 18, y, MIST)
         return layer
 

@@ -13,7 +13,7 @@ import pygame
 
 from pigaming_app.scenes.flow.access import OWNED, Access, PauseAccess
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, Scene, Turn
+from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import (
@@ -57,7 +57,7 @@ class PausedMatch(Protocol):
     def picture(self) -> pygame.Surface:
         """The match as drawn behind a page."""
 
-    def think_aloud(self) -> None:
+    def next_brain(self) -> None:
         """Show the thoughts of the next AI."""
 
     def restart(self) -> None:
@@ -74,7 +74,7 @@ class PausedMatch(Protocol):
     def access(self) -> Access:
         """Access control of the match."""
 
-    def welcome(self, event: InputEvent) -> bool:
+    def return_seat(self, event: InputEvent) -> bool:
         """Return its seat to an idle device; true if done."""
 
     def hold(self, seconds: float) -> None:
@@ -104,7 +104,7 @@ class Pause:
     def entered(self) -> None:
         self.context.sounds.music(False)
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """START, BACK and F4 (Y on a pad), which also shows an AI's thoughts, continue; FIRE activates the item."""
         event = self.prompts.as_button(event)
         if event.button is Button.Y:
@@ -116,7 +116,7 @@ class Pause:
             return None
         event = admitted
         if event.button is Button.BRAIN:
-            self.match.think_aloud()
+            self.match.next_brain()
         if event.button in (Button.START, Button.BACK, Button.BRAIN):
             return self._do("continue")
         if self.focus.on(event):
@@ -129,7 +129,7 @@ class Pause:
             return None
         return self._do(chosen) if chosen else None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Animate the focus; expire the confirmation and the ownership."""
         self.match.hold(seconds)
         self.access.update(seconds)
@@ -161,7 +161,7 @@ class Pause:
 
     def _button(self) -> str:
         """The label of the button that activates the focused item."""
-        return self.context.words.printed(self.context.controls.label(self.access.voice, Button.FIRE))
+        return self.context.words.key_name(self.context.controls.label(self.access.voice, Button.FIRE))
 
     def _draw_owned(self, screen: pygame.Surface) -> None:
         """The ring with the remaining seconds of ownership."""
@@ -177,7 +177,7 @@ class Pause:
             return self.context.words("pause.wait")
         return self.context.words("pause.wait_for", player=self.player + 1)
 
-    def _do(self, name: str) -> Turn:
+    def _do(self, name: str) -> StackOperation:
         self.context.sounds.play("back" if name == "continue" else "accept")
         match name:
             case "restart":

@@ -5,7 +5,7 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import Pause, PausedMatch, sheet_title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
@@ -51,7 +51,7 @@ class Reconnect:
         self.context.sounds.music(False)
         self.context.sounds.play("error")
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE on a free device takes the seat; X gives it to an AI; BACK opens the menu."""
         event = self.prompts.as_button(event)
         admitted = self.match.access.admit(event)
@@ -70,7 +70,7 @@ class Reconnect:
             return Swap(Pause(self.match, admitted.device))
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Hand the seat to an AI after the timeout."""
         self.match.hold(seconds)
         self.age += seconds
@@ -92,7 +92,7 @@ class Reconnect:
         self.prompts.draw(screen)
         self.match.shine(screen)
 
-    def _hand(self, device: Device | None) -> Turn:
+    def _hand(self, device: Device | None) -> StackOperation:
         self.match.hand(self.seat, device)
         return Pop()
 
@@ -121,13 +121,13 @@ class StillThere:
         self.context.sounds.music(False)
         self.context.sounds.play("error")
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Any button continues; an idle device gets its seat back."""
         if event.button in (Button.LOST, Button.FOUND, Button.POINT):
             return None
-        return Pop() if self.match.welcome(event) or self.match.access.admit(event) else None
+        return Pop() if self.match.return_seat(event) or self.match.access.admit(event) else None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Return to the title after the timeout."""
         self.match.hold(seconds)
         self.age += seconds

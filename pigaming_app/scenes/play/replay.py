@@ -4,7 +4,7 @@ import pygame
 
 from pigaming_app.games.replay import BYTES_PER_TICK, Replay, to_match
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.side_hints import SideHints, side_note
 from pigaming_app.sim.world import DT
@@ -31,7 +31,7 @@ class ReplayScene:
     def entered(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE pauses and resumes, LEFT and RIGHT change the speed, X restarts, BACK leaves."""
         event = self.hints.as_button(event)
         self.hints_left = HINTS_SECONDS
@@ -53,7 +53,7 @@ class ReplayScene:
                 pass
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.hints_left -= seconds
         self.warm = self.warm or self.runner.warm(4.0)
         if self.playing and not self.ended:

@@ -105,7 +105,7 @@ class MatchRunner:
         if device:
             moves = self.context.controls.moves(device)
             steer = words("match.arrows") if "←" in moves else moves
-            return f"{steer} + {words.printed(self.context.controls.label(device, Button.FIRE))}", "keys"
+            return f"{steer} + {words.key_name(self.context.controls.label(device, Button.FIRE))}", "keys"
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"

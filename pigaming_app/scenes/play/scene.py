@@ -19,13 +19,13 @@ from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
-from pigaming_app.scenes.flow.stack import Push, Scene, Swap, Turn
+from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
 from pigaming_app.scenes.play.idle_seats import IdleSeats
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.results.scene import After, Results
+from pigaming_app.scenes.results.scene import Results, SceneFactory
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
@@ -58,7 +58,7 @@ class MatchScene:
         devices: Sequence[Device | None] = (),
         speed: float = 1.0,
         plant: Callable[[Any], Plant] = SimPlant,
-        game_choice: After | None = None,
+        game_choice: SceneFactory | None = None,
     ) -> None:
         self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
@@ -80,7 +80,7 @@ class MatchScene:
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans:
-            self.runner.view.for_real(folders().data)
+            self.runner.view.enable_persistence(folders().data)
 
     # ---- lifecycle
 
@@ -94,13 +94,13 @@ class MatchScene:
         self.begun = True
         self.idle = 0.0
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
         if self.match.over:
             return None
         if event.button is Button.LOST:
             self.idle_seats.forget(event.device)
-        if self.welcome(event):
+        if self.return_seat(event):
             return None
         admitted = self.access.admit(event)
         if event.button is Button.FIRE and self.free(event.device):
@@ -111,12 +111,12 @@ class MatchScene:
         if admitted.device in self.devices:
             self.idle_seats.touch(self.devices.index(admitted.device))
         if event.button is Button.BRAIN:
-            self.think_aloud()
+            self.next_brain()
         if event.button is Button.START or (event.button is Button.BACK and self._escapes(admitted.device)):
             return Push(Pause(self, admitted.device))
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.notice_left -= seconds
         if self.repeated:
             return Swap(self.again(self.context, self.setup, self.devices))
@@ -182,7 +182,7 @@ class MatchScene:
         return [i for i, device in gone if not self.context.controls.connected(device)]
 
     @property
-    def stood_in(self) -> list[int]:
+    def ai_replaced(self) -> list[int]:
         """Seats of people for whom an AI drives."""
         return [i for i in self.humans if self.devices[i] is None]
 
@@ -199,7 +199,7 @@ class MatchScene:
         self.notice, self.notice_left = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
         self.context.sounds.play("join", seat)
 
-    def welcome(self, event: InputEvent) -> bool:
+    def return_seat(self, event: InputEvent) -> bool:
         """Return its seat to an idle device on any press; true if done."""
         if event.device not in self.idle_seats.claims or event.button in (Button.STOP, Button.BRAIN):
             return False
@@ -207,7 +207,7 @@ class MatchScene:
         self.hand(self.idle_seats.claims[event.device], event.device)
         return True
 
-    def think_aloud(self) -> None:
+    def next_brain(self) -> None:
         """Show the thoughts of the next AI, after the last none; show a notice if there is no AI."""
         if not self.runner.brain.seats:
             self.notice, self.notice_left = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
@@ -251,10 +251,10 @@ class MatchScene:
     def takeable(self) -> list[int]:
         """Seats driven by AIs, in the order of assignment to free devices: those of absent people first."""
         if not self.open:
-            return self.stood_in
+            return self.ai_replaced
         robots = self.match.state.robots
         ais = [i for i, robot in enumerate(robots) if robot.present and i not in self.humans]
-        return [*self.stood_in, *reversed(ais)]
+        return [*self.ai_replaced, *reversed(ais)]
 
     def _escapes(self, device: Device) -> bool:
         """True if BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
@@ -263,7 +263,7 @@ class MatchScene:
     def _request_seat(self, event: InputEvent) -> None:
         """FIRE on a free device: take an unclaimed seat at once, any other after holding."""
         claimed = self.idle_seats.claims.values()
-        if vacant := [seat for seat in self.stood_in if seat not in claimed]:
+        if vacant := [seat for seat in self.ai_replaced if seat not in claimed]:
             self.hand(vacant[0], event.device)
         elif self.takeable:
             self.joining.begin(event)
@@ -312,7 +312,7 @@ class MatchScene:
             self.idle_seats.touch(seat)
         return drive
 
-    def _end(self, seconds: float) -> Turn:
+    def _end(self, seconds: float) -> StackOperation:
         """Build the results while the last picture stays on the screen."""
         if self.results is None:
             finished = self.match.over and not self.stopped

@@ -11,7 +11,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached, playable_arenas
 from pigaming_app.scenes.flow.match_words import match_length
-from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.results.high_score_tables import (
     HighScoreTable,
     contests,
@@ -57,7 +57,7 @@ class HighScores:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Directions and arrows select other tables; any button continues."""
         event = self.prompts.as_button(event)
         self.idle = 0.0
@@ -71,7 +71,7 @@ class HighScores:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Continue after a while without input."""
         self.age += seconds
         self.turned += seconds

@@ -13,7 +13,7 @@ import pygame
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Swap, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.results import initials_view as page
 from pigaming_app.scenes.results.high_score_tables import contest, counts, format_score, table_of
 from pigaming_app.scenes.results.high_scores import HighScores
@@ -40,7 +40,7 @@ Feats = tuple[tuple[ScoreTable, int], ...]
 
 
 @dataclass(frozen=True)
-class Claim:
+class Qualification:
     """Qualifying results of one person: each table with its value.
 
     `places`: for each table, the places of the value with the headings of the spans.
@@ -52,7 +52,9 @@ class Claim:
     places: tuple[tuple[tuple[str, int], ...], ...]
 
 
-def claims(context: Context, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]) -> list[Claim]:
+def qualifying(
+    context: Context, outcome: Outcome, setup: Setup, devices: Sequence[Device | None]
+) -> list[Qualification]:
     """Qualifying results, ranked together with the other people's of this match. `devices`: driver of each seat."""
     done = achieved(outcome, setup, [seat for seat, device in enumerate(devices) if device])
     out = []
@@ -62,7 +64,9 @@ def claims(context: Context, outcome: Outcome, setup: Setup, devices: Sequence[D
         qualified = [(feat, here) for feat, here in ranked if here]
         device = devices[seat]
         if qualified and device:
-            out.append(Claim(seat, device, tuple(feat for feat, _ in qualified), tuple(here for _, here in qualified)))
+            out.append(
+                Qualification(seat, device, tuple(feat for feat, _ in qualified), tuple(here for _, here in qualified))
+            )
     return out
 
 
@@ -96,10 +100,10 @@ def places(
 
 
 class Initials:
-    """Entry page for all `claims` at once; then shows the tables."""
+    """Entry page for all `qualifying` at once; then shows the tables."""
 
-    def __init__(self, context: Context, setup: Setup, claims: Sequence[Claim]) -> None:
-        self.context, self.setup, self.claims = context, setup, sorted(claims, key=lambda claim: claim.seat)
+    def __init__(self, context: Context, setup: Setup, qualifying: Sequence[Qualification]) -> None:
+        self.context, self.setup, self.claims = context, setup, sorted(qualifying, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
         self.ahead = PrewarmQueue(self._prewarm_jobs())
@@ -111,7 +115,7 @@ class Initials:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Each player's input changes only their own letters."""
         device = self._device_of(event)
         if self.age < DEAF or device is None:
@@ -120,7 +124,7 @@ class Initials:
             self.context.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
         return self._end() if all(spelling.done for spelling in self.spellings.values()) else None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         self.age += seconds
         for spelling in self.spellings.values():
             spelling.update(seconds)
@@ -147,7 +151,7 @@ class Initials:
         clusters = [device for device in event.among if device in self.spellings]
         return clusters[0] if len(clusters) == 1 else None
 
-    def _panel(self, screen: pygame.Surface, x: int, claim: Claim) -> None:
+    def _panel(self, screen: pygame.Surface, x: int, claim: Qualification) -> None:
         words, spelling = self.context.words, self.spellings[claim.device]
         self._frame(claim, spelling.done).draw(screen, x, page.TOP_Y)
         page.letters(screen, x, claim.seat, spelling)
@@ -158,10 +162,10 @@ class Initials:
             page.refused(words("results.another")).draw(screen, x, page.TOP_Y)
             return
         key = "done" if spelling.last else "next_letter"
-        label = words.printed(self.context.controls.label(claim.device, Button.FIRE))
+        label = words.key_name(self.context.controls.label(claim.device, Button.FIRE))
         ask_bar(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 
-    def _frame(self, claim: Claim, done: bool) -> LitImage:
+    def _frame(self, claim: Qualification, done: bool) -> LitImage:
         return page.frame(claim.seat, self.context.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
 
     def _prewarm_jobs(self) -> Iterator[Callable[[], object]]:
@@ -173,7 +177,7 @@ class Initials:
         for claim in self.claims:
             yield partial(ready_bar, claim.seat, words("results.done"))
 
-    def _lines(self, claim: Claim) -> tuple[tuple[str, str], ...]:
+    def _lines(self, claim: Qualification) -> tuple[tuple[str, str], ...]:
         """Lines of a panel: each feat with its value, and the places it takes."""
         words = self.context.words
         lines = []
@@ -183,7 +187,7 @@ class Initials:
             lines += [(words("results.place", board=words(title), place=place), "") for title, place in listed]
         return tuple(lines)
 
-    def _end(self) -> Turn:
+    def _end(self) -> StackOperation:
         """Save the entries and show the tables, if anything is new in them."""
         fresh = list(self._entered())
         if not fresh:

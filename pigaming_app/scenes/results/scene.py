@@ -12,10 +12,10 @@ import pygame
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Push, Scene, Swap, Turn
+from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
-from pigaming_app.scenes.results.initials import Initials, claims
+from pigaming_app.scenes.results.initials import Initials, qualifying
 from pigaming_app.scenes.results.rematch_vote import RematchVote
 from pigaming_app.scenes.results.view import ResultsPage
 from pigaming_app.ui.draw import FOCUS
@@ -29,7 +29,9 @@ MESSAGE_SECONDS = 3.0  # s, display time of a message
 CLAIMS = 2.6  # s before the initials entry
 IDLE = 60.0  # s without input before the return to the title
 
-After = Callable[[Context, Setup, Sequence[Device | None]], Scene]  # scene that follows a match, for these devices
+SceneFactory = Callable[
+    [Context, Setup, Sequence[Device | None]], Scene
+]  # scene that follows a match, for these devices
 
 
 class Results:
@@ -45,10 +47,10 @@ class Results:
         outcome: Outcome,
         setup: Setup,
         devices: Sequence[Device | None],
-        again: After,
+        again: SceneFactory,
         finished: bool = True,
         helped: Collection[int] = (),
-        game_choice: After | None = None,
+        game_choice: SceneFactory | None = None,
     ) -> None:
         self.context, self.setup, self.again, self.game_choice = context, setup, again, game_choice
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
@@ -57,7 +59,7 @@ class Results:
         absent = [seat for seat in humans if devices[seat] is None]
         self.page = ResultsPage(context, outcome, setup, finished, absent)
         own = [None if seat in helped else device for seat, device in enumerate(devices)]
-        self.claims = claims(context, outcome, setup, own) if finished else []
+        self.claims = qualifying(context, outcome, setup, own) if finished else []
         self.initials = Initials(context, setup, self.claims)
         self.sounds = self.page.sounds(humans)
         self.age = self.idle = self.message_left = 0.0
@@ -79,7 +81,7 @@ class Results:
         """First display, or return from initials or tables."""
         self.idle = 0.0
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE votes, START begins, X opens the game selection, BACK, held, returns to the title."""
         event = self.prompts.as_button(event)
         admitted = self.access.admit(event)
@@ -107,7 +109,7 @@ class Results:
                 pass
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Reveal the page, ask for initials, count the votes, leave when idle."""
         self.age += seconds
         self.idle += seconds
@@ -149,11 +151,11 @@ class Results:
             self.joining.begin(event)
             self.message_left = MESSAGE_SECONDS
 
-    def _leave(self) -> Turn:
+    def _leave(self) -> StackOperation:
         self.context.sounds.play("back")
         return Home()
 
-    def _rematch(self, everyone: bool) -> Turn:
+    def _rematch(self, everyone: bool) -> StackOperation:
         self.context.sounds.play("accept")
         return Swap(self.again(self.context, self.setup, self.ballot.drivers(everyone)))
 

@@ -8,7 +8,7 @@ import pygame
 
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Swap, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.pause import Pause, sheet_title
 from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
@@ -48,7 +48,7 @@ class FaultPage:
         self.context.sounds.play("error")
         self.held, self.picture = 0.0, None
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """X replaces the robots concerned with simulated ones; START and BACK open the menu. After disobedience, FIRE
         starts a new pairing and Y retries.
         """
@@ -64,7 +64,7 @@ class FaultPage:
             return Push(PairAgain(self.match))
         elif lasting and event.button is Button.Y:
             for robot in lasting:
-                self.match.plant.forgive(robot)
+                self.match.plant.clear_fault(robot)
             self.context.sounds.play("accept")
         elif event.button is Button.STOP:
             self.match.plant.safety.all_stop()
@@ -73,7 +73,7 @@ class FaultPage:
             return Swap(Pause(self.match, event.device))
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Close once the fault is gone."""
         self.match.hold(seconds)
         safety = self.match.plant.safety
@@ -137,7 +137,7 @@ class FaultPage:
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
             layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
-        fire = words.printed(self.context.controls.label(self.match.access.voice, Button.FIRE))
+        fire = words.key_name(self.context.controls.label(self.match.access.voice, Button.FIRE))
         y = write_lines(layer, fault_sentence(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         cause = cause_of(self.match.plant.rig, first.name)
         if cause:

@@ -10,7 +10,7 @@ from pigaming_app.hardware.session.robot_session import unfit
 from pigaming_app.hardware.vision.discovery import cameras
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Turn
+from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.robots.avoid_discs import BlockLayout
 from pigaming_app.scenes.robots.fleet_state import FleetState, worst_finding
 from pigaming_app.scenes.robots.flood_light import FloodLight
@@ -75,7 +75,7 @@ class FleetPage:
         """Stop the robots; release camera and radio."""
         self.check.end()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Up and down select, left and right change, FIRE runs; while robots move, any input stops them."""
         event = self.navigation.prompts.as_button(self._to_sheet(event))
         if self.check.busy and event.button not in (Button.POINT, Button.LOST, Button.FOUND):
@@ -91,7 +91,7 @@ class FleetPage:
             self._run(name)
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Refresh the readings."""
         words = self.context.words
         turn = self.navigation.update(seconds)

@@ -61,7 +61,7 @@ class FleetState:
             self.rig = self.session.open()
             self.link = self.rig.link
         except RobotsUnavailable as error:
-            log.warning("%s", english().explained(error.message))
+            log.warning("%s", english().long_sentence(error.message))
             self.refusal = error.message
             self.rig, self.link = None, self.session.listen()
 

@@ -14,12 +14,12 @@ from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnav
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import LEAD, NOTICE, MatchScene, rematch_setup
-from pigaming_app.scenes.results.scene import After
+from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.scenes.robots.marker_discs import MarkerDiscs
@@ -50,7 +50,7 @@ class RealMatch(MatchScene):
         real: Collection[int],
         session: RobotSession,
         match_of: MatchOf,
-        game_choice: After | None = None,
+        game_choice: SceneFactory | None = None,
     ) -> None:
         if reason := unfit(context.settings):
             raise RobotsUnavailable(reason)
@@ -88,7 +88,7 @@ class RealMatch(MatchScene):
             self.released = True
             self.session.close()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """As in every match; STOP stops all robots. While robots take their places, START begins from the current
         positions, X replaces missing robots with simulated ones, BACK leaves.
         """
@@ -103,7 +103,7 @@ class RealMatch(MatchScene):
             return None
         event = admitted
         if event.button is Button.START and self.gathering.clock > self.gathering.DEAF:
-            self.plant.accept_places()
+            self.plant.start_from_here()
             self._begin()
         elif event.button is Button.X:
             for seat in self._missing():
@@ -114,7 +114,7 @@ class RealMatch(MatchScene):
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Advance the match, unless a robot in it has a fault."""
         if self.repeated or self.stopped:
             return super().update(seconds)
@@ -167,7 +167,7 @@ class RealMatch(MatchScene):
         self.plant.rig.channels = channels
         self.context.settings.radios = [channel + 1 for channel in channels]
         for robot in turned:
-            self.plant.forgive(robot)
+            self.plant.clear_fault(robot)
 
     def swap(self, seat: int, real: bool) -> None:
         """Hand a seat over to its simulated or its real robot, which first drives to its position."""
@@ -185,7 +185,7 @@ class RealMatch(MatchScene):
 
     # ---- inside
 
-    def _take_places(self, gathering: TakePlaces, seconds: float) -> Turn:
+    def _take_places(self, gathering: TakePlaces, seconds: float) -> StackOperation:
         """Drive the robots to their start positions."""
         if lost := self.lost:
             return Push(Reconnect(self, lost[0]))
@@ -234,7 +234,10 @@ class RealMatch(MatchScene):
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._reportable(fault)}
         for key in now.keys() - self.logged:
             cause = cause_of(self.plant.rig, now[key].name)
-            sentences = [fault_sentence(now[key], english(), "FIRE"), *([english().explained(cause)] if cause else [])]
+            sentences = [
+                fault_sentence(now[key], english(), "FIRE"),
+                *([english().long_sentence(cause)] if cause else []),
+            ]
             log.warning("%s", " ".join(sentences))
             if now[key].name in REPORTED_ONLY:
                 sentence = fault_sentence(now[key], self.context.words, "")

@@ -7,14 +7,14 @@ import pygame
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Push, Turn
+from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, GlowCanvas, cut_box
 from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph
-from pigaming_app.ui.i18n import english, in_every_language
+from pigaming_app.ui.i18n import all_languages, english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
@@ -41,7 +41,7 @@ class RobotsMenu:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Up and down select, FIRE opens."""
         event = self.navigation.prompts.as_button(event)
         if turn := self.navigation.on(event):
@@ -49,7 +49,7 @@ class RobotsMenu:
         chosen = self.focus.chosen(event)
         return self._run(chosen) if chosen else None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -69,7 +69,7 @@ class RobotsMenu:
                 line.draw(screen, 960, 900 + 44 * i)
         self.navigation.prompts.draw(screen)
 
-    def _run(self, name: str) -> Turn:
+    def _run(self, name: str) -> StackOperation:
         from pigaming_app.scenes.calibration.corner_pin_page import CornerPinPage
         from pigaming_app.scenes.calibration.drift_page import DriftPage
         from pigaming_app.scenes.calibration.setup_page import CalibrationPage
@@ -95,10 +95,10 @@ class RobotsMenu:
 
         path, words = folders().data / SHEET, self.context.words
         try:
-            write_atomic(path, sheet(notes=in_every_language("sheet.print", "sheet.cut")))
+            write_atomic(path, sheet(notes=all_languages("sheet.print", "sheet.cut")))
             self.navigation.say(words("robots.written", path=path))
         except OpenCVMissing as missing:
-            log.warning("%s", english().explained(missing.message))
+            log.warning("%s", english().long_sentence(missing.message))
             self.navigation.say(words.sentence(missing.message))
         except NotSaved as error:
             log.warning("%s", error)

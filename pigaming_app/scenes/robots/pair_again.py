@@ -8,7 +8,7 @@ import pygame
 
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
-from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.robots.fleet_state import worst_finding
 from pigaming_app.scenes.robots.flood_light import UNSEEN, FloodLight, looking
@@ -40,7 +40,7 @@ class PairAgain:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE repeats a finished pairing and aborts a running one; BACK, START and STOP abort at any time."""
         event = (self.after if self.sentence else self.stop).as_button(event)
         if event.button is Button.FIRE and self.sentence:
@@ -53,7 +53,7 @@ class PairAgain:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Search for all robots, then spin one after the other."""
         seconds = self.match.session.advance(seconds)
         self.clock += seconds
@@ -88,7 +88,7 @@ class PairAgain:
         seen = self.match.plant.rig.sense()
         return [robot for robot in sorted(self.match.real) if seen[robot].age > UNSEEN]
 
-    def _apply(self, pairing: Pairing) -> Turn:
+    def _apply(self, pairing: Pairing) -> StackOperation:
         """Apply the result; close if there is no fault."""
         turned = [finding.marker for finding in pairing.findings if finding.case in GOOD and finding.marker is not None]
         self.match.paired(pairing.channels, turned)

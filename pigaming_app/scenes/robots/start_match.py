@@ -9,7 +9,7 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.results.scene import After
+from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Device
 
@@ -22,7 +22,7 @@ def match_of(
     devices: Sequence[Device | None],
     real: Collection[int],
     speed: float = 1.0,
-    game_choice: After | None = None,
+    game_choice: SceneFactory | None = None,
 ) -> Scene:
     """The match, or the page with the reason why the robots of the seats `real` are unavailable.
 
@@ -38,5 +38,5 @@ def match_of(
     try:
         return RealMatch(context, setup, devices, real, context.session, again, game_choice)
     except RobotsUnavailable as error:
-        log.warning("%s", english().explained(error.message))
+        log.warning("%s", english().long_sentence(error.message))
         return UnavailablePage(context, setup, devices, real, error.message, again)

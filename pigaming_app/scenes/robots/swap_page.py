@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import Pop, Turn
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
@@ -29,7 +29,7 @@ class SwapPage:
     def entered(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE, LEFT and RIGHT toggle the focused robot; BACK and START apply."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
@@ -48,7 +48,7 @@ class SwapPage:
             self.context.sounds.play("move")
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Keep all robots still."""
         self.match.hold(seconds)
         self.access.update(seconds)

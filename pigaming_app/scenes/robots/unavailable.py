@@ -8,7 +8,7 @@ from pigaming_app.games.game import Setup
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Swap, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
@@ -45,7 +45,7 @@ class UnavailablePage:
     def entered(self) -> None:
         self.context.sounds.play("error")
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """FIRE plays with simulated robots, X retries, BACK leaves."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
@@ -61,7 +61,7 @@ class UnavailablePage:
             return Pop()
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()

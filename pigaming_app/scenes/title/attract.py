@@ -12,7 +12,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Scene, Turn
+from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
@@ -47,14 +47,14 @@ class Attract:
         """Stop the music."""
         self.context.sounds.music(False)
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Any input returns to the title without further effect; F4 shows the thoughts of the AIs."""
         if event.button is Button.BRAIN and isinstance(self.show, DemoMatch):
             self.show.runner.brain.next()
             return None
         return None if event.button is Button.LOST else Home()
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Advance the show, or start the next one."""
         self.age += seconds
         if self.show is None or self.show.update(seconds) is not None:
@@ -109,10 +109,10 @@ class DemoMatch:
     def entered(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Play; end a moment after the match."""
         self.warm = self.warm or self.runner.warm(3.0)
         self.runner.advance(seconds)
@@ -132,10 +132,10 @@ class TimedPage:
     def entered(self) -> None:
         self.page.entered()
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """End after PAGE seconds."""
         self.age += seconds
         self.page.update(seconds)

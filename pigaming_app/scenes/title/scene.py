@@ -8,7 +8,7 @@ import pygame
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
-from pigaming_app.scenes.flow.stack import Push, Quit, Scene, Turn
+from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
 from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
@@ -59,7 +59,7 @@ class Title:
         self.context.sounds.music(True)
         self.focus.place(self._spots())
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         """Directions and the mouse move the focus; FIRE, START or a click activate; Y changes the language."""
         if event.button is Button.Y:
             self._set_language(self.context.words.other)
@@ -69,7 +69,7 @@ class Title:
         chosen = self.focus.chosen(event)
         return self._open(chosen) if chosen else None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         """Animate; start attract mode when idle."""
         self.clock += seconds
         self.focus.update(seconds)
@@ -99,7 +99,7 @@ class Title:
 
     # ---- internals
 
-    def _open(self, name: str) -> Turn:
+    def _open(self, name: str) -> StackOperation:
         if name in LANGUAGES:
             self._set_language(name)
             return None
@@ -171,7 +171,7 @@ class Title:
     def call_text(self) -> tuple[str, str]:
         """The call to action and the label of its button."""
         words, name = self.context.words, self.focus.name
-        label = words.printed(self.context.controls.label(None, Button.FIRE))
+        label = words.key_name(self.context.controls.label(None, Button.FIRE))
         if name in games():
             return words("title.press", button="{button}"), label
         return words("title.choose", button="{button}", what=self._item_name(name)), label

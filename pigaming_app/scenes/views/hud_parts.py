@@ -11,7 +11,7 @@ from pigaming_app.ui.draw import ALARM, ICE, TITLE, Color
 from pigaming_app.ui.draw.text import glyph, number_width
 
 Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin around their sprites
-WIDE = 316  # px, width of a panel
+PANEL_W = 316  # px, width of a panel
 XS = {1: (492,), 2: (492, 1112), 3: (160, 492, 1112), 4: (160, 492, 1112, 1444)}  # px: left edges, by number of panels
 ALARM_SECONDS = 10
 CLOCK = pygame.Rect(820, 0, 280, HUD_HEIGHT)

@@ -55,7 +55,7 @@ class MatchView:
         self.jobs = PrewarmQueue([lambda: background.surface])
         self.jobs.then(driving(self.seats))
 
-    def for_real(self, folder: Path) -> None:
+    def enable_persistence(self, folder: Path) -> None:
         """Called for matches with people: persistent data, such as a best lap, is saved in this data folder."""
 
     def watch(self, state: Any) -> list[SoundCue]:

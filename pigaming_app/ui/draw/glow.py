@@ -179,7 +179,7 @@ class GlowCanvas:
         if self.tiles:
             yield from self._downscale(self.sheet, out, ADD)
 
-    def shrinking(self) -> Steps[pygame.Surface]:
+    def downscale_steps(self) -> Steps[pygame.Surface]:
         """The drawing at w x h px, without glow."""
         out = pygame.Surface((self.w, self.h))
         if self.tiles:
@@ -188,25 +188,25 @@ class GlowCanvas:
 
     def plain(self) -> pygame.Surface:
         """Like `shrinking`, uninterrupted."""
-        return run_to_end(self.shrinking())
+        return run_to_end(self.downscale_steps())
 
-    def knocked(self, out: pygame.Surface) -> Steps[None]:
+    def apply_knockout(self, out: pygame.Surface) -> Steps[None]:
         """Darken voids and black lettering."""
         if self.knockout:
             yield from self._downscale(self.knockout, out, MULT)
 
     def lighting(self, glow: float = 1.0, halos: Halos = NEAR) -> Steps[pygame.Surface]:
         """The drawing with its glow. Blurs are added only where the drawing is dark, so that no hue clips."""
-        out = yield from self.shrinking()
+        out = yield from self.downscale_steps()
         yield from add_glow(out, [(out, halos, glow)])
-        yield from self.knocked(out)
+        yield from self.apply_knockout(out)
         return out
 
     def lit(self, glow: float = 1.0, halos: Halos = NEAR) -> pygame.Surface:
         """Like `lighting`, uninterrupted."""
         return run_to_end(self.lighting(glow, halos))
 
-    def spriting(self, glow: float = 1.0) -> Steps[pygame.Surface]:
+    def sprite_steps(self, glow: float = 1.0) -> Steps[pygame.Surface]:
         """A premultiplied sprite: black where `solid` was drawn, light elsewhere. One blit occludes and glows."""
         light = yield from self.lighting(glow)
         out = pygame.Surface((self.w, self.h), pygame.SRCALPHA)
@@ -220,7 +220,7 @@ class GlowCanvas:
 
     def sprite(self, glow: float = 1.0) -> pygame.Surface:
         """Like `spriting`, uninterrupted."""
-        return run_to_end(self.spriting(glow))
+        return run_to_end(self.sprite_steps(glow))
 
 
 def runs(tiles: set[tuple[int, int]]) -> list[tuple[int, int, int]]:
@@ -277,17 +277,17 @@ class LayeredCanvas:
 
     def lighting(self) -> Steps[pygame.Surface]:
         """Render the page."""
-        lines = yield from self.glow.shrinking()
+        lines = yield from self.glow.downscale_steps()
         out = lines.copy()
         sources = [(lines, WIDE, 1.0)]
         if self.soft.tiles:
-            titles = yield from self.soft.shrinking()
+            titles = yield from self.soft.downscale_steps()
             out.blit(titles, (0, 0), special_flags=ADD)
             sources.append((titles, SOFT, 0.45))
         yield
         yield from add_glow(out, sources)
-        yield from self.glow.knocked(out)
-        yield from self.soft.knocked(out)
+        yield from self.glow.apply_knockout(out)
+        yield from self.soft.apply_knockout(out)
         yield from self.crisp.onto(out)
         return out
 

@@ -88,7 +88,7 @@ class Trigger:
             yield ButtonChange(self.button, down, "trigger")
 
 
-def outside_dead_zone(x: float, y: float) -> tuple[float, float]:
+def apply_dead_zone(x: float, y: float) -> tuple[float, float]:
     """Remove the radial dead zone and rescale: 0 at its edge, (1, 1) in the corner.
 
     Corners are stretched because a stick moves in a circle: sticks then reach the same diagonal as keys.

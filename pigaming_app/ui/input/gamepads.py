@@ -11,7 +11,7 @@ import pygame
 from pygame._sdl2 import controller
 
 from pigaming_app.ui.input.events import Button, StickState
-from pigaming_app.ui.input.filters import ButtonChange, StickDirection, Trigger, outside_dead_zone
+from pigaming_app.ui.input.filters import ButtonChange, StickDirection, Trigger, apply_dead_zone
 
 _AXIS_MAX = 32767.0  # SDL's largest axis value
 _BUTTONS = {
@@ -104,7 +104,7 @@ class MappedPad:
         if not self.attached():
             return StickState()
         pressed = self._pad.get_button
-        x, y = outside_dead_zone(self._axis(pygame.CONTROLLER_AXIS_LEFTX), self._axis(pygame.CONTROLLER_AXIS_LEFTY))
+        x, y = apply_dead_zone(self._axis(pygame.CONTROLLER_AXIS_LEFTX), self._axis(pygame.CONTROLLER_AXIS_LEFTY))
         return StickState(
             float(pressed(pygame.CONTROLLER_BUTTON_DPAD_UP) - pressed(pygame.CONTROLLER_BUTTON_DPAD_DOWN)) or -y,
             float(pressed(pygame.CONTROLLER_BUTTON_DPAD_RIGHT) - pressed(pygame.CONTROLLER_BUTTON_DPAD_LEFT)) or x,
@@ -147,7 +147,7 @@ class PlainPad:
 
     def drive(self) -> StickState:
         pad = self._pad
-        x, y = outside_dead_zone(pad.get_axis(0), pad.get_axis(1)) if self._axes else (0.0, 0.0)
+        x, y = apply_dead_zone(pad.get_axis(0), pad.get_axis(1)) if self._axes else (0.0, 0.0)
         right, up = pad.get_hat(0) if pad.get_numhats() else (0, 0)
         return StickState(
             float(up) or -y,

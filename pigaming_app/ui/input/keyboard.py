@@ -24,7 +24,7 @@ class Cluster:
     fire: tuple[int, ...]
     turbo: tuple[int, ...]
     moves: str
-    printed: dict[Button, str]
+    key_name: dict[Button, str]
 
 
 def _labels(up: str, left: str, down: str, right: str, fire: str, turbo: str) -> dict[Button, str]:
@@ -154,4 +154,4 @@ class Keyboard:
 
 def label(number: int, button: Button) -> str:
     """The label of a cluster's key for a button; empty if there is none."""
-    return CLUSTERS[number].printed.get(button) or _SHARED_LABELS.get(button, "")
+    return CLUSTERS[number].key_name.get(button) or _SHARED_LABELS.get(button, "")

@@ -51,7 +51,7 @@ class ButtonPrompts:
         """The current (label, text) pairs; buttons the device lacks are left out."""
         words = self.words
         return tuple(
-            (words.printed(self._label(action)), words(key)) for action, key in self.items if self._label(action)
+            (words.key_name(self._label(action)), words(key)) for action, key in self.items if self._label(action)
         )
 
     @property

@@ -20,7 +20,7 @@ OFF_AXIS_COST = 3.0  # cost of a pixel off the line, in pixels along it
 SMALL = 150  # px; spots less high have small corners
 REACH = 84  # px of a corner's image on each side
 
-WAYS = {Button.LEFT: (-1, 0), Button.RIGHT: (1, 0), Button.UP: (0, -1), Button.DOWN: (0, 1)}
+DIRECTIONS = {Button.LEFT: (-1, 0), Button.RIGHT: (1, 0), Button.UP: (0, -1), Button.DOWN: (0, 1)}
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Focus:
 
     def on(self, event: InputEvent) -> bool:
         """Move the focus by an event; true if it changed."""
-        if event.button in WAYS:
+        if event.button in DIRECTIONS:
             return self.go(self._next(event))
         return event.button in (Button.POINT, Button.CLICK) and self.go(self.under(event) or self.name)
 
@@ -110,7 +110,7 @@ class Focus:
 
     def _next(self, event: InputEvent) -> str:
         """The nearest spot in a direction; past the last, wrap round unless the key repeats."""
-        direction, here = WAYS[event.button], self.spot.rect
+        direction, here = DIRECTIONS[event.button], self.spot.rect
         ahead = [spot for spot in self.spots if _beyond(here, spot.rect, direction)]
         if ahead:
             return min(ahead, key=lambda spot: _distance(here, spot.rect, direction)).name

@@ -18,7 +18,7 @@ from pigaming_app.games.factory.state import (
     ICE,
     IN_SLOT,
     INPUT,
-    MOST_PALLETS,
+    MAX_PALLETS,
     ON_ROBOT,
     RAW,
     SLOTS,
@@ -224,7 +224,7 @@ def test_what_it_cannot_get_rid_of_it_brings_back_after_a_while():
     match = begun(("hard", "idle", "off", "off"))
     state = match.state
     state.rules.collect = 10**6
-    others = iter(range(MOST_PALLETS, MOST_PALLETS + 4))
+    others = iter(range(MAX_PALLETS, MAX_PALLETS + 4))
     for s, slot in enumerate(state.slots):
         if slot.machine >= 0 and state.machines[slot.machine].kind == B:
             p = next(others)

@@ -2,7 +2,7 @@
 
 from math import cos, sin
 
-from pigaming_app.games.factory.state import IN_SLOT, INPUT, MOST_PALLETS, OUTPUT
+from pigaming_app.games.factory.state import IN_SLOT, INPUT, MAX_PALLETS, OUTPUT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from tests.games.rails import Rails
@@ -29,7 +29,7 @@ class Shop:
 
     def own(self, team):
         """The pallets of a team that exist in the match."""
-        return [p for p in range(team * MOST_PALLETS, (team + 1) * MOST_PALLETS) if self.pallets[p].exists]
+        return [p for p in range(team * MAX_PALLETS, (team + 1) * MAX_PALLETS) if self.pallets[p].exists]
 
     def slot(self, kind, team=-1, machine=-1, which=0):
         """Index of a slot: of a team's entry or exit, or of a machine's input or output."""

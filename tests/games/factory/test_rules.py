@@ -490,9 +490,9 @@ def test_driving_over_a_person_freezes_for_three_seconds(speed):
     load, robot = shop.loads[0], shop.state.robots[0]
     assert (load.hits, load.frozen) == (1, 3 * HZ)
     for _ in range(3 * HZ):
-        assert (robot.ask_linear, robot.ask_angular, robot.boosting) == (0.0, 0.0, 0)
+        assert (robot.requested_linear, robot.requested_angular, robot.boosting) == (0.0, 0.0, 0)
         shop.tick()
-    assert robot.ask_linear > 0
+    assert robot.requested_linear > 0
     assert load.hits == 1
     assert (worker.x, worker.y) == before, "nobody is hurt or moved"
 
@@ -564,12 +564,12 @@ def test_stick_and_turbo_ask_for_the_speeds_of_the_rules():
     robot = shop.state.robots[0]
     shop.match.brains[0] = Stick()
     shop.tick()
-    assert (robot.ask_linear, robot.ask_angular) == (260.0, 1.5)
+    assert (robot.requested_linear, robot.requested_angular) == (260.0, 1.5)
     shop.match.brains[0].turbo = 1
     shop.tick()
-    assert robot.ask_linear == pytest.approx(1.3 * 260.0)
+    assert robot.requested_linear == pytest.approx(1.3 * 260.0)
     shop.tick(2 * HZ)
-    assert robot.ask_linear == 260.0, "the meter is empty after two seconds"
+    assert robot.requested_linear == 260.0, "the meter is empty after two seconds"
 
 
 # ---------------------------------------------------------------------------------------------------------- deliveries
@@ -679,7 +679,7 @@ def test_when_it_is_over_everything_stands_still():
     shop.match.brains[1] = Stick()
     tick = shop.state.tick
     assert not shop.press(1, entry(shop, FIRE))
-    assert (shop.state.robots[1].ask_linear, shop.state.tick) == (0.0, tick)
+    assert (shop.state.robots[1].requested_linear, shop.state.tick) == (0.0, tick)
 
 
 @pytest.mark.parametrize(

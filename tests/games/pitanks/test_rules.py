@@ -282,16 +282,16 @@ def test_turbo_is_30_percent_faster_while_the_meter_lasts():
     match = pitanks([(200.0, 450.0, 0.0), (800.0, 100.0, 0.0)])
     match.actions[0].linear, match.actions[0].turbo = 1.0, 1
     ticks(match, HZ)
-    assert match.robots[0].ask_linear == pytest.approx(1.3 * 260.0)
+    assert match.robots[0].requested_linear == pytest.approx(1.3 * 260.0)
     ticks(match, 2 * HZ)
-    assert match.robots[0].ask_linear == pytest.approx(260.0)
+    assert match.robots[0].requested_linear == pytest.approx(260.0)
 
 
 def test_classic_has_neither_turbo_nor_protection_nor_pickups():
     match = pitanks(FACING, variant="classic")
     match.actions[0].linear, match.actions[0].turbo = 1.0, 1
     ticks(match, 1)
-    assert match.robots[0].ask_linear == 260.0
+    assert match.robots[0].requested_linear == 260.0
     match.actions[0].linear = 0.0
     for _ in range(3):
         put_bullet(match, 0, 770.0, 450.0, 0.0)
@@ -362,10 +362,10 @@ def test_speed_is_a_quarter_more_and_goes_with_turbo():
     match = holding(SPEED)
     match.actions[0].linear = 1.0
     ticks(match, 1)
-    assert match.robots[0].ask_linear == pytest.approx(1.25 * 260.0)
+    assert match.robots[0].requested_linear == pytest.approx(1.25 * 260.0)
     match.actions[0].turbo = 1
     ticks(match, 1)
-    assert match.robots[0].ask_linear == pytest.approx(1.25 * 1.3 * 260.0)
+    assert match.robots[0].requested_linear == pytest.approx(1.25 * 1.3 * 260.0)
 
 
 def test_rapid_fires_five_times_a_second_and_has_eight_bullets():
@@ -480,7 +480,7 @@ def test_the_match_is_over_on_the_right_tick_and_stays_as_it_is():
     match.actions[0].linear = 1.0
     ticks(match, HZ, fire=[0, 1])
     assert match.tick == 150
-    assert match.robots[0].ask_linear == 0.0
+    assert match.robots[0].requested_linear == 0.0
     assert scores(match) == held
 
 
@@ -519,7 +519,7 @@ def test_the_order_of_the_seats_does_not_matter():
         ticks(there, 1, fire=range(4), move=False)
         ticks(back, 1, fire=range(4), move=False)
         for seat, robot in enumerate(there.robots):  # on the spot: contact is not what is tested here
-            robot.heading += robot.ask_angular * DT
+            robot.heading += robot.requested_angular * DT
             back.robots[3 - seat].heading = robot.heading
         assert scores(there) == scores(back)[::-1]
         assert [wall.health for wall in there.walls] == [wall.health for wall in back.walls]

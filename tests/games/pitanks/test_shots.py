@@ -183,7 +183,7 @@ def test_the_first_contact_of_a_shot_agrees_with_an_exact_oracle(teams):
             for bullet in match.bullets:
                 bullet.alive, bullet.struck = int(bullet.alive and not bullet.struck), 0
             for robot in match.robots:
-                robot.ask_linear = random.choice((-260.0, 338.0))
+                robot.requested_linear = random.choice((-260.0, 338.0))
             drive(match)
             for tank in match.tanks:
                 tank.cooldown = tick % 2

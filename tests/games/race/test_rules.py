@@ -57,7 +57,7 @@ def test_mud_slows_to_a_third_on_the_tick_the_centre_leaves_the_course_and_not_a
     for away, speed in ((-edge, 325.0), (edge, 325.0 / 3), (-edge, 325.0)):
         ride.put(0, line.bx + away * right[0] / width, line.by + away * right[1] / width)
         ride.match.tick()
-        assert robot.ask_linear == pytest.approx(speed)
+        assert robot.requested_linear == pytest.approx(speed)
 
 
 def test_mud_slows_driving_back_and_turbo_too_and_no_turning():
@@ -67,8 +67,8 @@ def test_mud_slows_driving_back_and_turbo_too_and_no_turning():
     ride.match.tick()
     robot = ride.state.robots[0]
     assert not ride.racers[0].place.on
-    assert robot.ask_linear == pytest.approx(-325.0 * 1.3 / 3)
-    assert robot.ask_angular == pytest.approx(3.0)
+    assert robot.requested_linear == pytest.approx(-325.0 * 1.3 / 3)
+    assert robot.requested_angular == pytest.approx(3.0)
 
 
 def test_turbo_is_a_meter_of_two_seconds():
@@ -343,11 +343,11 @@ def test_a_finisher_rolls_on_for_a_second_and_a_half_and_then_stops():
     ride.lap(0)
     robot, racer = ride.state.robots[0], ride.racers[0]
     assert racer.finished
-    assert robot.ask_linear > 0
-    while robot.ask_linear:
+    assert robot.requested_linear > 0
+    while robot.requested_linear:
         ride.match.tick()
     assert ride.state.tick - racer.finish == pytest.approx(1.5 * HZ, abs=2)
-    assert (robot.ask_angular, robot.boosting) == (0, 0)
+    assert (robot.requested_angular, robot.boosting) == (0, 0)
 
 
 def test_driving_after_the_finish_does_not_count():

@@ -6,7 +6,7 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, written
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.signals import DetectedMarker
 from tests.hardware.grounds import nominal
@@ -20,31 +20,31 @@ def edge_on(ground, robot, x, y, height, edge=50.0):
     """The detection of an upright marker, `edge` mm wide, `height` mm above a place."""
     half = 0.5 * edge / ground.mm
     corners = np.array([(x + half, y - half), (x + half, y + half), (x - half, y + half), (x - half, y - half)])
-    return DetectedMarker(robot, ground.seen_at(corners, height))
+    return DetectedMarker(robot, ground.pose_times(corners, height))
 
 
 def test_straightening_undoes_bending_all_over_the_picture():
     x, y = np.meshgrid(np.linspace(0, 1919, 9), np.linspace(0, 1079, 7))
     points = np.column_stack([x.ravel(), y.ravel()])
-    assert np.abs(BENT.bend(BENT.straighten(points)) - points).max() < 1e-3
+    assert np.abs(BENT.distort(BENT.undistort(points)) - points).max() < 1e-3
 
 
 def test_a_lens_that_bends_inwards_shows_straight_points_nearer_to_its_centre():
-    seen = BENT.bend(np.array([[1700.0, 900.0]]))[0]
+    seen = BENT.distort(np.array([[1700.0, 900.0]]))[0]
     assert hypot(*(seen - BENT.centre)) < hypot(1700.0 - 970.0, 900.0 - 530.0)
 
 
 def test_a_lid_is_seen_beside_its_place_by_the_height_rule():
     """Similar triangles: 70 mm up under a camera at 2500 mm, 1000 px away, appears 1000 * 70 / 2430 px further out."""
     ground = replace(nominal(), foot=(0.0, 0.0), height=2500.0)
-    apparent = ground.on_mat(ground.seen_at(np.array([[1000.0, 0.0]]), 70.0))[0]
+    apparent = ground.on_mat(ground.pose_times(np.array([[1000.0, 0.0]]), 70.0))[0]
     assert apparent == pytest.approx([1000.0 + 1000.0 * 70.0 / 2430.0, 0.0])
 
 
 def test_what_is_seen_comes_back_to_where_it_is():
     ground = replace(nominal(), lens=BENT)
     places = np.array([[10.0, 20.0], [1590.0, 30.0], [800.0, 450.0], [15.0, 880.0]])
-    assert np.abs(ground.at_height(ground.seen_at(places, 70.0), 70.0) - places).max() < 1e-3
+    assert np.abs(ground.at_height(ground.pose_times(places, 70.0), 70.0) - places).max() < 1e-3
 
 
 def test_a_marker_on_a_lid_is_a_robot_and_its_top_is_ahead():
@@ -90,7 +90,7 @@ def calibrated() -> GroundPlane:
 
 
 def test_a_calibration_survives_its_file():
-    assert read(written(calibrated()), "2: 1920 × 1080", SIZE) == calibrated()
+    assert read(to_toml(calibrated()), "2: 1920 × 1080", SIZE) == calibrated()
 
 
 @pytest.mark.parametrize(
@@ -105,7 +105,7 @@ def test_a_calibration_survives_its_file():
     ],
 )
 def test_a_file_that_is_not_as_it_was_written_is_refused_in_one_sentence(old, new, reason):
-    text = written(calibrated())
+    text = to_toml(calibrated())
     assert old in text
     with refused(CalibrationError, reason) as caught:
         read(text.replace(old, new), "2: 1920 × 1080", SIZE)
@@ -115,12 +115,12 @@ def test_a_file_that_is_not_as_it_was_written_is_refused_in_one_sentence(old, ne
 
 def test_a_calibration_of_another_display_is_refused():
     with refused(CalibrationError, "for display 2: 1920 × 1080, not 1: 1280 × 720"):
-        read(written(calibrated()), "1: 1280 × 720", SIZE)
+        read(to_toml(calibrated()), "1: 1280 × 720", SIZE)
 
 
 def test_a_calibration_of_another_camera_size_is_refused():
     with refused(CalibrationError, "1920 x 1080 px, not 1280 x 720"):
-        read(written(calibrated()), "2: 1920 × 1080", (1280, 720))
+        read(to_toml(calibrated()), "2: 1920 × 1080", (1280, 720))
 
 
 @pytest.mark.parametrize(
@@ -133,16 +133,16 @@ def test_a_calibration_of_another_camera_size_is_refused():
 )
 def test_numbers_that_cannot_be_are_refused_even_if_the_check_fits(wrong):
     with refused(CalibrationError, "cannot be used"):
-        read(written(wrong), "2: 1920 × 1080", SIZE)
+        read(to_toml(wrong), "2: 1920 × 1080", SIZE)
 
 
 def test_a_plane_that_maps_everything_to_a_line_is_refused():
-    text = written(calibrated())
+    text = to_toml(calibrated())
     flat = replace(calibrated(), foot=(1.0, 2.0))
     object.__setattr__(flat, "plane", (1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0))
-    assert written(flat) != text
+    assert to_toml(flat) != text
     with refused(CalibrationError, "cannot be used"):
-        read(written(flat), "2: 1920 × 1080", SIZE)
+        read(to_toml(flat), "2: 1920 × 1080", SIZE)
 
 
 def test_garbage_is_refused():

@@ -8,7 +8,7 @@ cv2 = pytest.importorskip("cv2")
 from pigaming_app.hardware.calibration.boards import ARENA_AT, BOARD, BOARD_IDS, CANVAS, HELD_OUT, BoardSamples  # noqa: E402
 from pigaming_app.hardware.calibration.camera_position import height_by_robot, height_by_ruler  # noqa: E402
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError  # noqa: E402
-from pigaming_app.hardware.calibration.solver import homography, least_squares, solve, verified, verify  # noqa: E402
+from pigaming_app.hardware.calibration.solver import homography, least_squares, solve, verify, with_verification  # noqa: E402
 from pigaming_app.hardware.signals import CameraFrame  # noqa: E402
 from tests.hardware.pictures import MM, SIZE, Pinhole, speckled  # noqa: E402
 from tests.hardware.sentences import refused  # noqa: E402
@@ -66,7 +66,7 @@ def test_a_calibration_from_photos_is_true_to_a_millimetre_on_the_other_board(ph
     assert residuals.accepted
     assert residuals.mean_mm < 1.0
     assert true_error_mm(ground) < 1.5
-    assert verified(ground, residuals).mean_mm == residuals.mean_mm
+    assert with_verification(ground, residuals).mean_mm == residuals.mean_mm
     assert residuals.places.shape == residuals.misses.shape
 
 
@@ -99,13 +99,13 @@ def test_a_board_in_the_wrong_place_is_found_out():
     residuals = verify(ground, perfect(BOARD), HELD_OUT)
     assert not residuals.accepted
     with refused(CalibrationError, r"1\.5 and 3 are needed"):
-        verified(ground, residuals)
+        with_verification(ground, residuals)
 
 
 def test_markers_in_a_heap_are_no_board():
     seen = {number: CAMERA.sees(np.random.default_rng(number).uniform(0, 900, (4, 2))) for number in BOARD_IDS}
     with refused(CalibrationError, r"^[^\n]*$"):
-        verified(
+        with_verification(
             ground := solve(seen, BOARD, SIZE, WIDTH_MM, "1"),
             verify(ground, perfect(HELD_OUT), HELD_OUT),
         )

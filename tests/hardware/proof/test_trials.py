@@ -79,7 +79,7 @@ def test_a_robot_that_was_carried_is_followed_where_it_was_put_down(trail):
             trail.tick()
     assert max(mm for mm, _ in trail.bed.misses()) < 10.0
     assert trail.plant.safety.lasting <= {2}, "a hand that carries a robot is no motor of its own"
-    trail.plant.forgive(2)
+    trail.plant.clear_fault(2)
 
 
 def test_when_the_program_ends_the_robots_are_told_so(trail):

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from pigaming_app.hardware.calibration.ground_plane import written
+from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.storage.settings import Settings, folders
 from tests.hardware.grounds import nominal
@@ -21,7 +21,7 @@ def calibrate(projection: str) -> None:
     """Save a calibration made with this projection."""
     folder = folders().config
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "calibration.toml").write_text(written(replace(nominal(), display=projection)), encoding="utf-8")
+    (folder / "calibration.toml").write_text(to_toml(replace(nominal(), display=projection)), encoding="utf-8")
 
 
 def soon(true: Callable[[], bool], most: float = 30.0) -> bool:

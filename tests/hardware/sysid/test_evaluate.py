@@ -138,7 +138,7 @@ def test_a_recorded_run_comes_back_as_it_was(tmp_path):
     course = run.courses[0]
     assert course.wheels[3] == pytest.approx([0.1, 0.2])
     assert course.poses[:, 2].max() == pytest.approx(6.79)  # no jump at a whole turn
-    assert len(course.seen_at) == 60
+    assert len(course.pose_times) == 60
 
 
 def test_a_recording_that_breaks_off_leaves_the_one_before(tmp_path):

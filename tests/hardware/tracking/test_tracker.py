@@ -20,7 +20,7 @@ POSES = ((300.0, 200.0, 0.4), (1300.0, 250.0, 2.5), (1200.0, 700.0, 4.0), (250.0
 def marks(poses, height=70.0):
     """Markers as seen by a perfect camera; `poses`: {robot: pose}, or pairs."""
     pairs = poses.items() if isinstance(poses, dict) else poses
-    return [DetectedMarker(robot, GROUND.seen_at(square(pose, EDGE), height)) for robot, pose in pairs]
+    return [DetectedMarker(robot, GROUND.pose_times(square(pose, EDGE), height)) for robot, pose in pairs]
 
 
 def photo(poses, seed=1, height=70.0, noise=2.0):

@@ -104,7 +104,7 @@ def test_a_camera_that_fails_to_open_is_reported_and_retried(
     assert first.preview is not None
     until(arcade, lambda: first.preview.trouble is not None and first.preview.trouble.key != "yet")
     assert first.preview.trouble is not None
-    assert "3" in arcade.context.words.explained(first.preview.trouble)
+    assert "3" in arcade.context.words.long_sentence(first.preview.trouble)
     (line,) = [record.getMessage() for record in caplog.records if "camera 3" in record.getMessage()]
     assert str(first.preview.trouble) in line, "the log has it too, once"
     driver.opens = True

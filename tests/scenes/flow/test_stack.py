@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Quit, Stack, Swap, Turn
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Quit, Stack, StackOperation, Swap
 from tests.scenes.arcade import Floor
 
 
@@ -17,7 +17,7 @@ class Camera(Floor):
 
 
 @pytest.mark.parametrize("turn", [Pop(), Swap(Floor()), Home(), Home(Floor()), Quit()])
-def test_removed_scenes_are_closed(turn: Turn) -> None:
+def test_removed_scenes_are_closed(turn: StackOperation) -> None:
     told: list[str] = []
     stack = Stack(Floor())
     stack.turn(Push(Camera("one", told)))

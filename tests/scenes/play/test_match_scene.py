@@ -256,9 +256,9 @@ def test_a_match_of_ais_never_asks(arcade: Arcade) -> None:
 def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human human off off", 1.0), [KEYS[0], None])
     arcade.open(match)
-    assert match.stood_in == [1]
+    assert match.ai_replaced == [1]
     arcade.press(Button.FIRE, KEYS[0])
-    assert match.stood_in == [1]
+    assert match.ai_replaced == [1]
     arcade.press(Button.FIRE, KEYS[3])
     assert match.devices[1] == KEYS[3]
 

@@ -10,7 +10,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Turn
+from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.storage.settings import Settings
@@ -52,13 +52,13 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
 class Failing(RealMatch):
     """A match that raises as soon as its robots drive."""
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         turn = super().update(seconds)
         if any(robot.left or robot.right for robot in cast(EmulatedSession, self.session).arena.robots):
             raise RuntimeError("on purpose")
         return turn
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         return None
 
 

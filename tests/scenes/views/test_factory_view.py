@@ -20,7 +20,7 @@ from pigaming_app.games.factory.state import (
     IN_SLOT,
     INPUT,
     MACHINE_SLOTS,
-    MOST_PALLETS,
+    MAX_PALLETS,
     ON_ROBOT,
     RAW,
     SHELVES,
@@ -131,7 +131,7 @@ def test_a_load_lies_on_the_forks(screen):
 def test_every_state_of_a_pallet_of_each_team_looks_its_own(screen, team):
     match = begun()
     view, state = seen(match), match.state
-    p = team * MOST_PALLETS
+    p = team * MAX_PALLETS
     slot = state.slots[INPUT_A]
     feed(state, p, INPUT_A)
     pictures = set()
@@ -164,13 +164,13 @@ def test_a_machine_shows_how_far_it_is_and_whose_pallet_it_has(screen):
     view, state = seen(match), match.state
     machine = state.machines[0]
     pictures = {picture(screen, view, state, machine.x, machine.y, 80)}
-    for p in (0, MOST_PALLETS):
+    for p in (0, MAX_PALLETS):
         feed(state, p, 0, IN_MACHINE)
         machine.keeps = p + 1
         for left in (290, 150, 20):
             machine.left = left
             pictures.add(picture(screen, view, state, machine.x, machine.y, 80))
-        feed(state, p, p * 2 * SHELVES // MOST_PALLETS)
+        feed(state, p, p * 2 * SHELVES // MAX_PALLETS)
     assert len(pictures) == 7
 
 
@@ -281,7 +281,7 @@ def test_waiting_and_delivered_pallets_are_counted_beside_the_warehouses(screen)
     match = begun(goal=8)
     view, state = seen(match), match.state
     entry, out = state.slots[0], state.slots[EXIT_ICE]
-    assert sum(pallet.place == WAITING for pallet in state.pallets[:MOST_PALLETS]) == 4
+    assert sum(pallet.place == WAITING for pallet in state.pallets[:MAX_PALLETS]) == 4
     four = picture(screen, view, state, entry.x - 150, entry.y - 14)
     feed(state, 7, ICE, SHIPPED)
     three = picture(screen, view, state, entry.x - 150, entry.y - 14)
@@ -321,7 +321,7 @@ def test_every_pallet_fits_into_its_teams_panel(screen, goal):
     view, state = seen(match), match.state
     view.draw(screen, state, 1.0, 0.0)
     whole = []
-    for p in (*range(goal), *range(MOST_PALLETS, MOST_PALLETS + goal)):
+    for p in (*range(goal), *range(MAX_PALLETS, MAX_PALLETS + goal)):
         state.pallets[p].state = HALF
         view.draw(screen, state, 1.0, 0.0)
         whole.append(pygame.image.tobytes(screen.subsurface((0, 0, 1920, 136)), "RGB"))

@@ -18,7 +18,7 @@ from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SETTLE, SHOWN_FROM
 from pigaming_app.scenes.views.race.gaps import figure
-from pigaming_app.scenes.views.race.ghost_files import Ghost, call, file_of, ghost_of
+from pigaming_app.scenes.views.race.ghost_files import Ghost, file_of, ghost_of, load_ghost
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import RaceCard, card_bits
 from pigaming_app.scenes.views.race.track import edges, sign_post
@@ -427,44 +427,44 @@ def test_a_ghost_turns_the_short_way():
 
 def test_a_kept_ghost_comes_back_and_another_track_of_that_name_has_none(tmp_path):
     arena = BusyRace(2).arena
-    assert call(tmp_path, arena) == (None, "")
-    ghosts.write(tmp_path, arena, a_ghost()).join()
-    assert call(tmp_path, arena) == (a_ghost(), "")
+    assert load_ghost(tmp_path, arena) == (None, "")
+    ghosts.save_ghost(tmp_path, arena, a_ghost()).join()
+    assert load_ghost(tmp_path, arena) == (a_ghost(), "")
     other = load("race", "kidney")
     assert file_of(tmp_path, arena).name.startswith("classic-")
-    assert call(tmp_path, other) == (None, "")
+    assert load_ghost(tmp_path, other) == (None, "")
 
 
 def test_ghosts_are_cleared_with_the_scores(tmp_path):
     arena = BusyRace(2).arena
     for seconds in (12.0, 10.0):  # the second leaves a .bak
-        ghosts.write(tmp_path, arena, a_ghost(seconds)).join()
-    ghosts.forget(tmp_path)
-    assert call(tmp_path, arena) == (None, "")
+        ghosts.save_ghost(tmp_path, arena, a_ghost(seconds)).join()
+    ghosts.delete_ghosts(tmp_path)
+    assert load_ghost(tmp_path, arena) == (None, "")
     assert list((tmp_path / "ghosts").iterdir()) == []
-    ghosts.forget(tmp_path / "nowhere")
+    ghosts.delete_ghosts(tmp_path / "nowhere")
 
 
 @pytest.mark.parametrize("version", ["1.3.0", "1.4.0"])
 def test_a_ghost_of_an_older_version_is_shown_if_todays_robots_could_drive_its_lap(version, monkeypatch):
     folder, arena = Path(__file__).parents[2] / "data" / version, load("race", "classic")
-    ghost, trouble = call(folder, arena)
+    ghost, trouble = load_ghost(folder, arena)
     assert trouble == ""
     assert ghost.seconds == 8.1834
     assert ghosts.drivable(ghost, arena)
     assert not ghosts.drivable(replace(ghost, crossed=(0.0, 1.0, 2.0, 3.0)), arena)
     monkeypatch.setattr(ghosts, "SLACK", 0.5)  # as if robots were half as fast
     assert not ghosts.drivable(ghost, arena)
-    assert call(folder, arena) == (None, "old")
+    assert load_ghost(folder, arena) == (None, "old")
 
 
 def test_a_ghost_of_another_engine_that_no_robot_could_drive_is_dropped_with_a_word(screen, tmp_path, caplog):
     scene = BusyRace(2)
-    ghosts.write(tmp_path, scene.arena, a_ghost()).join()
+    ghosts.save_ghost(tmp_path, scene.arena, a_ghost()).join()
     path = file_of(tmp_path, scene.arena)
     write_with_backup(path, json.dumps({**json.loads(path.read_text()), "engine": "of old"}))
     view = seen(scene)
-    view.for_real(tmp_path)
+    view.enable_persistence(tmp_path)
     assert view.recorder.ghost is None
     assert view.recorder.trouble == "old"
     assert "no robot can drive this lap" in caplog.text
@@ -479,7 +479,7 @@ def test_a_damaged_ghost_is_put_aside_with_a_word(tmp_path, text, caplog):
     path = file_of(tmp_path, arena)
     path.parent.mkdir()
     path.write_text(text)
-    assert call(tmp_path, arena) == (None, "lost")
+    assert load_ghost(tmp_path, arena) == (None, "lost")
     assert not path.exists()
     assert "cannot be read" in caplog.text
 
@@ -500,21 +500,21 @@ def test_a_damaged_ghost_is_put_aside_with_a_word(tmp_path, text, caplog):
 )
 def test_a_ghost_that_is_not_whole_is_none(tmp_path, harm):
     arena = BusyRace(2).arena
-    ghosts.write(tmp_path, arena, a_ghost()).join()
+    ghosts.save_ghost(tmp_path, arena, a_ghost()).join()
     path = file_of(tmp_path, arena)
     path.write_text(json.dumps({**json.loads(path.read_text()), **harm}))
-    assert call(tmp_path, arena) == (None, "lost")
+    assert load_ghost(tmp_path, arena) == (None, "lost")
 
 
 def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp_path):
     scene = BusyRace(2, laps=5)
     view = seen(scene)
-    view.for_real(tmp_path)
+    view.enable_persistence(tmp_path)
     drive_laps(scene, view, 0, [600, 500, 550])
     scene.state.tick += 1
     view.watch(scene.state)
     view.recorder.writing.join()
-    saved, _ = call(tmp_path, scene.arena)
+    saved, _ = load_ghost(tmp_path, scene.arena)
     assert saved == view.recorder.ghost
     assert saved.seconds == 10.0
     assert saved.line == 0
@@ -527,7 +527,7 @@ def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_pat
     scene = BusyRace(2, laps=5)
     players = ["hard", "human", "off", "off"]
     view = VIEWS["race"](scene.arena, scene.state, players, AllEffects(), Words("en"))
-    view.for_real(tmp_path)
+    view.enable_persistence(tmp_path)
     drive_laps(scene, view, 0, [600, 500])
     view.watch(scene.state)
     assert view.recorder.ghost is None
@@ -543,9 +543,9 @@ def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_pat
 
 def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_own(screen, tmp_path):
     scene = BusyRace(2, laps=5)
-    ghosts.write(tmp_path, scene.arena, a_ghost()).join()
+    ghosts.save_ghost(tmp_path, scene.arena, a_ghost()).join()
     view = seen(scene, ["hard", "human", "off", "off"])
-    view.for_real(tmp_path)
+    view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
     assert view.recorder.pose(state, 1.0) is None  # it waits for the line
     racer.passed, racer.lap_began, state.tick = 1, 100.0, 150
@@ -559,9 +559,9 @@ def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_o
 
 def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, tmp_path):
     scene = BusyRace(2, laps=5)
-    ghosts.write(tmp_path, scene.arena, a_ghost()).join()
+    ghosts.save_ghost(tmp_path, scene.arena, a_ghost()).join()
     view = seen(scene)
-    view.for_real(tmp_path)
+    view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
     racer.passed, racer.lap_began, state.tick = 1, 100.0, 150
     view.watch(state)

@@ -9,7 +9,7 @@ import pytest
 
 from pigaming_app.scenes import app as arcade
 from pigaming_app.scenes.app import App, Options, opened
-from pigaming_app.scenes.flow.stack import Push, Turn
+from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.ui.draw import frame_budget
 from pigaming_app.ui.draw.frame_budget import (
     FrameBudget,
@@ -192,11 +192,11 @@ class Slow:
     def entered(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> Turn:
+    def on(self, event: InputEvent) -> StackOperation:
         self.heard.append(event.button)
         return None
 
-    def update(self, seconds: float) -> Turn:
+    def update(self, seconds: float) -> StackOperation:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:

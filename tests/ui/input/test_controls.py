@@ -13,7 +13,7 @@ import pytest
 
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
-from pigaming_app.ui.input.filters import FIRST_REPEAT, NEXT_REPEAT, outside_dead_zone
+from pigaming_app.ui.input.filters import FIRST_REPEAT, NEXT_REPEAT, apply_dead_zone
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
 MOUSE = Device("mouse")
@@ -105,13 +105,13 @@ def test_a_thumb_that_rests_on_the_stick_drives_nowhere(controls: Controls, pads
 
 
 def test_beyond_the_dead_zone_a_stick_starts_at_zero() -> None:
-    assert outside_dead_zone(0.25, 0.0) == (0.0, 0.0)
-    assert outside_dead_zone(0.26, 0.0)[0] == pytest.approx(0.01 / 0.7)
-    assert outside_dead_zone(0.0, -0.6) == pytest.approx((0.0, -0.5))
-    assert outside_dead_zone(sqrt(0.5), sqrt(0.5)) == pytest.approx((1.0, 1.0))
-    assert outside_dead_zone(-1.0, 1.0) == pytest.approx((-1.0, 1.0))
-    assert outside_dead_zone(0.95, 0.0) == pytest.approx((1.0, 0.0))
-    assert max(outside_dead_zone(0.18, 0.18)) < 0.01  # a circle, not a square
+    assert apply_dead_zone(0.25, 0.0) == (0.0, 0.0)
+    assert apply_dead_zone(0.26, 0.0)[0] == pytest.approx(0.01 / 0.7)
+    assert apply_dead_zone(0.0, -0.6) == pytest.approx((0.0, -0.5))
+    assert apply_dead_zone(sqrt(0.5), sqrt(0.5)) == pytest.approx((1.0, 1.0))
+    assert apply_dead_zone(-1.0, 1.0) == pytest.approx((-1.0, 1.0))
+    assert apply_dead_zone(0.95, 0.0) == pytest.approx((1.0, 0.0))
+    assert max(apply_dead_zone(0.18, 0.18)) < 0.01  # a circle, not a square
 
 
 def test_the_d_pad_drives_too(controls: Controls, pads: ExitStack) -> None:

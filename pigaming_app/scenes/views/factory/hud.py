@@ -10,7 +10,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.ai import BRAINS
-from pigaming_app.games.factory.state import DELIVERED, MOST_PALLETS, TEAMS
+from pigaming_app.games.factory.state import DELIVERED, MAX_PALLETS, TEAMS
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud_parts import HudParts, number_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
@@ -43,10 +43,10 @@ class FactoryHud:
                 for i, robot in enumerate(state.robots)
                 if robot.present and robot.team == team
             )
-            first = team * MOST_PALLETS
+            first = team * MAX_PALLETS
             states = tuple(
                 sorted(
-                    (pallet.state for pallet in state.pallets[first : first + MOST_PALLETS] if pallet.exists), key=order
+                    (pallet.state for pallet in state.pallets[first : first + MAX_PALLETS] if pallet.exists), key=order
                 )
             )
             content = state.delivered[team], state.rules.pallets, mates, states

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, MOST_PALLETS, SHELVES, TEAMS, A, B
+from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, MAX_PALLETS, SHELVES, TEAMS, A, B
 from pigaming_app.scenes.views.factory.next_step import AIMS
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import factory as crates
@@ -23,7 +23,7 @@ def jobs(seats: Sequence[int]) -> Iterator[Job]:
             for tenths in (10, 13, 12, 11):
                 yield partial(crates.crate, team, state, tenths)
         yield from (partial(crates.busy, team, kind) for kind in (A, B))
-        yield from (partial(crates.count, number, team) for number in range(1, MOST_PALLETS + 1 - SHELVES))
+        yield from (partial(crates.count, number, team) for number in range(1, MAX_PALLETS + 1 - SHELVES))
     for working in (False, True):
         for stride in range(crates.STRIDE):
             for turn in range(crates.PERSON_TURNS):

@@ -14,7 +14,7 @@ import pygame
 from pigaming_app.ai import BRAINS
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
-from pigaming_app.scenes.views.hud_parts import EDGE, WIDE, XS, H, HudParts, Y, number_bits
+from pigaming_app.scenes.views.hud_parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.scenes.views.sprites.pickups import small_icon
 from pigaming_app.ui.draw import (
@@ -67,12 +67,12 @@ def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
     teams = list(dict.fromkeys(robots[i].team for i in seats))
     if len(teams) != 2 or len(seats) == 2:
         places = XS.get(len(seats), ())
-        return [SeatPanel(seat, x, WIDE) for seat, x in zip(seats, places, strict=False)], []
+        return [SeatPanel(seat, x, PANEL_W) for seat, x in zip(seats, places, strict=False)], []
     slots: list[SeatPanel] = []
     sums: list[TeamPanel] = []
     for side, team in enumerate(teams):
         members = [i for i in seats if robots[i].team == team]
-        w = min(WIDE, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
+        w = min(PANEL_W, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
         total = len(members) * w + 8 * (len(members) - 1)
         first = 692 - 12 - total if side == 0 else 1112 + SUM_W + 12
         mates = tuple(SeatPanel(seat, first + i * (w + 8), w) for i, seat in enumerate(members))

@@ -22,7 +22,7 @@ class GhostRecorder:
 
     def __init__(self, folder: Path, arena: Arena, players: Sequence[str]) -> None:
         self.folder, self.arena, self.players = folder, arena, players
-        self.ghost, self.trouble = ghosts.call(folder, arena)
+        self.ghost, self.trouble = ghosts.load_ghost(folder, arena)
         self.notes: list[list[tuple[int, Pose]]] = [[] for _ in players]  # tick and pose, for each seat's current lap
         self.golden: dict[int, Delta] = {}
         self.writing: Thread | None = None
@@ -77,5 +77,5 @@ class GhostRecorder:
         self.ghost = ghosts.ghost_of(seat, racer.last_lap * DT, crossed, track)
         if self.writing:
             self.writing.join()
-        self.writing = ghosts.write(self.folder, self.arena, self.ghost)
+        self.writing = ghosts.save_ghost(self.folder, self.arena, self.ghost)
         return True

@@ -88,7 +88,7 @@ def file_of(folder: Path, arena: Arena) -> Path:
     return folder / FOLDER / f"{arena.name}-{digest}.json"
 
 
-def call(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
+def load_ghost(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
     """The ghost of a track, if any, and the reason if one was dropped: "old", "lost", else ""."""
     parsed, warnings = read_or_restore(file_of(folder, arena), _parsed)
     for line in warnings:
@@ -118,7 +118,7 @@ def drivable(ghost: Ghost, arena: Arena) -> bool:
     return True
 
 
-def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
+def save_ghost(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
     """Save a ghost in the background, since an SD card may take a tenth of a second. Errors are logged."""
     text = json.dumps({"engine": engine_hash(), **asdict(ghost)}, separators=(",", ":"))
 
@@ -133,7 +133,7 @@ def write(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
     return thread
 
 
-def forget(folder: Path) -> None:
+def delete_ghosts(folder: Path) -> None:
     """Delete all ghosts, together with the high scores. Raises OSError."""
     for path in (folder / FOLDER).glob("*.json*"):
         path.unlink(missing_ok=True)

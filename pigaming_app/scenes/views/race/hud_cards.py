@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.scenes.views.background import Bit
-from pigaming_app.scenes.views.hud_parts import WIDE, H, Y, number_bits
+from pigaming_app.scenes.views.hud_parts import PANEL_W, H, Y, number_bits
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -35,7 +35,7 @@ from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
 
-W, EDGE = WIDE, 24  # px: width of the cards, margin around their sprites
+W, EDGE = PANEL_W, 24  # px: width of the cards, margin around their sprites
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # colours of a gain and a loss of time; the sign shows it too
 CELLS, CELL = 16, 17.75  # cells of the turbo bar, px between them
 PLACE, FIGURE, OF, ENDING = SUB, 58, BODY, 30  # font sizes: digits of 58 are 41 px high

@@ -32,7 +32,7 @@ class Rib(NamedTuple):
     y: float
     heading: float
     half: float
-    bend: float  # 1/px, positive to the right
+    distort: float  # 1/px, positive to the right
 
 
 @lru_cache(maxsize=8)
@@ -90,7 +90,7 @@ def draw_kerbs(ink: GlowCanvas, course: Course) -> None:
     for side in (1, -1):
         run = 0.0
         for a, b in zip(ring, ring[1:] + ring[:1], strict=True):
-            if a.bend * side < 1.0 / TIGHT or b.bend * side < 1.0 / TIGHT:
+            if a.distort * side < 1.0 / TIGHT or b.distort * side < 1.0 / TIGHT:
                 run = 0.0
                 continue
             near, far = [edge_point(rib, side, -4) for rib in (a, b)], [edge_point(rib, side, 10) for rib in (b, a)]

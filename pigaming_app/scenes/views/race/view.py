@@ -55,7 +55,7 @@ class RaceView(MatchView):
         self.ahead(self.cards.jobs(state))
         self.ahead(jobs(self.seats, words))
 
-    def for_real(self, folder: Path) -> None:
+    def enable_persistence(self, folder: Path) -> None:
         """Load the track's ghost, and save people's best laps."""
         self.recorder = GhostRecorder(folder, self.arena, self.players)
 
