@@ -81,9 +81,8 @@ def _claimed() -> tuple[Path, IO[str]]:
             _wait_for(lock)
             return place, lock
         lock.close()
-    raise StartError(
-        f"neither {' nor '.join(str(place.parent) for place in environment_folders())} can be written: allow one of them."
-    )
+    parents = " nor ".join(str(place.parent) for place in environment_folders())
+    raise StartError(f"neither {parents} can be written: allow one of them.")
 
 
 def _wait_for(lock: IO[str]) -> None:

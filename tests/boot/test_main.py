@@ -293,7 +293,7 @@ def test_another_base_python_of_an_environment_is_detected(furnished):
 
 def test_in_a_read_only_folder_the_environment_goes_to_the_user(tmp_path, monkeypatch):
     beside, own = tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"
-    monkeypatch.setattr(install, "places", lambda: [beside, own])
+    monkeypatch.setattr(install, "environment_folders", lambda: [beside, own])
     monkeypatch.setattr(install, "open", no_writing_below(tmp_path / "clone"), raising=False)
     place, lock = install._claimed()
     lock.close()
@@ -301,7 +301,9 @@ def test_in_a_read_only_folder_the_environment_goes_to_the_user(tmp_path, monkey
 
 
 def test_where_nothing_can_be_written_both_folders_are_named(tmp_path, monkeypatch):
-    monkeypatch.setattr(install, "places", lambda: [tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"])
+    monkeypatch.setattr(
+        install, "environment_folders", lambda: [tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"]
+    )
     monkeypatch.setattr(install, "open", no_writing_below(tmp_path), raising=False)
     with pytest.raises(interpreter.StartError, match=r"neither .*clone nor .*home can be written"):
         install._claimed()

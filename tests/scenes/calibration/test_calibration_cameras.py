@@ -159,7 +159,7 @@ def test_an_exception_in_the_thread_is_reported(controls: Controls, monkeypatch:
     def broken(image: object) -> object:
         raise RuntimeError("nobody thought of this")
 
-    monkeypatch.setattr(looking, "shrunk", broken)
+    monkeypatch.setattr(looking, "scaled_preview", broken)
     arcade = real(controls, Driver())
     first = arcade.shown(CalibrationPage)
     until(arcade, lambda: first.preview is not None and first.preview.trouble == looking.BROKEN)
