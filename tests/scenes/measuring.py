@@ -120,8 +120,8 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
 
     patch.setattr(GlowCanvas, "text", noted_text)
     patch.setattr(GlowCanvas, "line", noted_line)
-    patch.setattr(GlowCanvas, "shrinking", noted(GlowCanvas.downscale_steps, lambda ink: [ink]))
-    patch.setattr(GlowCanvas, "spriting", noted(GlowCanvas.sprite_steps, lambda ink: [ink]))
+    patch.setattr(GlowCanvas, "downscale_steps", noted(GlowCanvas.downscale_steps, lambda ink: [ink]))
+    patch.setattr(GlowCanvas, "sprite_steps", noted(GlowCanvas.sprite_steps, lambda ink: [ink]))
     patch.setattr(
         LayeredCanvas, "lighting", noted(LayeredCanvas.lighting, lambda page: [page.soft, page.crisp, page.glow])
     )

@@ -192,7 +192,7 @@ def test_a_camera_that_fails_during_calibration(arcade: Operated) -> None:
 
 
 def test_a_missing_robot_times_out(arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(standing, "PATIENCE", 1.0)
+    monkeypatch.setattr(standing, "TIMEOUT", 1.0)
     monkeypatch.setattr(arcade.site, "stand", lambda x, y: arcade.site.clear(True))
     arcade.open(HeightPage(arcade.context, replace(made, site=arcade.site), lambda: boards(arcade, made)))
     result = arcade.pictures(ResultPage)
