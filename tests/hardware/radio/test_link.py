@@ -220,7 +220,7 @@ def test_a_fault_of_the_program_stops_the_robots_and_is_told():
     air = XBeeProtocol()
     link = Link(lambda: radio, real_time.monotonic, air, name="COM3")
     link.send([AHEAD])
-    air.hear = lambda heard, now: 1 / 0
+    air.receive = lambda received, now: 1 / 0
     link.start()
     link._thread.join(timeout=5.0)
     assert crews(radio) == [STOPPED] * 5

@@ -265,7 +265,7 @@ def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     until(arcade, FaultPage, 2.0)
     play(arcade, 1.0)
     assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults]
-    assert caplog.text.count("Robot 2 has stopped by itself") == 1
+    assert caplog.text.count("Robot 2 has stopped") == 1
     monkeypatch.undo()
     until(arcade, RealMatch, 2.0)
 
