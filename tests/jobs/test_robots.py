@@ -52,6 +52,7 @@ def test_without_opencv_there_is_no_emulated_arena_and_one_sentence(capsys, monk
     assert "opencv" in text.lower()
 
 
+@pytest.mark.long
 def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
     pytest.importorskip("cv2")
     found = output(capsys, "robots", "--emulate", "--pair")

@@ -24,6 +24,7 @@ from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.bench.memory import press
+from tests.cases import one_in
 from tests.scenes.arcade import Arcade, Floor
 
 
@@ -70,7 +71,7 @@ def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> Non
     assert surfaces.bytes < title + (24 << 20), "what is left are the pages of the match"
 
 
-@pytest.mark.parametrize("game", games())
+@pytest.mark.parametrize("game", one_in(3, games()))
 def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[tuple[int, Hashable]] = []
     keep = SurfaceCache._insert

@@ -86,6 +86,7 @@ def test_left_and_right_swapped_is_the_same_duel_seen_from_the_other_side():
     assert one.wilson95 == wilson(one.wins, 8)
 
 
+@pytest.mark.long
 def test_compiled_or_plain_the_scores_are_the_same():
     plain, fast = (
         duel("pitanks", "fsm", "random", matches=4, seed=11, minutes=0.5, variant="plain", fast=fast)

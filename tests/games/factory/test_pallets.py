@@ -170,6 +170,7 @@ def test_invariants_hold_while_robots_jump_from_slot_to_slot_and_press_fire(floo
     assert (RAW, HALF) in seen
 
 
+@pytest.mark.long
 def test_every_change_of_state_occurs_while_robots_jump():
     """Otherwise the test above would not cover some of them."""
     chance = Random(5)

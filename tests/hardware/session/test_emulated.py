@@ -22,6 +22,7 @@ def session() -> Iterator[EmulatedSession]:
     session.end()
 
 
+@pytest.mark.long
 def test_who_drives_and_does_nothing_about_drift_is_stopped_when_the_camera_has_moved(session: EmulatedSession) -> None:
     world: Any = World()
     for robot in world.robots:

@@ -100,6 +100,7 @@ def test_while_it_is_watched_it_plays_in_real_time_and_ten_times_as_fast(arcade:
     assert match.tick - before == pytest.approx(500, abs=20)
 
 
+@pytest.mark.long
 def test_as_fast_as_it_can_it_learns_is_examined_and_has_a_plan(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -148,6 +148,7 @@ def test_a_fault_pauses_with_its_reason_and_the_match_goes_on_when_it_is_gone(
     assert match.match.state.tick > before
 
 
+@pytest.mark.long
 def test_a_match_drives_with_the_drift_that_its_session_measures(arcade: Arcade, mat: EmulatedSession) -> None:
     """The scene draws the corner markers; their drift is measured independently of it."""
     match = begun(arcade)
@@ -189,6 +190,7 @@ def test_both_shoulders_of_a_pad_are_the_all_stop(controls: Controls) -> None:
     assert heard == [[], [Button.STOP]]
 
 
+@pytest.mark.long
 def test_a_robot_in_trouble_is_replaced_by_a_simulated_one_with_one_press(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     mat.arena.faults.switch("robot_off", True, 1)
@@ -224,6 +226,7 @@ def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(ar
     assert match.gathering is None
 
 
+@pytest.mark.long
 def test_a_battery_that_runs_low_is_only_said(
     arcade: Arcade, mat: EmulatedSession, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -254,6 +257,7 @@ def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
     assert caplog.text.count("the motors stay off below 4.4 V") == 1
 
 
+@pytest.mark.long
 def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     arcade: Arcade, mat: EmulatedSession, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -303,6 +307,7 @@ def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat:
     assert hypot(x - match.match.state.robots[0].x, y - match.match.state.robots[0].y) < 30.0
 
 
+@pytest.mark.long
 def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     match.stop()
