@@ -85,6 +85,7 @@ class Session:
         return self.rig
 
 
+@pytest.mark.long
 def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(fidelity, "new_session", Session)
     run, out = tmp_path / "run.jsonl", tmp_path / "robots.toml"

@@ -55,6 +55,7 @@ def warmed(arcade: Arcade, game: str) -> None:
     arcade.wait(0.2, draw=True)
 
 
+@pytest.mark.long
 def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> None:
     arcade.wait(0.1, draw=True)
     title = surfaces.bytes

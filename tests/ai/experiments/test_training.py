@@ -107,6 +107,7 @@ def test_a_checkpoint_stays_as_it_was_and_takes_a_seat(fast):
     assert any(match.log.ticks[tick : tick + 3] != b"\x40\x40\x00" for tick in range(0, len(match.log.ticks), 12))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("fast", BODIES)
 def test_measuring_plays_matches_and_leaves_the_training_alone(fast):
     course = short(fast)
@@ -254,6 +255,7 @@ def test_the_tables_that_come_with_the_arcade_were_trained_on_this_engine(name):
     assert not trained.other_engine, "run `python -m tests.bench.reproduce_table --ship`"
 
 
+@pytest.mark.long
 def test_they_fare_against_the_frozen_machine_about_as_published():
     """32 / 68 / 0 and 94 / 6 / 0 of 100; here of 10, which tests/bench/reproduce_table.py plays in full."""
     wins, losses = {}, {}

@@ -43,6 +43,7 @@ def scattered(mat: EmulatedSession, trial: int) -> None:
     mat.arena.camera.newest()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("ambient", "trial"), one_in(5, [(0.02, 0), (0.02, 1), (0.02, 2), (0.02, 3), (0.05, 0), (1.0, 0)])
 )

@@ -82,6 +82,7 @@ def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
     assert match.match.state.tick > before
 
 
+@pytest.mark.long
 def test_swapped_lids_are_paired_again_from_the_page_and_the_match_goes_on(
     arcade: Arcade, mat: EmulatedSession
 ) -> None:
@@ -111,6 +112,7 @@ def test_reversed_motors_are_found_by_pairing_and_not_driven_again(arcade: Arcad
     until(arcade, RealMatch)
 
 
+@pytest.mark.long
 def test_any_press_stops_robots_that_are_paired(arcade: Arcade, mat: EmulatedSession) -> None:
     gathering(arcade)
     mat.arena.faults.switch("motors_reversed", True, 1)

@@ -162,6 +162,7 @@ def test_a_match_drives_with_the_drift_that_its_session_measures(arcade: Arcade,
     mat.arena.camera.painter.refresh = before
 
 
+@pytest.mark.long
 def test_the_all_stop_holds_until_fire_is_held(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     arcade.press(Button.STOP)

@@ -62,6 +62,7 @@ class Failing(RealMatch):
         return None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("alone", one_in(2, [True, False]))
 def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, alone: bool) -> None:
     contexts: list[Context] = []

@@ -76,6 +76,7 @@ def feed(state, p, s, kind=IN_SLOT):
     move(state, p, kind, s)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("floor", one_in(3, arenas("factory")))
 @pytest.mark.parametrize("goal", one_in(2, [8, 2]))
 def test_a_match_among_drivers_draws_and_is_left_alone(screen, floor, goal):
