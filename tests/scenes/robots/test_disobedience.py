@@ -136,6 +136,6 @@ def test_a_single_reversed_motor_drives_off_only_a_hand_wide_while_pairing(
     play(arcade, 0.5)
     x, y, _ = mat.arena.poses()[1]
     page = paired(arcade)
-    assert "check the wires" in page.sentence
+    assert "check its motor wires" in page.sentence
     now_x, now_y, _ = mat.arena.poses()[1]
     assert hypot(now_x - x, now_y - y) < 60.0

@@ -99,7 +99,7 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedS
         idle(arcade, page)
         assert rig.channels[:2] == (1, 0)
         assert arcade.context.settings.radios == [2, 1, 3, 4]
-        assert "From now on" in page.navigation.sentence
+        assert "This is now saved" in page.navigation.sentence
         assert Settings.load(folders().config)[0].radios == [2, 1, 3, 4]
     finally:
         heard[0].robot, heard[1].robot = heard[1].robot, heard[0].robot
