@@ -17,7 +17,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.sim.record import to_bytes
+from pigaming_app.sim.record import comparable_bytes
 
 FILE = Path(__file__).with_name("golden.json")
 TICKS = 1000
@@ -57,17 +57,18 @@ def played(key: str) -> str:
     """
     game, arena, variant = key.split("/")
     rules = games()[game]
-    one, two, three, four = (Seat("random", team) for team in rules.teams)
-    match = Match(Setup(game, arena, (one, two, three, four), 1.0, SEED, variant, rules.default_goal))
+    offered = rules.variants[variant]
+    one, two, three, four = (Seat("random", team) for team in offered.teams)
+    match = Match(Setup(game, arena, (one, two, three, four), 1.0, SEED, variant, offered.default_goal))
     for seat in range(4):
         match.sit(seat, make(game, "random", SEED + seat))
     for _ in range(TICKS):
         match.tick()
-    sha = hashlib.sha256(to_bytes(match.state))
+    sha = hashlib.sha256(comparable_bytes(match.state))
     for seat in range(4):
         view = rules.observation()
         rules.observe(match.state, seat, rules.senses(), view)
-        sha.update(to_bytes(view))
+        sha.update(comparable_bytes(view))
     return sha.hexdigest()
 
 

@@ -23,19 +23,17 @@ TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
 
 def setup(game, arena=None, seed=1, variant=None, minutes=0.2, teams=None):
     """A setup with the highest goal, so that only time ends the match."""
-    rules = games()[game]
+    rules = games()[game].variants[variant or games()[game].default.name]
     one, two, three, four = (Seat("random", team) for team in teams or rules.teams)
     goal = max(rules.goals, default=0)
-    return Setup(
-        game, arena or arenas(game)[0], (one, two, three, four), minutes, seed, variant or rules.variants[0], goal
-    )
+    return Setup(game, arena or arenas(game)[0], (one, two, three, four), minutes, seed, rules.name, goal)
 
 
 def companies():
     """Every arena with each team assignment of its game."""
     for game, arena in EVERY_ARENA:
-        yield game, arena, games()[game].teams
-        if games()[game].team_mode != ALONE:
+        yield game, arena, games()[game].default.teams
+        if games()[game].default.team_mode != ALONE:
             yield game, arena, (0, 0, 1, 1)
 
 
@@ -72,8 +70,13 @@ def test_a_random_match_ends_when_its_time_is_up(game, arena):
 @pytest.mark.parametrize("game", games())
 def test_both_bodies_play_the_same_match_to_the_last_bit(game):
     names = arenas(game)
-    each = -(-TWINS_TICKS // (2 * len(names)))
-    setups = [setup(game, name, seed, minutes=60.0) for name in names for seed in (1, 2)]
+    variants = [*games()[game].variants] * 2
+    setups = [
+        setup(game, name, seed, variant, minutes=60.0)
+        for name in names
+        for seed, variant in enumerate(variants, start=1)
+    ]
+    each = -(-TWINS_TICKS // len(setups))
     plain, fast = (Batch(setups, company(game), fast) for fast in (False, True))
     for batch in (plain, fast):
         batch.play(each)

@@ -7,7 +7,8 @@ from typing import Any
 from pigaming_app.sim.arena import Arena, Layout
 from pigaming_app.sim.toml_table import TomlTable
 
-FREE, ALONE, PAIRS = "free", "alone", "pairs"  # teams: free choice; none; two teams of at most two robots
+FREE, ALONE, PAIRS, ALLIES = "free", "alone", "pairs", "allies"
+"""Team modes: free choice; none; two teams of at most two robots; all robots in one team."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,20 @@ class RecordKind:
 
 
 @dataclass(frozen=True)
+class Variant:
+    """One rule set of a game, with the choices that it offers."""
+
+    name: str
+    minutes: tuple[int, ...]
+    default_minutes: int
+    goals: tuple[int, ...] = ()  # the choices; empty: the variant has no goal, only a time limit
+    default_goal: int = 0
+    team_mode: str = FREE  # FREE, ALONE, PAIRS or ALLIES
+    teams: tuple[int, int, int, int] = (0, 1, 2, 3)  # default team of each seat
+    overtime: float = 0.0  # s, by which a level match may exceed its minutes
+
+
+@dataclass(frozen=True)
 class Game:
     """The functions and properties of one game. `judge` and `observe` are kernels: they run plain and compiled."""
 
@@ -71,13 +86,7 @@ class Game:
     state: type
     senses: type  # record with the parameters of an observation
     observation: type
-    variants: tuple[str, ...]  # the first is the default
-    minutes: tuple[int, ...]
-    default_minutes: int
-    goals: tuple[int, ...]  # the choices; empty: the game has no goal, only a time limit
-    default_goal: int
-    team_mode: str  # FREE, ALONE or PAIRS
-    teams: tuple[int, int, int, int]  # default team of each seat
+    variants: Mapping[str, Variant]  # by name; the first is the default
     columns: tuple[str, ...]  # keys of `stats`, in the order of the results table
     record_kinds: tuple[RecordKind, ...]
     read: Callable[[TomlTable], Layout]  # parse an arena file, except its title; raises FieldError
@@ -89,3 +98,13 @@ class Game:
     records: Callable[[Any, int], Mapping[str, int]]  # by names of `record_kinds`; only those achieved
     times: Callable[[Any, int], tuple[float, ...]]
     goal: str = ""  # unit of `goals`: laps, pallets
+
+    @property
+    def default(self) -> Variant:
+        """The variant that is played unless another one is chosen."""
+        return next(iter(self.variants.values()))
+
+
+def named(*variants: Variant) -> Mapping[str, Variant]:
+    """Variants by name."""
+    return {variant.name: variant for variant in variants}

@@ -155,7 +155,8 @@ def _setup(table: Mapping[str, Any]) -> Setup:
         int(table["goal"]),
     )
     rules = games()[game]
-    if variant not in rules.variants or not 0 < minutes <= 60 or goal not in (*rules.goals, rules.default_goal):
+    offered = rules.variants[variant]
+    if not 0 < minutes <= 60 or goal not in (*offered.goals, offered.default_goal):
         raise ValueError("setup")
-    check_teams(rules, [seat.team for seat in seats if seat.brain != "off"])
+    check_teams(rules, offered, [seat.team for seat in seats if seat.brain != "off"])
     return Setup(game, str(table["arena"]), (one, two, three, four), minutes, int(table["seed"]), variant, goal)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import ALONE, PAIRS, Game, Seat, Setup
+from pigaming_app.games.game import ALLIES, ALONE, PAIRS, Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import ROBOTS
 
@@ -34,34 +34,39 @@ def make_setup(
     if len(brains) > ROBOTS:
         raise ChoiceError(f"--seats names {len(brains)} seats, but there are {ROBOTS}")
     brains = [*brains, *["off"] * (ROBOTS - len(brains))]
-    teams = list(rules.teams if teams is None else teams)
+    variant = rules.default.name if variant is None else variant
+    require_one_of("variant", variant, list(rules.variants))
+    offered = rules.variants[variant]
+    teams = list(offered.teams if teams is None else teams)
     if len(teams) != ROBOTS:
         raise ChoiceError(f"--teams needs {ROBOTS} numbers, one for each seat")
     if not {*teams} <= {*range(ROBOTS)}:
         raise ChoiceError(f"teams are numbers from 0 to {ROBOTS - 1}")
-    check_teams(rules, [team for brain, team in zip(brains, teams, strict=True) if brain != "off"])
-    minutes = float(rules.default_minutes if minutes is None else minutes)
+    check_teams(rules, offered, [team for brain, team in zip(brains, teams, strict=True) if brain != "off"])
+    minutes = float(offered.default_minutes if minutes is None else minutes)
     if not MIN_MINUTES <= minutes <= MAX_MINUTES:
         raise ChoiceError(f"{minutes:g} minutes; possible are {MIN_MINUTES:g} to {MAX_MINUTES:g}")
-    variant = rules.variants[0] if variant is None else variant
-    require_one_of("variant", variant, rules.variants)
-    goal = rules.default_goal if goal is None else goal
-    if goal != rules.default_goal and goal not in rules.goals:
-        possible = f"{rules.goals[0]} to {rules.goals[-1]} {rules.goal}" if rules.goals else "time alone"
+    goal = offered.default_goal if goal is None else goal
+    if goal != offered.default_goal and goal not in offered.goals:
+        possible = f"{offered.goals[0]} to {offered.goals[-1]} {rules.goal}" if offered.goals else "time alone"
         raise ChoiceError(f"a goal of {goal}; {game} is played for {possible}")
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
     return Setup(game, arena or arenas(game)[0], (one, two, three, four), minutes, seed, variant, goal)
 
 
-def check_teams(rules: Game, playing: Sequence[int]) -> None:
-    """Raises ChoiceError unless the game permits these teams, one for each robot that plays."""
+def check_teams(rules: Game, variant: Variant, playing: Sequence[int]) -> None:
+    """Raises ChoiceError unless the variant of a game permits these teams, one for each robot that plays."""
     if len(playing) < 2:
         raise ChoiceError("at least two seats must be taken")
+    if variant.team_mode == ALLIES:
+        if len(set(playing)) > 1:
+            raise ChoiceError(f"in {rules.name}, {variant.name}, all robots are in one team")
+        return
     if len(set(playing)) < 2:
         raise ChoiceError("there must be at least two teams")
-    if rules.team_mode == ALONE and len(set(playing)) < len(playing):
+    if variant.team_mode == ALONE and len(set(playing)) < len(playing):
         raise ChoiceError(f"{rules.name} knows no teams")
-    if rules.team_mode == PAIRS and (not {*playing} <= {0, 1} or max(playing.count(0), playing.count(1)) > 2):
+    if variant.team_mode == PAIRS and (not {*playing} <= {0, 1} or max(playing.count(0), playing.count(1)) > 2):
         raise ChoiceError(f"{rules.name} is played by two teams, 0 and 1, of at most two robots each")
 
 

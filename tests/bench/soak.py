@@ -39,9 +39,9 @@ def main(hours: float) -> int:
 def setup(game: str, arena: str, seed: int) -> Setup:
     """A match with the longest goal."""
     rules = games()[game]
-    one, two, three, four = (Seat(name, team) for name, team in zip(BRAIN, rules.teams, strict=True))
-    goal = max(rules.goals, default=0)
-    return Setup(game, arena, (one, two, three, four), 2.0, seed, rules.variants[0], goal)
+    one, two, three, four = (Seat(name, team) for name, team in zip(BRAIN, rules.default.teams, strict=True))
+    goal = max(rules.default.goals, default=0)
+    return Setup(game, arena, (one, two, three, four), 2.0, seed, rules.default.name, goal)
 
 
 def day(game: str, hours: float) -> Iterator[list[str]]:

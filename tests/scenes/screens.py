@@ -53,7 +53,7 @@ class Ending:
         game = games()[self.game]
         goal = max(game.goals, default=0)
         arena = max(arenas(self.game), key=len)
-        setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, game.variants[-1], goal)
+        setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, list(game.variants)[-1], goal)
         devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
         scene = Results(arcade.context, self.outcome(), setup, devices, MatchScene, finished, game_choice=game_choice)
         scene.age = 9.0
@@ -93,7 +93,7 @@ def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
 
 
 def seats(game: str) -> Seats:
-    found = Seats(team_mode=games()[game].team_mode, rivals=RIVALS[game])
+    found = Seats(team_mode=games()[game].default.team_mode, rivals=RIVALS[game])
     for device in KEYS[:2]:
         found.join(device)
     found.add()
@@ -111,7 +111,7 @@ def best(game: str) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         rules = games()[game]
         conditions = ScoreTable(
-            game, max(arenas(game), key=len), "", False, rules.variants[-1], max(rules.goals or (5,)), 4
+            game, max(arenas(game), key=len), "", False, list(rules.variants)[-1], max(rules.default.goals or (5,)), 4
         )
         for board in high_score_tables(conditions):
             for score in (999, 599_990, -100):

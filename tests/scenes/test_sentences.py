@@ -29,7 +29,7 @@ def ended(game: str, brains: str, teams: tuple[int, ...], winners: tuple[int, ..
     """The outcome of a match of two minutes."""
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
     setup = Setup(
-        game, "classic", (one, two, three, four), 2.0, 1, games()[game].variants[0], games()[game].default_goal
+        game, "classic", (one, two, three, four), 2.0, 1, games()[game].default.name, games()[game].default.default_goal
     )
     there = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
     rows = tuple(Row(i, teams[i], 1, 3, {}, {}, ()) for i in there)
@@ -98,7 +98,7 @@ def test_the_numbers_of_the_rules_are_those_of_the_game() -> None:
     }  # fmt: skip
     assert rule_numbers("race", 10, "standard")["patience"] == "30"
     for game in games():
-        drain = 1.0 / (float(rule_numbers(game, 5, games()[game].variants[0])["turbo"]) / DT)
+        drain = 1.0 / (float(rule_numbers(game, 5, games()[game].default.name)["turbo"]) / DT)
         assert drain == pytest.approx(0.01), "of the meter, per tick"
 
 

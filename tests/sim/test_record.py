@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.record import copy, digest, dtype, numbers, packed, record, to_bytes, unpack
+from pigaming_app.sim.record import added, copy, digest, dtype, numbers, packed, record, to_bytes, unpack
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import World
 
@@ -162,3 +162,45 @@ def test_narrow_numbers_must_fill_whole_words():
 def test_a_misspelt_field_is_an_error():
     with pytest.raises(AttributeError):
         Cart().laod = 1.0
+
+
+@record
+class OldCart:
+    wheels: Annotated[list[Wheel], 2]
+    load: float
+
+
+@record
+class NewWheel:
+    speed: float
+    turns: int
+    flat: int = added()
+
+
+@record
+class NewCart:
+    wheels: Annotated[list[NewWheel], 2]
+    limit: float = added(1.5)
+    load: float
+    notes: Annotated[list[int], 4, "h"] = added()
+
+
+def test_added_fields_leave_the_digest_alone_until_they_are_used():
+    old, new = filled(OldCart), NewCart()
+    new.load = old.load
+    for was, now in zip(old.wheels, new.wheels, strict=True):
+        now.speed, now.turns = was.speed, was.turns
+    assert digest(new) == digest(old) == digest(packed([new])[0])
+    seen = {digest(new)}
+    for change in (
+        lambda cart: setattr(cart.wheels[0], "flat", 1),
+        lambda cart: setattr(cart.wheels[1], "flat", 1),
+        lambda cart: setattr(cart, "limit", 0.0),
+        lambda cart: cart.notes.__setitem__(3, 1),
+    ):
+        other = copy(new)
+        change(other)
+        assert digest(other) == digest(packed([other])[0])
+        seen.add(digest(other))
+    assert len(seen) == 5
+    assert NewCart().limit == 1.5

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.ratings import Rating, ratings
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.games.game import PAIRS, Setup
+from pigaming_app.games.game import PAIRS, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
 from pigaming_app.sim.kernel import can_compile
@@ -150,8 +150,9 @@ class Ending(NamedTuple):
 def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[Ending]]:
     """Play these matches, every other one with the sides swapped; returns the duel and each match's end, in order."""
     game, matches = setups[0].game, len(setups)
-    brains = [left, right, left, right] if games()[game].team_mode == PAIRS else [left, right]
-    ticks = round(setups[0].minutes * 60 * HZ)
+    variant = games()[game].variants[setups[0].variant]
+    brains = _line_up(variant, left, right)
+    ticks = round((setups[0].minutes * 60 + variant.overtime) * HZ)
     if fast is None:
         fast = can_compile() and matches * ticks > WORTH_COMPILING
     began = perf_counter()
@@ -196,9 +197,16 @@ def _setups(
     require_one_of("game", game, list(games()))
     if not 1 <= matches <= MOST_MATCHES:
         raise ChoiceError(f"--matches: {matches}; possible are 1 to {MOST_MATCHES}")
-    brains = [left, right, left, right] if games()[game].team_mode == PAIRS else [left, right]
-    kinds = list(BRAINS[game])
+    variants = games()[game].variants
+    variant = games()[game].default.name if variant is None else variant
+    require_one_of("variant", variant, list(variants))
+    brains, kinds = _line_up(variants[variant], left, right), list(BRAINS[game])
     return [make_setup(game, brains, arena, minutes, seed + i // 2, variant, None, kinds, goal) for i in range(matches)]
+
+
+def _line_up(variant: Variant, left: str, right: str) -> list[str]:
+    """The brain of each seat; in a game of two pairs each brain has a whole team."""
+    return [left, right, left, right] if variant.team_mode == PAIRS else [left, right]
 
 
 def _both_ways(setups: Sequence[Setup], brains: list[str]) -> Iterator[tuple[Sequence[Setup], list[str]]]:

@@ -14,13 +14,14 @@ from pigaming_app.games.factory.state import (
     Factory,
     Rules,
 )
-from pigaming_app.games.game import Setup
+from pigaming_app.games.game import PAIRS, Setup, Variant, named
 from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 PALLETS = Rules().pallets  # per team, the default goal
 GOALS = tuple(range(2, MAX_PALLETS + 1))
+VARIANTS = named(Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1)))
 STEPS_PER_DELIVERY = 1000.0  # steps of work that weigh as much as one delivery: more than a match can have
 
 

@@ -2,14 +2,15 @@
 
 from collections.abc import Mapping
 
-from pigaming_app.games.game import Setup
+from pigaming_app.games.game import Setup, Variant, named
 from pigaming_app.games.pitanks.state import PiTanks, Rules
 from pigaming_app.sim.arena import Arena, Layout, build, read_starts, read_walls
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HZ
 
-VARIANTS = ("pickups", "plain", "classic")
+MINUTES, DEFAULT_MINUTES = (1, 2, 3, 5), 2
+VARIANTS = named(*(Variant(name, MINUTES, DEFAULT_MINUTES) for name in ("pickups", "plain", "classic")))
 
 
 def read(table: TomlTable) -> Layout:

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import atan2, tau
 
-from pigaming_app.games.game import Setup
+from pigaming_app.games.game import ALONE, Setup, Variant, named
 from pigaming_app.games.race.circuit import read_course
 from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.racing_line import fastest_line
@@ -28,6 +28,7 @@ from pigaming_app.sim.world import DT, HZ
 
 LAPS = Rules().laps  # the default goal
 GOALS = tuple(range(1, MAX_LAPS + 1))
+VARIANTS = named(Variant("standard", (10,), 10, GOALS, LAPS, ALONE))
 BEHIND = 55.0  # px between a robot's start and its line
 APART = 300.0  # px, least distance between two lines
 

@@ -62,12 +62,10 @@ def measure(game: str) -> dict[str, Any]:
 
 def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
     """The scene as a batch of `matches` matches."""
-    rules = games()[game]
+    rules = games()[game].default
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     arena, goal = arenas(game)[0], max(rules.goals, default=0)
-    setups = [
-        Setup(game, arena, (one, two, three, four), 5.0, seed + i, rules.variants[0], goal) for i in range(matches)
-    ]
+    setups = [Setup(game, arena, (one, two, three, four), 5.0, seed + i, rules.name, goal) for i in range(matches)]
     return Batch(setups, [BRAINS[game]["normal"]] * 4, fast)
 
 

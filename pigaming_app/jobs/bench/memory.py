@@ -122,12 +122,10 @@ def match(context: "Context", state: str) -> "Scene":
     """A match of four normal AIs in the first arena of the game `state`."""
     from pigaming_app.scenes.play.scene import MatchScene
 
-    rules = games()[state]
+    rules = games()[state].default
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
-    return MatchScene(
-        context, Setup(state, arenas(state)[0], (one, two, three, four), MINUTES, 1, rules.variants[0], goal)
-    )
+    return MatchScene(context, Setup(state, arenas(state)[0], (one, two, three, four), MINUTES, 1, rules.name, goal))
 
 
 Route = tuple[tuple[float, Callable[["Context", str], "Scene"]], ...]  # seconds, and the scene in which they pass

@@ -108,10 +108,10 @@ def jobs() -> list[Job]:
 
 def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
     """Play a match on its own emulated mat, which is calibrated first unless a `ground` is given."""
-    rules = games()[job.game]
+    rules = games()[job.game].default
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
-    setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.variants[0], goal)
+    setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.name, goal)
     bed = Testbed(job.seed, job.fps, LOST, RadioChannel(loss=LOST, doubled=LOST / 2, broken=LOST / 4), ground)
     match = Match(setup, lambda world: RealPlant(world, bed.rig))
     for seat in range(ROBOTS):

@@ -22,8 +22,16 @@ def read(game: str, name: str) -> None:
 
 def prepare(game: str, name: str) -> None:
     """Seat AIs in an arena, which solves the racing line."""
-    rules = games()[game]
+    rules = games()[game].default
     one, two, three, four = (Seat("hard", team) for team in rules.teams)
-    setup = Setup(game, name, (one, two, three, four), rules.default_minutes, 1, rules.variants[0], rules.default_goal)
+    setup = Setup(
+        game,
+        name,
+        (one, two, three, four),
+        rules.default_minutes,
+        1,
+        rules.name,
+        rules.default_goal,
+    )
     with suppress(ArenaError):
         seated(setup)

@@ -4,6 +4,7 @@ import logging
 from functools import lru_cache
 
 from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.game import Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
@@ -40,12 +41,19 @@ def arena_title(arena: Arena, language: str) -> str:
 def last_choice(context: Context, game: str) -> Choice:
     """The options of the last match, or the game's defaults where those are no longer available."""
     rules, last, names = games()[game], context.settings.choice(game), playable_arenas(game)
-    return Choice(
-        arena=last.arena if last.arena in names else names[0],
-        minutes=last.minutes if last.minutes in rules.minutes else rules.default_minutes,
-        variant=last.variant if last.variant in rules.variants else rules.variants[0],
-        goal=last.goal if last.goal in rules.goals else rules.default_goal,
-    )
+    variant = rules.variants.get(last.variant, rules.default)
+    arena = last.arena if last.arena in names else names[0]
+    choice = Choice(arena=arena, minutes=last.minutes, variant=variant.name, goal=last.goal)
+    fit_choice(variant, choice)
+    return choice
+
+
+def fit_choice(variant: Variant, choice: Choice) -> None:
+    """Set the minutes and the goal to the variant's defaults where it does not offer the chosen ones."""
+    if choice.minutes not in variant.minutes:
+        choice.minutes = variant.default_minutes
+    if choice.goal not in variant.goals:
+        choice.goal = variant.default_goal
 
 
 def choice_summary(context: Context, game: str) -> str:

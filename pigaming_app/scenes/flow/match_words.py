@@ -5,7 +5,7 @@ from typing import Any
 
 from pigaming_app.games.factory.start import set_rules as factory_rules
 from pigaming_app.games.factory.state import Rules as FactoryRules
-from pigaming_app.games.game import Game, Seat, Setup
+from pigaming_app.games.game import Game, Seat, Setup, Variant
 from pigaming_app.games.pitanks.start import set_rules as pitanks_rules
 from pigaming_app.games.pitanks.state import Rules as PiTanksRules
 from pigaming_app.games.race.start import set_rules as race_rules
@@ -25,7 +25,7 @@ RULES: dict[str, tuple[Callable[[], Any], Callable[[Any, Setup], None]]] = {
 
 def limits_line(words: Words, game: str, minutes: float) -> str:
     """The rule limits of a game whose matches last at most `minutes`, as one line."""
-    return words(f"howto.limits_{game}", **rule_numbers(game, minutes, games()[game].variants[0]))
+    return words(f"howto.limits_{game}", **rule_numbers(game, minutes, games()[game].default.name))
 
 
 def tagline(words: Words, game: str, goal: int) -> str:
@@ -35,14 +35,19 @@ def tagline(words: Words, game: str, goal: int) -> str:
 
 def last_goal(settings: Settings, game: str) -> int:
     """The laps or pallets of the last match."""
-    goal, rules = settings.choice(game).goal, games()[game]
-    return goal if goal in rules.goals else rules.default_goal
+    choice, variant = settings.choice(game), last_variant(settings, game)
+    return choice.goal if choice.goal in variant.goals else variant.default_goal
 
 
 def last_minutes(settings: Settings, game: str) -> int:
     """The minutes of the last match."""
-    minutes, rules = settings.choice(game).minutes, games()[game]
-    return minutes if minutes in rules.minutes else rules.default_minutes
+    choice, variant = settings.choice(game), last_variant(settings, game)
+    return choice.minutes if choice.minutes in variant.minutes else variant.default_minutes
+
+
+def last_variant(settings: Settings, game: str) -> Variant:
+    """The rule set of the last match."""
+    return games()[game].variants.get(settings.choice(game).variant, games()[game].default)
 
 
 def match_length(words: Words, game: Game, minutes: float, goal: int) -> str:
@@ -55,7 +60,7 @@ def rule_numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
     make, set_rules = RULES[game]
     rules, empty = make(), Seat("off", 0)
     seats = empty, empty, empty, empty
-    set_rules(rules, Setup(game, "", seats, minutes, 1, variant, games()[game].default_goal))
+    set_rules(rules, Setup(game, "", seats, minutes, 1, variant, games()[game].variants[variant].default_goal))
     numbers = {
         "minutes": rules.ticks * DT / 60.0,
         "protection": getattr(rules, "protection", 0) * DT,

@@ -10,11 +10,11 @@ from functools import lru_cache
 
 import pygame
 
-from pigaming_app.games.game import PAIRS, Game, Seat, Setup
+from pigaming_app.games.game import PAIRS, Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import arena_title, last_choice, load_cached, playable_arenas
+from pigaming_app.scenes.flow.match_choice import arena_title, fit_choice, last_choice, load_cached, playable_arenas
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
@@ -54,7 +54,7 @@ class MatchSetupPage:
         self.context, self.game, self.seats, self.game_choice = context, games()[game], seats, game_choice
         self.arenas = playable_arenas(game)
         self.chosen = last_choice(context, game)
-        self.rows = rows(self.game)
+        self.rows = rows(self.game, self.variant)
         self.clock, self.slide, self.direction = 0.0, SLIDE_SECONDS, 1
         self.access = Access(context, seats.devices)
         self.going = False  # start requested, waiting for the preloader
@@ -152,9 +152,9 @@ class MatchSetupPage:
             arena = arena_title(load_cached(game.name, now.arena), words.language)
             return choice.row(words(f"setup.arena_{game.name}"), arena, position)
         if name == "goal":
-            return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, game.goals)), str(now.goal))
+            return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, self.variant.goals)), str(now.goal))
         if name == "minutes":
-            return choice.chips(words("setup.minutes"), tuple(map(str, game.minutes)), str(now.minutes))
+            return choice.chips(words("setup.minutes"), tuple(map(str, self.variant.minutes)), str(now.minutes))
         if name == "rules":
             line = words(f"setup.{now.variant}_line")
             return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
@@ -168,14 +168,27 @@ class MatchSetupPage:
             now.arena = self.arenas[(self.arenas.index(now.arena) + delta) % len(self.arenas)]
             self.slide, self.direction = 0.0, delta
         elif name == "goal":
-            now.goal = step_clamped(game.goals, now.goal, delta)
+            now.goal = step_clamped(self.variant.goals, now.goal, delta)
         elif name == "minutes":
-            now.minutes = step_clamped(game.minutes, now.minutes, delta)
+            now.minutes = step_clamped(self.variant.minutes, now.minutes, delta)
         elif name == "rules":
-            now.variant = game.variants[(game.variants.index(now.variant) + delta) % len(game.variants)]
+            self._change_variant(delta)
         if now != before:
             self.context.sounds.play("move")
         self.context.settings.games[game.name] = now
+
+    @property
+    def variant(self) -> Variant:
+        """The selected rule set."""
+        return self.game.variants[self.chosen.variant]
+
+    def _change_variant(self, delta: int) -> None:
+        """Step the rule set by `delta`; choices that it does not offer change to its defaults."""
+        names, now = list(self.game.variants), self.chosen
+        now.variant = names[(names.index(now.variant) + delta) % len(names)]
+        fit_choice(self.variant, now)
+        self.rows = rows(self.game, self.variant)
+        self.focus.place([FocusSpot(name, box) for name, box in self.rows.items()])
 
     def _click(self, event: InputEvent) -> StackOperation:
         """Handle a click on the arrows or chips of a row, the preview (next arena) or the start button."""
@@ -184,7 +197,7 @@ class MatchSetupPage:
         if name == "go":
             return self._go()
         if name in ("goal", "minutes"):
-            values = self.game.goals if name == "goal" else self.game.minutes
+            values = self.variant.goals if name == "goal" else self.variant.minutes
             now = self.chosen.goal if name == "goal" else self.chosen.minutes
             chip = choice.chip_at(len(values), at[0] - self.rows[name].left)
             if chip is not None:
@@ -232,7 +245,7 @@ class MatchSetupPage:
                     (round(x0 + dx + k * starts[i][0] + wave.dx), round(y0 + k * starts[i][1] + wave.dy)),
                     special_flags=pygame.BLEND_RGB_ADD,
                 )
-            if self.game.team_mode == PAIRS:  # start positions depend on the team
+            if self.variant.team_mode == PAIRS:  # start positions depend on the team
                 choice.mark(i).draw(screen, round(x0 + dx + k * starts[i][0]), round(y0 + k * starts[i][1]))
         screen.set_clip(None)
 
@@ -249,14 +262,19 @@ def picture(game: str, name: str) -> Steps[LitImage]:
 def start_positions(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
     """Start positions of the robots of these seats, px."""
     rules, state = games()[game], games()[game].state()
-    setup = Setup(game, name, seats, rules.default_minutes, 1, rules.variants[0], rules.default_goal)
+    setup = Setup(game, name, seats, rules.default.default_minutes, 1, rules.default.name, rules.default.default_goal)
     rules.start(state, load_cached(game, name), setup)
     return [(robot.x, robot.y) for robot in state.robots]
 
 
-def rows(game: Game) -> dict[str, pygame.Rect]:
+def rows(game: Game, variant: Variant) -> dict[str, pygame.Rect]:
     """Rectangles of the rows that offer a choice, and of the start button."""
-    there = {"arena": True, "goal": bool(game.goals), "minutes": len(game.minutes) > 1, "rules": len(game.variants) > 1}
+    there = {
+        "arena": True,
+        "goal": bool(variant.goals),
+        "minutes": len(variant.minutes) > 1,
+        "rules": len(game.variants) > 1,
+    }
     boxes, y = {}, FRAME.top
     for name, height in HEIGHTS.items():
         if there[name]:

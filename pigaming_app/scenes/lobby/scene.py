@@ -40,7 +40,7 @@ class Lobby:
 
     def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.context, self.game = context, game
-        team_mode = games()[game].team_mode
+        team_mode = games()[game].variants[last_choice(context, game).variant].team_mode
         self.seats = Seats(context.settings.strength, team_mode=team_mode, rivals=RIVALS[game], mat=context.robots)
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in context.settings.real and not unfit(context.settings)
@@ -123,7 +123,7 @@ class Lobby:
             return
         now = last_choice(self.context, self.game)
         if self.warmup is None and self.context.preloader.ready(self.game, now.arena):
-            one, two, three, four = (Seat("idle", team) for team in games()[self.game].teams)
+            one, two, three, four = (Seat("idle", team) for team in games()[self.game].variants[now.variant].teams)
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
             self.warmup = MatchRunner(self.context, Match(setup), loud=False)
         elif self.warmup:

@@ -26,12 +26,12 @@ def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int]
 
 def in_teams(outcome: Outcome, setup: Setup) -> bool:
     """True if teams played: always in the factory, elsewhere if two robots share a team."""
-    return games()[setup.game].team_mode == PAIRS or len({row.team for row in outcome.rows}) < len(outcome.rows)
+    return _in_pairs(setup) or len({row.team for row in outcome.rows}) < len(outcome.rows)
 
 
 def team_name(words: Words, setup: Setup, team: int) -> str:
     """Name of a team, as in the lobby."""
-    if games()[setup.game].team_mode == PAIRS:
+    if _in_pairs(setup):
         return words(f"lobby.side_{team + 1}")
     return words("lobby.team", team=team + 1)
 
@@ -41,4 +41,8 @@ def winning_color(outcome: Outcome, setup: Setup) -> Color:
     if not outcome.winners:
         return ICE
     seat = outcome.winners[0]
-    return TEAMS[setup.seats[seat].team] if games()[setup.game].team_mode == PAIRS else PLAYERS[seat]
+    return TEAMS[setup.seats[seat].team] if _in_pairs(setup) else PLAYERS[seat]
+
+
+def _in_pairs(setup: Setup) -> bool:
+    return games()[setup.game].variants[setup.variant].team_mode == PAIRS

@@ -38,7 +38,7 @@ def contest(setup: Setup, seat: int | None = None) -> ScoreTable:
     own = setup.seats[seat if seat is not None else people[0] if people else 0]
     mates = [other for other in setup.seats if other.brain != "off" and other.team == own.team]
     side = sum(other.brain == "human" for other in mates) if len(mates) > 1 else 0
-    length = setup.goal if games()[setup.game].goals else setup.minutes
+    length = setup.goal if games()[setup.game].variants[setup.variant].goals else setup.minutes
     return ScoreTable(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
 
 

@@ -98,10 +98,12 @@ class DemoMatch:
 
     def __init__(self, context: Context, game: str) -> None:
         rules = games()[game]
-        teams = secrets.choice((rules.teams, rules.teams, (0, 1, 0, 1))) if rules.team_mode == FREE else rules.teams
+        teams = rules.default.teams
+        if rules.default.team_mode == FREE and secrets.randbelow(3) == 0:
+            teams = (0, 1, 0, 1)
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
-        setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.variants[0], rules.default_goal)
+        setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.default.name, rules.default.default_goal)
         self.runner = MatchRunner(context, seated(setup), loud=False)
         self.warm = False
         self.over = 0.0

@@ -39,10 +39,10 @@ def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> Brai
 
 def play(game: str, *brains: str, seed: int = 1, variant: str | None = None) -> Match:
     """A match with these brains on its first seats."""
-    rules = games()[game]
+    rules = games()[game].default
     seats = [*brains, *["off"] * (ROBOTS - len(brains))]
     one, two, three, four = (Seat(brain, team) for brain, team in zip(seats, rules.teams, strict=True))
-    setup = Setup(game, "", (one, two, three, four), 2.0, seed, variant or rules.variants[0], rules.default_goal)
+    setup = Setup(game, "", (one, two, three, four), 2.0, seed, variant or rules.name, rules.default_goal)
     match = Match(setup, arena=load(game))
     for seat, brain in enumerate(brains):
         match.sit(seat, make(game, brain, seed * ROBOTS + seat))

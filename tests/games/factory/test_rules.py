@@ -724,8 +724,8 @@ def test_pallets_above_four_come_onto_the_entry_as_its_slots_get_free():
 
 
 def test_the_default_is_four_pallets_per_team():
-    assert len(Shop(pallets=0).own(ICE)) == FACTORY.default_goal == 4
-    assert tuple(FACTORY.goals) == tuple(range(2, 9))
+    assert len(Shop(pallets=0).own(ICE)) == FACTORY.default.default_goal == 4
+    assert tuple(FACTORY.default.goals) == tuple(range(2, 9))
 
 
 @pytest.mark.parametrize("seats", [(0, 1), (0, 3), (2, 1), (2, 3)])

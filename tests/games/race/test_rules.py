@@ -360,7 +360,7 @@ def test_driving_after_the_finish_does_not_count():
 
 @pytest.mark.parametrize("laps", [1, 3, 9])
 def test_one_to_nine_laps_can_be_chosen(laps):
-    assert laps in games()["race"].goals
+    assert laps in games()["race"].default.goals
     ride = Ride(present=(0, 1), laps=laps)
     for lap in range(laps):
         assert not ride.racers[0].finished
@@ -371,7 +371,7 @@ def test_one_to_nine_laps_can_be_chosen(laps):
 
 
 def test_the_default_is_three_laps():
-    assert Ride(laps=0).state.rules.laps == games()["race"].default_goal == 3
+    assert Ride(laps=0).state.rules.laps == games()["race"].default.default_goal == 3
 
 
 @pytest.mark.parametrize("seats", [("hard", "off", "off", "off"), ("off", "normal", "easy", "off")])

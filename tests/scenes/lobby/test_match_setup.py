@@ -51,7 +51,7 @@ def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) 
     for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.RIGHT):
         arcade.press(button)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
-    assert (minutes, variant) == (3, games()["pitanks"].variants[1])
+    assert (minutes, variant) == (3, list(games()["pitanks"].variants)[1])
     arcade.press(Button.FIRE)
     assert page(arcade).chosen.variant == variant, "hammering on FIRE does not start the match"
     arcade.wait(0.5)
@@ -67,8 +67,8 @@ def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) 
 def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
     arcade.press(Button.DOWN)
     for button, last in (
-        (Button.RIGHT, max(games()["pitanks"].minutes)),
-        (Button.LEFT, min(games()["pitanks"].minutes)),
+        (Button.RIGHT, max(games()["pitanks"].default.minutes)),
+        (Button.LEFT, min(games()["pitanks"].default.minutes)),
     ):
         for _ in range(6):
             arcade.press(button)
@@ -76,10 +76,10 @@ def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
 
 
 def test_a_mouse_chooses_minutes_rules_and_the_arena_and_begins(arcade: Arcade) -> None:
-    boxes = rows(games()["pitanks"])
+    boxes = rows(games()["pitanks"], games()["pitanks"].default)
     row = boxes["minutes"]
     arcade.click(row.x + PAD + 3 * (CHIP + APART) + 20, row.centery)
-    assert page(arcade).chosen.minutes == games()["pitanks"].minutes[3]
+    assert page(arcade).chosen.minutes == games()["pitanks"].default.minutes[3]
     before = page(arcade).chosen.variant
     arcade.click(boxes["rules"].right - 40, boxes["rules"].centery)
     arcade.click(boxes["rules"].left + 40, boxes["rules"].centery)
@@ -106,7 +106,7 @@ def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade:
     arcade.context.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
     fresh = MatchSetupPage(arcade.context, "pitanks", Seats())
     rules = games()["pitanks"]
-    assert fresh.chosen == Choice("classic", rules.default_minutes, rules.variants[0], 0)
+    assert fresh.chosen == Choice("classic", rules.default.default_minutes, rules.default.name, 0)
 
 
 def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -124,31 +124,31 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
         match_choice.load_cached.cache_clear()
 
 
-@pytest.mark.parametrize("game", [game for game in games() if games()[game].goals])
+@pytest.mark.parametrize("game", [game for game in games() if games()[game].default.goals])
 def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: Arcade, game: str) -> None:
     rules = games()[game]
-    seats = Seats(team_mode=rules.team_mode)
+    seats = Seats(team_mode=rules.default.team_mode)
     seats.join(KEYS[0])
     seats.fill()
     arcade.open(MatchSetupPage(arcade.context, game, seats))
     arcade.press(Button.DOWN)
-    for button, last in ((Button.RIGHT, max(rules.goals)), (Button.LEFT, min(rules.goals))):
-        for _ in rules.goals:
+    for button, last in ((Button.RIGHT, max(rules.default.goals)), (Button.LEFT, min(rules.default.goals))):
+        for _ in rules.default.goals:
             arcade.press(button)
         assert page(arcade).chosen.goal == last
     arcade.wait(0.5, draw=True)
     arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
-    assert match.setup.goal == min(rules.goals)
+    assert match.setup.goal == min(rules.default.goals)
     assert arcade.context.settings.choice("pitanks") == Choice()
-    assert arcade.context.settings.choice(game).goal == min(rules.goals)
+    assert arcade.context.settings.choice(game).goal == min(rules.default.goals)
 
 
 def test_only_what_can_be_chosen_is_a_row() -> None:
     for rules in games().values():
-        boxes = rows(rules)
-        assert ("goal" in boxes) == bool(rules.goals)
-        assert ("minutes" in boxes) == (len(rules.minutes) > 1)
+        boxes = rows(rules, rules.default)
+        assert ("goal" in boxes) == bool(rules.default.goals)
+        assert ("minutes" in boxes) == (len(rules.default.minutes) > 1)
         assert ("rules" in boxes) == (len(rules.variants) > 1)
         heights = sorted((box.top, box.bottom) for box in boxes.values())
         assert all(one[1] < other[0] for one, other in itertools.pairwise(heights))

@@ -24,7 +24,7 @@ FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
 def match(brains, teams=FREE, game="pitanks", minutes=2.0, goal=0, variant=None):
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
     rules = games()[game]
-    return Setup(game, "classic", (one, two, three, four), minutes, 1, variant or rules.variants[0], goal)
+    return Setup(game, "classic", (one, two, three, four), minutes, 1, variant or rules.default.name, goal)
 
 
 @pytest.mark.parametrize(

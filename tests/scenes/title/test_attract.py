@@ -79,7 +79,7 @@ def named(show: object) -> tuple[str, str]:
 
 def scores_of(context: Context, game: str) -> None:
     """Add a score in a game's first arena."""
-    rules = games()[game]
-    contest = ScoreTable(game, arenas(game)[0], "", rules=rules.variants[0], length=rules.default_goal or 2, people=1)
+    rules = games()[game].default
+    contest = ScoreTable(game, arenas(game)[0], "", rules=rules.name, length=rules.default_goal or 2, people=1)
     for board in high_score_tables(contest):
         context.scores.add(board.table, "ABC", 9)

@@ -39,7 +39,7 @@ class BusyFactory:
     """Factory match with eight pallets per team and frantic drivers; one robot is always frozen."""
 
     def __init__(self) -> None:
-        rules = games()["factory"]
+        rules = games()["factory"].default
         one, two, three, four = (Seat("hard", team) for team in rules.teams)
         setup = Setup("factory", arenas("factory")[0], (one, two, three, four), 8.0, 1, "standard", max(rules.goals))
         self.match = seated(setup)
@@ -54,7 +54,7 @@ class BusyFactory:
 BUSY: dict[str, Callable[[], BenchmarkMatch]] = {
     "pitanks": busy.BusyPiTanks,
     "factory": BusyFactory,
-    "race": lambda: race_busy.BusyRace(laps=max(games()["race"].goals)),
+    "race": lambda: race_busy.BusyRace(laps=max(games()["race"].default.goals)),
 }
 
 
