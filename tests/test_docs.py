@@ -15,11 +15,11 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai import make
 from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.registry import make
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
 from pigaming_app.games.factory import pedestrians as walker
@@ -109,6 +109,8 @@ def in_code(row):
     root, _, path = row.name.partition(".")
     if root == "mind":
         return attrgetter(path)(make(GAME_OF[row.first], row.column, 1).mind)
+    if root == "Variant":
+        return attrgetter(path)(games()[GAME_OF[row.section]].default)
     if root in ("Rules", "Game"):
         game = GAME_OF[row.section]
         return attrgetter(path)(match_of(game, row.column or None).state.rules if root == "Rules" else games()[game])

@@ -9,8 +9,8 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 import pytest
 
-from pigaming_app.ai import BRAINS, make
 from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.registry import BRAINS, make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.ai import seated
 from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.qlearning.table_files import TableError
+from pigaming_app.ai.registry import seated
 from pigaming_app.games import arenas, replay
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.replay import ReplayError

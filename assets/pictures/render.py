@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 sys.path.insert(0, str(ROOT))
 
-from pigaming_app.ai import BRAINS, seated  # noqa: E402
+from pigaming_app.ai.registry import BRAINS, seated  # noqa: E402
 from pigaming_app.games.setup import make_setup  # noqa: E402
 from pigaming_app.scenes.views.screenshot import Screenshot  # noqa: E402
 from pigaming_app.sim.world import HZ  # noqa: E402

@@ -208,7 +208,7 @@ def _probed() -> dict[str, tuple[str, str]]:
 
 def _engine() -> Line:
     try:
-        from pigaming_app.ai import seated
+        from pigaming_app.ai.registry import seated
         from pigaming_app.games.setup import make_setup
 
         match = seated(make_setup("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))

@@ -4,8 +4,8 @@ import json
 from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
 
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments import league
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal

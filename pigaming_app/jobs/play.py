@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
-from pigaming_app.ai import BRAINS, seated
+from pigaming_app.ai.registry import BRAINS, seated
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import ChoiceError, make_setup

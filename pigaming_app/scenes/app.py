@@ -15,15 +15,13 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from time import perf_counter
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import pygame
 
 from pigaming_app.hardware.messages import OperatorError
-from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable
-from pigaming_app.scenes.camera_window import CameraWindow
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.preloaded import MODULES
@@ -41,6 +39,10 @@ from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.notices import FrameMeter, Notices
 from pigaming_app.ui.window import Canvas
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.session.emulated import EmulatedSession
+    from pigaming_app.scenes.camera_window import CameraWindow
 
 FPS = 60  # frames per second
 MAX_FRAME_GAP = 0.1  # s; longer gaps (a dragged window, a suspended machine) are cut to this
@@ -123,7 +125,7 @@ class App:
         self.options, self.context = options, context
         self.notices, self.meter = Notices(), FrameMeter()
         session = context.session
-        self.window = CameraWindow(session) if isinstance(session, EmulatedSession) and session.live else None
+        self.window = _camera_window(session)
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
@@ -361,10 +363,12 @@ class App:
         self.meter.draw(screen)
 
 
-def _session(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSession | RealSession:
-    """The robot session: real or emulated."""
+def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedSession | RealSession":
+    """The robot session: real or emulated. The emulator is imported late, so that the title appears at once."""
     if options.emulate is None:
         return RealSession(settings, lambda: canvas.projection)
+    from pigaming_app.hardware.session.emulated import EmulatedSession
+
     session = EmulatedSession(options.emulate, options.step is None, lambda: canvas.projection)
     canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
@@ -375,6 +379,16 @@ def _session(options: Options, settings: Settings, canvas: Canvas) -> EmulatedSe
     except RobotsUnavailable as trouble:
         print(f"PiGaming: {english().long_sentence(trouble.message)}", file=sys.stderr)
     return session
+
+
+def _camera_window(session: RobotSession | None) -> "CameraWindow | None":
+    """The window of the emulated camera, if the emulated arena runs in real time."""
+    if session is None or not session.emulated:
+        return None
+    from pigaming_app.hardware.session.emulated import EmulatedSession
+    from pigaming_app.scenes.camera_window import CameraWindow
+
+    return CameraWindow(session) if isinstance(session, EmulatedSession) and session.live else None
 
 
 def _projected(canvas: Canvas, window: pygame.Surface) -> object:

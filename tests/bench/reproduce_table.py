@@ -18,10 +18,10 @@ from statistics import median
 from typing import NamedTuple
 
 from pigaming_app import ASSETS
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.league import wilson
 from pigaming_app.ai.experiments.training import Training, contest
 from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.files import save_table
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ

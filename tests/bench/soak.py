@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.state import IN_SLOT
 from pigaming_app.games.game import Seat, Setup

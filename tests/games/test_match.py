@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from pigaming_app.ai import make
+from pigaming_app.ai.registry import make
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import IdlePlayer, Match
 from pigaming_app.sim.action import set_action

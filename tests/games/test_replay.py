@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai import make
+from pigaming_app.ai.registry import make
 from pigaming_app.games import replay as replays
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

@@ -6,11 +6,14 @@ exits because its standard input is closed.
 
 import contextlib
 import os
-import subprocess
 import sys
 from threading import Lock
+from typing import TYPE_CHECKING
 
 from pigaming_app.sim.kernel import PACKAGE, can_compile
+
+if TYPE_CHECKING:
+    from subprocess import Popen
 
 PATIENCE = 10  # POSIX nice value of the process
 
@@ -22,7 +25,7 @@ class Compiler:
 
     def __init__(self, command: tuple[str, ...] = COMMAND) -> None:
         self._command = command
-        self._process: subprocess.Popen[bytes] | None = None
+        self._process: Popen[bytes] | None = None
         self._ended = False
         self._lock = Lock()  # the arcade may end while another thread starts the process
 
@@ -46,7 +49,9 @@ class Compiler:
         return self._process.poll() if self._process else None
 
 
-def _launch(command: tuple[str, ...]) -> subprocess.Popen[bytes]:
+def _launch(command: tuple[str, ...]) -> "Popen[bytes]":
+    import subprocess  # late, for the start of the arcade
+
     null = subprocess.DEVNULL
     names = ("CREATE_NO_WINDOW", "BELOW_NORMAL_PRIORITY_CLASS")  # defined on Windows only
     flags: int = sum(getattr(subprocess, name, 0) for name in names)

@@ -8,11 +8,11 @@ import os
 import sys
 from threading import Thread
 
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.experiments.training import ARENA, GAME, MINUTES, Training, training_setup
 from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.sim.world import HZ
 
 HANDMADE = "hard"  # the strongest hand-written brain

@@ -12,9 +12,9 @@ from math import sqrt
 from time import perf_counter
 from typing import Any, NamedTuple
 
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.ratings import Rating, ratings
 from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.game import PAIRS, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.qlearning.learner import LearnerMind, QTable, learn, learn_last, temperature
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe, RecipeRecord
 from pigaming_app.ai.qlearning.table_files import Trained
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.batch import initial_states
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.game import Seat, Setup

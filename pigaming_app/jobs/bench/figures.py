@@ -16,8 +16,8 @@ from time import perf_counter, time
 from typing import Any
 
 from pigaming_app import INSTALLED, ROOT
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games

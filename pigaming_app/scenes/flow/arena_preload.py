@@ -2,7 +2,7 @@
 
 from contextlib import suppress
 
-from pigaming_app.ai import seated
+from pigaming_app.ai.registry import seated
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games

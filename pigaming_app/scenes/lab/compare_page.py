@@ -9,10 +9,10 @@ from time import perf_counter
 
 import pygame
 
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.experiments.training import GAME
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.bench import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.experiments.training import GAME, Checkpoint, Training
 from pigaming_app.ai.qlearning.policy_summary import Direction, direction
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure
 from pigaming_app.sim.world import HZ

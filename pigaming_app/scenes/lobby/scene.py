@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.ai import RIVALS, STRENGTHS
+from pigaming_app.ai.registry import RIVALS, STRENGTHS
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games

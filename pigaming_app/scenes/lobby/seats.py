@@ -5,7 +5,7 @@ FIRE takes the next empty seat, which determines the player number. The last AI 
 
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.ai import STRENGTHS
+from pigaming_app.ai.registry import STRENGTHS
 from pigaming_app.games.game import FREE, PAIRS, Seat
 from pigaming_app.ui.input.events import Device
 

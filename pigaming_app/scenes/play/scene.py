@@ -13,8 +13,8 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai import make, seated
 from pigaming_app.ai.brain.kind import HumanPlayer
+from pigaming_app.ai.registry import make, seated
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
 from pigaming_app.scenes.flow.context import Context

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from pigaming_app.ai import RIVALS
+from pigaming_app.ai.registry import RIVALS
 from pigaming_app.games.game import PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.sprites.factory import TEAMS

@@ -7,7 +7,7 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.ai import STRENGTHS, seated
+from pigaming_app.ai.registry import STRENGTHS, seated
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games

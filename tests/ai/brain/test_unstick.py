@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.brain.unstick import PUSHING, Reflex
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.qlearning.learner import MOVES, LearnerMind, Move
 from pigaming_app.ai.qlearning.player import Learned, player
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

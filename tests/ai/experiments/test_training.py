@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.ai import BRAINS
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.experiments import training
 from pigaming_app.ai.experiments.training import Training
@@ -21,6 +20,7 @@ from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.qlearning.player import player
 from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.ai.qlearning.table_files import TableError
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.match import Match
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest

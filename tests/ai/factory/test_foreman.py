@@ -5,7 +5,7 @@ from math import hypot
 
 import pytest
 
-from pigaming_app.ai import STRENGTHS, make
+from pigaming_app.ai.registry import STRENGTHS, make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (

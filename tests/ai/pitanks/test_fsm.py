@@ -5,8 +5,8 @@ from math import hypot
 
 import pytest
 
-from pigaming_app.ai import make
 from pigaming_app.ai.experiments.league import duel, wilson
+from pigaming_app.ai.registry import make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

@@ -6,8 +6,8 @@ from math import hypot, pi
 
 import pytest
 
-from pigaming_app.ai import make
 from pigaming_app.ai.experiments.league import duel
+from pigaming_app.ai.registry import make
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

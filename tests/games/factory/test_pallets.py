@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai import make
+from pigaming_app.ai.registry import make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.rules import may_lift
 from pigaming_app.games.factory.state import (

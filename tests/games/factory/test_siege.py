@@ -4,7 +4,7 @@ from math import atan2, hypot
 
 import pytest
 
-from pigaming_app.ai import make
+from pigaming_app.ai.registry import make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (

@@ -10,7 +10,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai import make
+from pigaming_app.ai.registry import make
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

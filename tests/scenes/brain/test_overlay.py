@@ -5,7 +5,7 @@ from itertools import pairwise
 import pygame
 import pytest
 
-from pigaming_app.ai import make, seated
+from pigaming_app.ai.registry import make, seated
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.brain import floor_marks as marks
 from pigaming_app.scenes.brain import panels as cards

@@ -5,7 +5,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.ai import seated
+from pigaming_app.ai.registry import seated
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.files import load_replay, save_replay
 from pigaming_app.scenes.play.replay import ReplayScene

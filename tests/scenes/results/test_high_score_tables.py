@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from pigaming_app.ai import BRAINS
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.high_score_tables import (

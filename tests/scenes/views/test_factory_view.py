@@ -5,7 +5,7 @@ import math
 import pygame
 import pytest
 
-from pigaming_app.ai import seated
+from pigaming_app.ai.registry import seated
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import pygame
 
-from pigaming_app.ai import seated
+from pigaming_app.ai.registry import seated
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games

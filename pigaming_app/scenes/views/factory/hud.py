@@ -9,7 +9,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai import BRAINS
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.factory.state import DELIVERED, MAX_PALLETS, TEAMS
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud_parts import HudParts, number_bits

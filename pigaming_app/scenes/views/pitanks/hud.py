@@ -11,7 +11,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai import BRAINS
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.scenes.views.hud_parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits

@@ -8,7 +8,7 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.ai import BRAINS
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud_parts import CLOCK, XS, H, HudParts, Y, number_bits

@@ -1,0 +1,68 @@
+"""Registry of all brains by game and name.
+
+The registry also attaches each brain's `explain`, so that no brain imports its own explanation.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from pigaming_app.ai.brain import baselines
+from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
+from pigaming_app.ai.factory import foreman, foreman_thoughts
+from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts
+from pigaming_app.ai.qlearning import table_files
+from pigaming_app.ai.race import racer, racer_thoughts
+from pigaming_app.games.game import Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.plant import Plant, SimPlant
+from pigaming_app.sim.world import ROBOTS
+
+BRAINS: dict[str, dict[str, BrainKind]] = {
+    "pitanks": {
+        "idle": baselines.IDLE,
+        "random": baselines.RANDOM,
+        "easy": replace(fsm.EASY, explain=fsm_thoughts.explain),
+        "normal": replace(fsm.NORMAL, explain=fsm_thoughts.explain),
+        "hard": replace(fsm.HARD, explain=fsm_thoughts.explain),
+        "fsm": replace(fsm.FSM, explain=fsm_thoughts.explain),
+        "classic": replace(classic.CLASSIC, explain=classic_thoughts.explain),
+        "q1": table_files.shipped_brain("q1"),
+        "q2": table_files.shipped_brain("q2"),
+    },
+    "factory": {
+        "idle": baselines.IDLE,
+        "random": baselines.RANDOM,
+        "easy": replace(foreman.EASY, explain=foreman_thoughts.explain),
+        "normal": replace(foreman.NORMAL, explain=foreman_thoughts.explain),
+        "hard": replace(foreman.HARD, explain=foreman_thoughts.explain),
+    },
+    "race": {
+        "idle": baselines.IDLE,
+        "random": baselines.RANDOM,
+        "easy": replace(racer.EASY, explain=racer_thoughts.explain),
+        "normal": replace(racer.NORMAL, explain=racer_thoughts.explain),
+        "hard": replace(racer.HARD, explain=racer_thoughts.explain),
+    },
+}
+
+STRENGTHS = ("easy", "normal", "hard")
+RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in the order in which it steps through them
+    "pitanks": (*STRENGTHS, "q1", "q2"),
+    "factory": STRENGTHS,
+    "race": STRENGTHS,
+}
+
+
+def make(game: str, name: str, seed: int) -> BrainPlayer:
+    """A player with the brain `name` of `game`. Raises KeyError for unknown names."""
+    return BrainPlayer(BRAINS[game][name], seed)
+
+
+def seated(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant) -> Match:
+    """A match with an AI player on every seat that names a brain; all other seats stay idle."""
+    match = Match(setup, plant)
+    for i, seat in enumerate(setup.seats):
+        if seat.brain in BRAINS[setup.game]:
+            match.sit(i, make(setup.game, seat.brain, setup.seed * ROBOTS + i))
+    return match
