@@ -19,7 +19,7 @@ class Preloader:
 
     def __init__(self) -> None:
         self.modules: Sequence[str] = ()
-        self.then: Callable[[], None] = lambda: None
+        self.on_done: Callable[[], None] = lambda: None
         self._thread: threading.Thread | None = None
         self._ended = False
         self._ready: set[tuple[str, str]] = set()
@@ -76,4 +76,4 @@ class Preloader:
                 arena_preload.prepare(*arena)
                 self._ready.add(arena)
         if not self._ended:
-            self.then()
+            self.on_done()
