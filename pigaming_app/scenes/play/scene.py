@@ -47,8 +47,8 @@ SUBSTITUTE_BRAIN = "normal"  # the brain that takes over for a person
 class MatchScene:
     """One match, from its countdown to its results. `devices`: the device of each seat; None: an AI, or nobody yet.
 
-    `humans`: seats of people, present or away; `ai_assisted`: those for whom an AI has driven for a while; `join_allowed`: true if a
-    free device may take the seat of an AI. `game_choice`: see `Results`.
+    `humans`: seats of people, present or away; `ai_assisted`: those for whom an AI has driven for a while;
+    `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see `Results`.
     """
 
     def __init__(

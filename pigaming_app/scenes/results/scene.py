@@ -37,8 +37,8 @@ SceneFactory = Callable[
 class Results:
     """Results of a match. `devices`: driver of each seat; `finished`: played to its end.
 
-    `rematch`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `ai_assisted`: seats that
-    changed drivers during the match; their scores do not count as records.
+    `rematch`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `ai_assisted`: seats
+    that changed drivers during the match; their scores do not count as records.
     """
 
     def __init__(

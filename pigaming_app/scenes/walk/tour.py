@@ -25,7 +25,7 @@ class TourWalker(Protocol):
 
     def shows(self, class_name: str) -> bool: ...
 
-    def expect_screen(self, screen: str) -> None: ...
+    def set_screen(self, screen: str) -> None: ...
 
     def wait(self, seconds: float) -> None: ...
 
@@ -53,7 +53,7 @@ def home(walker: TourWalker) -> None:
         if walker.shows("Title"):
             break
         walker.press("escape", pause=0.8)
-    walker.expect_screen("title")
+    walker.set_screen("title")
     walker.wait_until(lambda: walker.shows("Title"))
     walker.wait(0.5)
 
@@ -75,7 +75,7 @@ def choose(walker: TourWalker, name: str) -> None:
 
 def lessons(walker: TourWalker) -> None:
     """The how-to page of each game."""
-    walker.expect_screen("how to play")
+    walker.set_screen("how to play")
     choose(walker, "howto")
     for _ in games():
         walker.wait(5.0)
@@ -85,19 +85,19 @@ def lessons(walker: TourWalker) -> None:
 
 def options(walker: TourWalker) -> None:
     """The options, row by row, and the pages below them."""
-    walker.expect_screen("options")
+    walker.set_screen("options")
     choose(walker, "options")
     walker.wait(0.5)
     for name in [*walker.top.rows]:
         if name in ("padtest", "robots"):
-            walker.expect_screen(f"options: {name}")
+            walker.set_screen(f"options: {name}")
             walker.press("space", pause=1.0)
             if name == "robots":
                 robots(walker)
             walker.press("escape")
         elif name not in ("display", "fullscreen"):  # the language is changed and changed back
             walker.press(*("d", "a") if walker.context.words.language == LANGUAGES[0] else ("a", "d"))
-        walker.expect_screen("options")
+        walker.set_screen("options")
         walker.press("s")
     home(walker)
 
@@ -105,14 +105,14 @@ def options(walker: TourWalker) -> None:
 def robots(walker: TourWalker) -> None:
     """The pages of real robots, as far as possible without any."""
     for spot in [*walker.top.focus.spots]:
-        walker.expect_screen(f"robots: {spot.name}")
+        walker.set_screen(f"robots: {spot.name}")
         walker.press("space", pause=1.5)
         if not walker.shows("RobotsMenu"):
             walker.press("d", "s", "space", pause=0.3)
         for _ in range(6):
             if not walker.shows("RobotsMenu"):
                 walker.press("escape", pause=0.5)
-        walker.expect_screen("options: robots")
+        walker.set_screen("options: robots")
         walker.press("s")
 
 
@@ -124,7 +124,7 @@ def play(walker: TourWalker, game: str, every_arena: bool) -> None:
     match(walker, game)
     results(walker, game)
     for _ in range(1, arenas if every_arena else 1):
-        walker.expect_screen(f"{game}: setup")
+        walker.set_screen(f"{game}: setup")
         walker.wait(0.5)
         walker.press("d", pause=0.5)
         begin(walker, game)
@@ -135,7 +135,7 @@ def play(walker: TourWalker, game: str, every_arena: bool) -> None:
 
 def join(walker: TourWalker, game: str) -> None:
     """Take a seat in the lobby of a game."""
-    walker.expect_screen(f"{game}: lobby")
+    walker.set_screen(f"{game}: lobby")
     walker.wait_until(lambda: walker.shows("Title"))
     walker.wait(0.5)
     choose(walker, game)
@@ -156,7 +156,7 @@ def lobby(walker: TourWalker, game: str) -> None:
 
 def setup(walker: TourWalker, game: str) -> None:
     """Every arena, some other options, and back to the first arena."""
-    walker.expect_screen(f"{game}: setup")
+    walker.set_screen(f"{game}: setup")
     walker.wait_until(lambda: walker.shows("MatchSetupPage"))
     walker.wait(0.3)
     for _ in walker.top.arenas:
@@ -167,7 +167,7 @@ def setup(walker: TourWalker, game: str) -> None:
 
 def begin(walker: TourWalker, game: str) -> None:
     """Start the match."""
-    walker.expect_screen(f"{game}: match")
+    walker.set_screen(f"{game}: match")
     walker.press("return")
     walker.wait_until(lambda: walker.shows("MatchScene"))
 
@@ -176,16 +176,16 @@ def match(walker: TourWalker, game: str) -> None:
     """A match with overlay and pause, up to its end, which is brought forward."""
     begin(walker, game)
     walker.wait(6.0)
-    walker.expect_screen(f"{game}: match with F4")
+    walker.set_screen(f"{game}: match with F4")
     for _ in range(BRAINS):
         walker.press("f4", pause=1.0)
-    walker.expect_screen(f"{game}: pause")
+    walker.set_screen(f"{game}: pause")
     walker.press("return", pause=0.5)
     walker.press("s", "s")
-    walker.expect_screen(f"{game}: pause, controls")
+    walker.set_screen(f"{game}: pause, controls")
     walker.press("space", pause=0.5)
     walker.press("escape", pause=0.3)
-    walker.expect_screen(f"{game}: match")
+    walker.set_screen(f"{game}: match")
     walker.press("escape", pause=5.0)
     state = walker.top.match.state
     state.robots[0].score = 3
@@ -195,19 +195,19 @@ def match(walker: TourWalker, game: str) -> None:
 
 def results(walker: TourWalker, game: str) -> None:
     """The results, initials if asked for, high scores, and a rematch that is ended at once."""
-    walker.expect_screen(f"{game}: results")
+    walker.set_screen(f"{game}: results")
     walker.wait(4.0)
     if walker.shows("Initials"):
-        walker.expect_screen(f"{game}: initials")
+        walker.set_screen(f"{game}: initials")
         walker.press("w", "space", "s", "space", "space", "return", pause=0.3)
         walker.wait(2.0)
         if walker.shows("HighScores"):
             walker.press("escape", pause=0.5)
-    walker.expect_screen(f"{game}: best scores")
+    walker.set_screen(f"{game}: best scores")
     walker.app.stack.apply(Push(HighScores(walker.context, contest(walker.top.setup))))
     walker.wait(3.0)
     walker.press("d", "s", "escape", pause=0.5)
-    walker.expect_screen(f"{game}: rematch")
+    walker.set_screen(f"{game}: rematch")
     walker.wait_until(lambda: walker.shows("Results"))
     walker.wait(6.0)
     walker.press("return")
@@ -218,48 +218,48 @@ def results(walker: TourWalker, game: str) -> None:
 
 def leave(walker: TourWalker, game: str) -> None:
     """End a match by hand, choose the same game again and go on to its setup."""
-    walker.expect_screen(f"{game}: pause")
+    walker.set_screen(f"{game}: pause")
     walker.press("return", pause=0.5)
     walker.press("w", pause=0.3)
-    walker.expect_screen(f"{game}: results")
+    walker.set_screen(f"{game}: results")
     for _ in range(4):
         if walker.shows("Pause"):
             walker.press("space", pause=0.5)
     walker.wait_until(lambda: walker.shows("Results"))
     walker.wait(5.0)
-    walker.expect_screen("change of game")
+    walker.set_screen("change of game")
     walker.press("x", pause=0.5)
     walker.wait_until(lambda: walker.shows("GameChoice"))
     while walker.top.focus.name != game:
         walker.press("d")
-    walker.expect_screen(f"{game}: lobby")
+    walker.set_screen(f"{game}: lobby")
     walker.press("space", pause=0.5)
     walker.wait_until(lambda: walker.shows("Lobby"))
     walker.press("space")
-    walker.expect_screen(f"{game}: setup")
+    walker.set_screen(f"{game}: setup")
     walker.wait_until(lambda: walker.shows("MatchSetupPage"))
 
 
 def lab(walker: TourWalker) -> None:
     """The Lab, its menu and subpages, and a challenge match."""
-    walker.expect_screen("Lab")
+    walker.set_screen("Lab")
     choose(walker, "lab")
     walker.wait(3.0)
     walker.press("tab", "tab", "d", "s", "space", "d", "d", "space")
     walker.wait(3.0)
     for item, name in enumerate(("save", "open", "compare")):
-        walker.expect_screen("Lab: menu")
+        walker.set_screen("Lab: menu")
         walker.press("return", pause=0.5)
         walker.press(*["s"] * item)
-        walker.expect_screen(f"Lab: {name}")
+        walker.set_screen(f"Lab: {name}")
         walker.press("space", pause=2.0)
         walker.press("w", "d", *(["return"] if name == "save" else []))
         for _ in range(8):
             if not walker.shows("Lab"):
                 walker.press("escape", pause=0.3)
-        walker.expect_screen("Lab")
+        walker.set_screen("Lab")
         walker.wait(0.5)
-    walker.expect_screen("Lab: match")
+    walker.set_screen("Lab: match")
     walker.press("x")
     walker.wait_until(lambda: walker.shows("Challenge"))
     walker.wait(5.0)
@@ -268,7 +268,7 @@ def lab(walker: TourWalker) -> None:
     walker.wait_until(lambda: walker.shows("ChallengeResult"))
     walker.wait(2.0)
     walker.press("escape", pause=1.0)
-    walker.expect_screen("Lab")
+    walker.set_screen("Lab")
     walker.wait_until(lambda: walker.shows("Lab"))
     walker.wait(1.0)
     home(walker)
@@ -277,7 +277,7 @@ def lab(walker: TourWalker) -> None:
 def attract(walker: TourWalker) -> None:
     """One round of shows for every game."""
     walker.context.settings.attract_seconds = 5.0
-    walker.expect_screen("attract mode")
+    walker.set_screen("attract mode")
     walker.wait_until(lambda: walker.shows("Attract"))
     for _ in range(3 * len(games())):
         show = walker.top.show

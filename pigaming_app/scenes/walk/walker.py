@@ -42,7 +42,7 @@ class Walker:
         """True if the current scene is of this class."""
         return type(self.top).__name__ == class_name
 
-    def expect_screen(self, screen: str) -> None:
+    def set_screen(self, screen: str) -> None:
         """Attribute the following frames to a screen."""
         self.screen = f"{screen} ({self.context.words.language})"
 
