@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import Options, opened
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
@@ -49,6 +50,14 @@ def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tu
     assert prepared == arena_jobs.every_arena()
     assert after == [len(prepared)]
     assert all(preloader.ready(*one) for one in prepared)
+
+
+def test_the_engine_is_hashed_before_the_first_robot_is_saved(prepared: list[tuple[str, str]]) -> None:
+    engine_hash.cache_clear()
+    preloader = Preloader()
+    preloader.start()
+    until(lambda: not preloader.busy)
+    assert engine_hash.cache_info().currsize == 1
 
 
 def test_a_failing_preload_does_not_block_matches(monkeypatch: pytest.MonkeyPatch) -> None:
