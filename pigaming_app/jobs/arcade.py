@@ -29,8 +29,8 @@ def run(arguments: Namespace) -> int:
             kiosk=arguments.kiosk,
             display=display(arguments),
             frames=arguments.frames,
-            emulate=arguments.emulate,
-            chosen=mat_settings(arguments),
+            emulator_seed=arguments.emulate,
+            changed_settings=mat_settings(arguments),
         )
     )
 

@@ -36,7 +36,9 @@ def run(arguments: Namespace) -> int:
     from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 
     first = lambda context: CalibrationPage(context, camera=arguments.camera)  # noqa: E731
-    return show(Options(first=first, alone=True, display=display(arguments), emulate=arguments.emulate))
+    return show(
+        Options(first_scene=first, without_title=True, display=display(arguments), emulator_seed=arguments.emulate)
+    )
 
 
 def _write(path: Path, edge: float) -> int:

@@ -42,11 +42,11 @@ class Operator:
         self.stack = Stack(self.page)
 
     def press(self, button: Button) -> None:
-        self.stack.turn(self.stack.top.on(InputEvent(button, Device("keys", 0))))
+        self.stack.apply(self.stack.top.handle(InputEvent(button, Device("keys", 0))))
 
     def frame(self) -> None:
         """Update and draw one frame."""
-        self.stack.turn(self.stack.top.update(FRAME))
+        self.stack.apply(self.stack.top.update(FRAME))
         self.stack.top.draw(self.context.canvas.screen)
         self.context.canvas.flip()
 

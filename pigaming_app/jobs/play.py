@@ -270,7 +270,7 @@ def _on_screen(
     def due() -> bool:
         """True when the picture is due, or when missing real robots have delayed it too long."""
         nonlocal shot
-        if scenes and not scenes[0].stuck:
+        if scenes and not scenes[0].blocked:
             shot = bool(scenes[0].match.over or scenes[0].match.seconds >= arguments.at)
         else:
             shot = perf_counter() - began > arguments.at + HELD_UP
@@ -281,16 +281,16 @@ def _on_screen(
 
     code = show(
         Options(
-            first=scene,
+            first_scene=scene,
             kiosk=arguments.kiosk,
             display=display(arguments),
-            shot=arguments.screenshot,
-            shot_due=due,
+            screenshot=arguments.screenshot,
+            screenshot_due=due,
             headless=arguments.headless,
             step=DT if arguments.headless else None,
-            over=over,
-            emulate=arguments.emulate,
-            chosen=chosen,
+            should_close=over,
+            emulator_seed=arguments.emulate,
+            changed_settings=chosen,
         )
     )
     if scenes and arguments.headless and not arguments.screenshot:

@@ -29,4 +29,4 @@ def run(arguments: Namespace) -> int:
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.play.replay import ReplayScene
 
-    return show(Options(first=lambda context: ReplayScene(context, replay), alone=True))
+    return show(Options(first_scene=lambda context: ReplayScene(context, replay), without_title=True))

@@ -56,20 +56,20 @@ log = logging.getLogger("pigaming")
 
 @dataclass(frozen=True)
 class Options:
-    """Options of the arcade. `frames`: close after this many; `shot`: path of a screenshot, taken when due."""
+    """Options of the arcade. `frames`: close after this many; `screenshot`: path of a picture, taken when due."""
 
-    first: Callable[[Context], Scene] | None = None  # scene pushed on top of the title
-    alone: bool = False  # close when that scene is popped
+    first_scene: Callable[[Context], Scene] | None = None  # scene pushed on top of the title
+    without_title: bool = False  # show only that scene; close when it is popped
     kiosk: bool = False
     display: int | None = None
     headless: bool = False
     frames: int | None = None
-    shot: Path | None = None
-    shot_due: Callable[[], bool] = lambda: True
+    screenshot: Path | None = None
+    screenshot_due: Callable[[], bool] = lambda: True
     step: float | None = None  # s of simulated time per frame, instead of real time
-    over: Callable[[], bool] = lambda: False  # close after this picture if true
-    emulate: int | None = None  # seed of an emulated arena instead of the real one
-    chosen: Mapping[str, object] = field(default_factory=dict)  # settings to store
+    should_close: Callable[[], bool] = lambda: False  # close after this picture if true
+    emulator_seed: int | None = None  # seed of an emulated arena instead of the real one
+    changed_settings: Mapping[str, object] = field(default_factory=dict)  # settings to store
 
 
 def run(options: Options) -> int:
@@ -88,18 +88,20 @@ def opened(options: Options) -> "Iterator[App]":
     data_folders = folders()
     settings, damaged = Settings.load(data_folders.config)
     scores, damaged_scores = Scores.load(data_folders.data)
-    for name, value in options.chosen.items():
+    for name, value in options.changed_settings.items():
         settings.choose(name, value)
-    windowed = options.headless or options.emulate is not None  # next to the emulated camera's window
+    windowed = options.headless or options.emulator_seed is not None  # next to the emulated camera's window
     canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
     crash_file = _open_log(data_folders.data)
     pygame.font.init()
-    context = Context(settings, scores, Words(settings.language), Controls(canvas.at), Sounds(), canvas, options.kiosk)
+    context = Context(
+        settings, scores, Words(settings.language), Controls(canvas.to_canvas), Sounds(), canvas, options.kiosk
+    )
     context.sounds.volume(settings.music, settings.sounds)
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
     context.preloader.modules = MODULES
-    context.preloader.then = context.compiler.start
+    context.preloader.on_done = context.compiler.start
     old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
     try:
         yield App(options, context, [*damaged, *damaged_scores])
@@ -130,7 +132,7 @@ class App:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
         if troubles:
-            self.notices.say(context.words("app.settings"))
+            self.notices.add(context.words("app.settings"))
         self._pin()
         self.frames, self.seconds = 0, 0.0
         self.frozen = False  # whether loaded objects are exempt from garbage collection
@@ -162,11 +164,11 @@ class App:
         return self.code
 
     def _first_stack(self) -> Stack:
-        if self.options.first and self.options.alone:
-            return Stack(self.options.first(self.context))
+        if self.options.first_scene and self.options.without_title:
+            return Stack(self.options.first_scene(self.context))
         stack = Stack(_title(self.context))
-        if self.options.first:
-            stack.turn(Push(self.options.first(self.context)))
+        if self.options.first_scene:
+            stack.apply(Push(self.options.first_scene(self.context)))
         return stack
 
     def _pin(self) -> None:
@@ -181,7 +183,7 @@ class App:
             self.context.canvas.pin(CornerPin(corners))
         except OperatorError as trouble:
             log.warning("%s", english().long_sentence(trouble.message))
-            self.notices.say(self.context.words("app.pin"))
+            self.notices.add(self.context.words("app.pin"))
 
     def _frame_failed(self, seconds: float) -> bool:
         """Run one frame; true if a scene failed, which is logged."""
@@ -210,7 +212,7 @@ class App:
             if not self.stack.scenes or not self._paint(cpu_start):
                 return False
         self._draw_notices(self.context.canvas.screen, seconds)
-        if not first and len(self.stack.scenes) == 1 and not self.options.alone and self.options.step is None:
+        if not first and len(self.stack.scenes) == 1 and not self.options.without_title and self.options.step is None:
             self._preload()
         self.meter.note(seconds, updated - start, perf_counter() - updated)
         return True
@@ -265,15 +267,15 @@ class App:
         painted = self.compose(seconds)
         if not self.stack.scenes:
             return
-        if painted and self.options.shot and self.options.shot_due():
-            self.code = self._save_screenshot(self.options.shot)
+        if painted and self.options.screenshot and self.options.screenshot_due():
+            self.code = self._save_screenshot(self.options.screenshot)
             self.stack.clear()
             return
         if painted:
             self.context.canvas.flip()
         if self.window:
             self.window.update(seconds)
-        if self.options.over():
+        if self.options.should_close():
             self.stack.clear()
 
     def _save_screenshot(self, path: Path) -> int:
@@ -304,20 +306,20 @@ class App:
         before = stack.scenes[-1:]
         for press in presses:
             if stack.scenes:
-                stack.turn(stack.top.on(press))
+                stack.apply(stack.top.handle(press))
         if stack.scenes:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
-            stack.turn(stack.top.update(seconds))
+            stack.apply(stack.top.update(seconds))
 
     def _recover(self) -> bool:
         """After a scene has failed: clean up and restart at the title; false if that is impossible."""
         self.context.stop_all_robots()
         self.failures = self.failures + 1 if self.seconds - self.failed_at < FAILURE_WINDOW else 1
         self.failed_at = self.seconds
-        if self.failures >= MAX_FAILURES or self.options.alone or not self.stack.scenes or not self._restart():
+        if self.failures >= MAX_FAILURES or self.options.without_title or not self.stack.scenes or not self._restart():
             print(f"PiGaming: it cannot go on; {folders().data / 'pigaming.log'} says why.", file=sys.stderr)
             return False
-        self.notices.say(self.context.words("app.error"))
+        self.notices.add(self.context.words("app.error"))
         return True
 
     def _restart(self) -> bool:
@@ -347,10 +349,10 @@ class App:
             path = folders().data / "pictures" / f"pigaming-{datetime.now():%Y%m%d-%H%M%S}.png"
             try:
                 context.canvas.screenshot(path)
-                self.notices.say(f"{context.words('app.picture')}: {path.name}")
+                self.notices.add(f"{context.words('app.picture')}: {path.name}")
             except NotSaved as trouble:
                 log.warning("%s", trouble)
-                self.notices.say(context.words("app.unsaved"))
+                self.notices.add(context.words("app.unsaved"))
 
     def _draw_notices(self, screen: pygame.Surface, seconds: float) -> None:
         """Draw notices and the frame meter over the scene."""
@@ -358,18 +360,18 @@ class App:
             for line in self.context.canvas.notices:
                 log.warning(line)
             self.context.canvas.notices.clear()
-            self.notices.say(self.context.words("app.display"))
+            self.notices.add(self.context.words("app.display"))
         self.notices.draw(screen, seconds)
         self.meter.draw(screen)
 
 
 def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedSession | RealSession":
     """The robot session: real or emulated. The emulator is imported late, so that the title appears at once."""
-    if options.emulate is None:
+    if options.emulator_seed is None:
         return RealSession(settings, lambda: canvas.projection)
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
-    session = EmulatedSession(options.emulate, options.step is None, lambda: canvas.projection)
+    session = EmulatedSession(options.emulator_seed, options.step is None, lambda: canvas.projection)
     canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
     settings.real = settings.real or [1, 2, 3, 4]

@@ -55,7 +55,7 @@ def measured(name: str, arcade: Arcade, lab: Lab, seconds: float, until_fast: bo
     """Run frames for `seconds`, or until compiled; true if their work is within the limits."""
     clock, work, frames = pygame.time.Clock(), [], []
     began = last = perf_counter()
-    matches = lab.trainer.moment.matches
+    matches = lab.trainer.snapshot.matches
     while not lab.trainer.fast if until_fast else last - began < seconds:
         now, busy = perf_counter(), thread_time()
         arcade.frame(min(0.1, now - last), draw=True)
@@ -63,7 +63,7 @@ def measured(name: str, arcade: Arcade, lab: Lab, seconds: float, until_fast: bo
         frames.append(1000 * (now - last))
         last = now
         clock.tick(FPS)
-    matches = lab.trainer.moment.matches - matches
+    matches = lab.trainer.snapshot.matches - matches
     slice_ms = PLAIN if name != "compiled" else 0.0
     work, frames = sorted(work[WARM:]), sorted(frames[WARM:])
     if not work:

@@ -56,7 +56,7 @@ def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int
         act()
         return frame >= frames
 
-    code = run(Options(headless=True, kiosk=True, step=step, over=over))
+    code = run(Options(headless=True, kiosk=True, step=step, should_close=over))
     print(f"at most {max(found):.1f} MB, in {process_time() - began:.0f} s of CPU; code {code}")
     return int(code or max(found) > limit)
 

@@ -34,10 +34,10 @@ class Noted(Sounds):
 class Floor:
     """A lowest scene without behaviour."""
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         return None
 
     def update(self, seconds: float) -> StackOperation:
@@ -62,20 +62,20 @@ class Arcade:
 
     def open(self, scene: Scene) -> None:
         self.stack.scenes.append(scene)
-        scene.entered()
+        scene.on_enter()
 
     def press(self, button: Button, device: Device = KEYS[0]) -> None:
-        self.stack.turn(self.stack.top.on(InputEvent(button, device)))
+        self.stack.apply(self.stack.top.handle(InputEvent(button, device)))
 
     def click(self, x: float, y: float) -> None:
-        self.stack.turn(self.stack.top.on(InputEvent(Button.CLICK, Device("mouse"), at=(x, y))))
+        self.stack.apply(self.stack.top.handle(InputEvent(Button.CLICK, Device("mouse"), at=(x, y))))
 
     def frame(self, seconds: float = 1 / 30, draw: bool = False) -> None:
         """One iteration of the main loop."""
         controls = self.context.controls
         for event in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
-            self.stack.turn(self.stack.top.on(event))
-        self.stack.turn(self.stack.top.update(seconds))
+            self.stack.apply(self.stack.top.handle(event))
+        self.stack.apply(self.stack.top.update(seconds))
         if draw:
             self.stack.top.draw(self.screen)
 

@@ -84,9 +84,9 @@ def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         scene = Lobby(arcade.context, game)
         for device in KEYS[:people]:
-            scene.on(InputEvent(Button.FIRE, device))
+            scene.handle(InputEvent(Button.FIRE, device))
         for _ in range(ais):
-            scene.on(InputEvent(Button.Y, KEYS[0]))
+            scene.handle(InputEvent(Button.Y, KEYS[0]))
         return scene
 
     return opened
@@ -96,8 +96,8 @@ def seats(game: str) -> Seats:
     found = Seats(team_mode=games()[game].default.team_mode, rivals=RIVALS[game])
     for device in KEYS[:2]:
         found.join(device)
-    found.add()
-    found.add()
+    found.add_ai()
+    found.add_ai()
     return found
 
 

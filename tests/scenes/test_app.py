@@ -52,7 +52,7 @@ def test_it_starts_with_the_title_and_keeps_its_settings(home: Path) -> None:
 
 def test_a_picture_of_the_title(home: Path) -> None:
     picture = home / "title.png"
-    assert run(Options(headless=True, shot=picture, step=STEP)) == 0
+    assert run(Options(headless=True, screenshot=picture, step=STEP)) == 0
     assert picture.stat().st_size > 20_000
 
 
@@ -69,7 +69,7 @@ def test_a_scene_that_fails_gives_way_to_the_title_and_one_sentence(
         said.extend(app.notices.waiting)
 
     monkeypatch.setattr(App, "_frame", watched)
-    assert run(Options(headless=True, first=Broken, frames=4, step=STEP)) == 0
+    assert run(Options(headless=True, first_scene=Broken, frames=4, step=STEP)) == 0
     assert tops == [Title, Title, Title]
     assert set(said) == {"Something went wrong. Back to the title."}
     assert "on purpose" in (home / "data" / "pigaming.log").read_text()
@@ -93,7 +93,7 @@ def test_robots_stand_still_when_a_scene_fails_and_when_the_arcade_ends() -> Non
         context.emergency_stops += [lambda: stopped.append(1), lambda: 1 / 0, lambda: stopped.append(2)]
         return Broken(context)
 
-    assert run(Options(headless=True, first=first, frames=3, step=STEP)) == 0
+    assert run(Options(headless=True, first_scene=first, frames=3, step=STEP)) == 0
     assert stopped == [1, 2, 1, 2]
 
 
@@ -104,7 +104,7 @@ def test_a_supervisor_ends_it_and_the_settings_are_kept(home: Path) -> None:
             return None
 
     before = signal.getsignal(signal.SIGTERM)
-    assert run(Options(headless=True, first=Ended, frames=50, step=STEP)) == 0
+    assert run(Options(headless=True, first_scene=Ended, frames=50, step=STEP)) == 0
     assert signal.getsignal(signal.SIGTERM) == before
     assert (home / "config" / "settings.toml").is_file()
 
@@ -140,7 +140,7 @@ def test_closing_the_window_ends_it_but_not_in_a_kiosk(kiosk: bool, frames: int)
         scenes.append(Closing(context))
         return scenes[0]
 
-    assert run(Options(headless=True, first=closing, frames=10, step=STEP, kiosk=kiosk)) == 0
+    assert run(Options(headless=True, first_scene=closing, frames=10, step=STEP, kiosk=kiosk)) == 0
     assert scenes[0].frames == frames
 
 
@@ -152,7 +152,7 @@ def test_f12_takes_a_picture_but_not_in_a_kiosk(home: Path, kiosk: bool) -> None
                 pygame.event.post(pygame.Event(pygame.KEYDOWN, key=key, scancode=0, mod=0))
             return None
 
-    run(Options(headless=True, first=Pressing, frames=30, step=STEP, kiosk=kiosk))
+    run(Options(headless=True, first_scene=Pressing, frames=30, step=STEP, kiosk=kiosk))
     assert bool(list((home / "data").glob("pictures/*.png"))) != kiosk
 
 
@@ -164,5 +164,5 @@ def test_a_pointer_that_lies_there_does_not_take_the_focus() -> None:
         pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=(960, 600), rel=(0, 0), buttons=(0, 0, 0)))
         return titles[0]
 
-    run(Options(headless=True, first=title, frames=3, step=STEP))
+    run(Options(headless=True, first_scene=title, frames=3, step=STEP))
     assert titles[0].focus.name == "pitanks"

@@ -38,7 +38,7 @@ def test_texts_keep_off_each_other_and_off_frames(
             scene.draw(screen)
             assert len(screen.texts) > 5, "it is measured"
             assert relevant(name, faults(screen)) == []
-            scene.on(InputEvent(Button.DOWN, KEYS[0]))
+            scene.handle(InputEvent(Button.DOWN, KEYS[0]))
 
 
 def relevant(name: str, found: list[str]) -> list[str]:

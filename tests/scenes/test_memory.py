@@ -49,9 +49,9 @@ def match(arcade: Arcade, game: str) -> MatchScene:
 def warmed(arcade: Arcade, game: str) -> None:
     """Push a match, and wait until all its sprites are built and it has started."""
     scene = match(arcade, game)
-    arcade.stack.turn(Push(scene))
-    arcade.until(lambda: scene.warm, 60.0)
-    arcade.until(lambda: not scene.count.locked, 10.0)
+    arcade.stack.apply(Push(scene))
+    arcade.until(lambda: scene.prewarmed, 60.0)
+    arcade.until(lambda: not scene.countdown.locked, 10.0)
     arcade.wait(0.2, draw=True)
 
 
@@ -66,7 +66,7 @@ def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> Non
     del sprites
     arcade.press(Button.START)
     arcade.wait(0.1, draw=True)
-    arcade.stack.turn(Home())
+    arcade.stack.apply(Home())
     assert [image for image in images if image()] == []
     arcade.wait(0.1, draw=True)
     assert surfaces.bytes < title + (24 << 20), "what is left are the pages of the match"
@@ -99,7 +99,7 @@ def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monk
         press(rng, 40)
         return len(used) > 50
 
-    assert run(Options(headless=True, kiosk=True, step=0.1, over=over)) == 0
+    assert run(Options(headless=True, kiosk=True, step=0.1, should_close=over)) == 0
     pygame.display.quit()
     assert len(used) > 50
     assert 40 << 20 < max(used) <= surfaces.budget
@@ -142,7 +142,7 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
         return len(alive) == 5
 
     try:
-        run(Options(headless=True, first=first, step=0.1, over=over))
+        run(Options(headless=True, first_scene=first, step=0.1, should_close=over))
     finally:
         gc.enable()
         pygame.display.quit()

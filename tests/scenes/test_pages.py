@@ -45,8 +45,8 @@ def filled() -> Seats:
     seats = Seats(teams=True)
     for device in KEYS[:2]:
         seats.join(device)
-    seats.add()
-    seats.add()
+    seats.add_ai()
+    seats.add_ai()
     return seats
 
 
@@ -90,7 +90,7 @@ def test_every_page_survives_every_press_of_every_device(arcade: Arcade, name: s
             for device in (*KEYS, Device("pad", pad.number), MOUSE, Device("pad", 99)):
                 scene = top(arcade, name)
                 at = (960.0, 540.0) if device == MOUSE else None
-                scene.on(InputEvent(button, device, at=at))
+                scene.handle(InputEvent(button, device, at=at))
                 scene.update(1 / 60)
         top(arcade, name).draw(arcade.screen)
 
@@ -100,8 +100,8 @@ def test_every_page_survives_every_press_of_every_device(arcade: Arcade, name: s
 def test_a_mouse_may_click_anywhere(arcade: Arcade, name: str) -> None:
     for at in PLACES:
         scene = top(arcade, name)
-        scene.on(InputEvent(Button.POINT, MOUSE, at=at))
-        scene.on(InputEvent(Button.CLICK, MOUSE, at=at))
+        scene.handle(InputEvent(Button.POINT, MOUSE, at=at))
+        scene.handle(InputEvent(Button.CLICK, MOUSE, at=at))
         scene.update(1 / 60)
     scene.draw(arcade.screen)
 
@@ -130,7 +130,7 @@ def walk(arcade: Arcade, scene: Scene) -> None:
     for button in (Button.X, Button.Y, *[Button.FIRE] * 2, *[Button.Y] * 2, *[Button.DOWN, Button.RIGHT] * 11):
         if not isinstance(scene, Lobby) and button in (Button.FIRE, Button.Y):
             continue
-        scene.on(InputEvent(button, KEYS[0]))
+        scene.handle(InputEvent(button, KEYS[0]))
         scene.update(1 / 60)
         scene.draw(arcade.screen)
 
@@ -149,20 +149,20 @@ def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: s
         arcade.context.controls.last = device
         scene = top(arcade, name)
         for prompts in hints(scene, device):
-            ends = places(prompts.said, prompts.room)
-            assert ends[0][0] >= 72, prompts.said
-            assert ends[-1][1] <= 1848, prompts.said
+            ends = places(prompts.labels, prompts.room)
+            assert ends[0][0] >= 72, prompts.labels
+            assert ends[-1][1] <= 1848, prompts.labels
 
 
 def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
     """All prompt rows of a page."""
     if isinstance(scene, Lobby):
         yield scene.page.prompts
-        scene.on(InputEvent(Button.X, device))
-        scene.on(InputEvent(Button.FIRE, device))
+        scene.handle(InputEvent(Button.X, device))
+        scene.handle(InputEvent(Button.FIRE, device))
         yield scene.page.prompts
         for _ in range(3):
-            scene.on(InputEvent(Button.Y, device))
+            scene.handle(InputEvent(Button.Y, device))
         yield scene.page.prompts
     elif isinstance(scene, ControlsTest):
         yield scene._prompts()

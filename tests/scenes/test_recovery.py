@@ -32,9 +32,9 @@ class Failing(Floor):
 
 
 class Clinging(Failing):
-    """A scene that also fails in `left`."""
+    """A scene that also fails in `on_leave`."""
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         raise RuntimeError("it does not let go")
 
 
@@ -54,7 +54,7 @@ def pictures(first: Callable[[Context], Scene], frames: int = 4) -> list[bytes]:
         shown.append(pygame.image.tobytes(pygame.display.get_surface(), "RGB"))
         return len(shown) == frames
 
-    assert run(Options(headless=True, first=first, frames=20, step=STEP, over=over)) == 0
+    assert run(Options(headless=True, first_scene=first, frames=20, step=STEP, should_close=over)) == 0
     return shown
 
 
@@ -126,7 +126,7 @@ def test_a_scene_that_fails_in_left_does_not_stop_recovery(home: Path, under: bo
         def update(self, seconds: float) -> StackOperation:
             return Push(Failing(self.context, clip))
 
-        def left(self) -> None:
+        def on_leave(self) -> None:
             raise RuntimeError("it does not let go")
 
     def first(context: Context) -> Scene:
@@ -142,7 +142,7 @@ def test_all_scenes_are_closed_even_if_one_raises() -> None:
     gone: list[str] = []
 
     class Holding(Failing):
-        def left(self) -> None:
+        def on_leave(self) -> None:
             gone.append("low")
 
     class Bottom(Holding):
@@ -157,9 +157,9 @@ def test_a_title_that_cannot_be_made_again_ends_the_arcade_in_one_line(
     home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def broken(context: Context, screen: pygame.Surface) -> None:
-        monkeypatch.setattr(title.Title, "entered", lambda self: 1 / 0)
+        monkeypatch.setattr(title.Title, "on_enter", lambda self: 1 / 0)
 
-    assert run(Options(headless=True, first=lambda context: Failing(context, broken), frames=9, step=STEP)) == 1
+    assert run(Options(headless=True, first_scene=lambda context: Failing(context, broken), frames=9, step=STEP)) == 1
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert "pigaming.log" in error

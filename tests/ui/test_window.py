@@ -39,7 +39,7 @@ def lit(surface: pygame.Surface) -> pygame.Rect:
 
 def test_at_full_size_scenes_paint_straight_on_the_window(canvas: Canvas) -> None:
     assert canvas.screen is pygame.display.get_surface()
-    assert canvas.at((12, 34)) == (12.0, 34.0)
+    assert canvas.to_canvas((12, 34)) == (12.0, 34.0)
 
 
 @pytest.mark.parametrize(
@@ -62,12 +62,12 @@ def test_any_other_window_shows_all_of_it_undistorted(
     canvas.flip()
     assert lit(shown) == pygame.Rect(picture)
     x, y, w, h = picture
-    assert canvas.at((x, y)) == (0.0, 0.0)
-    assert canvas.at((x + w / 2, y + h / 2)) == (960.0, 540.0)
-    assert canvas.at((x + w, y + h)) == (1920.0, 1080.0)
+    assert canvas.to_canvas((x, y)) == (0.0, 0.0)
+    assert canvas.to_canvas((x + w / 2, y + h / 2)) == (960.0, 540.0)
+    assert canvas.to_canvas((x + w, y + h)) == (1920.0, 1080.0)
     if picture != (0, 0, *window):
         assert tuple(shown.get_at((0, 0))) == (0, 0, 0, 255)
-        assert min(canvas.at((0, 0))) < 0.0
+        assert min(canvas.to_canvas((0, 0))) < 0.0
 
 
 @pytest.mark.parametrize("window", [(1, 1), (1, 900), (1600, 1)])
@@ -76,7 +76,7 @@ def test_a_window_of_no_size_does_no_harm(canvas: Canvas, window: tuple[int, int
     canvas.screen.fill("red")
     canvas.flip()
     assert canvas.screen.get_size() == SIZE
-    assert all(map(isfinite, canvas.at((0, 0))))
+    assert all(map(isfinite, canvas.to_canvas((0, 0))))
 
 
 def test_a_screenshot_is_the_whole_canvas(canvas: Canvas, tmp_path: Path) -> None:
@@ -126,7 +126,7 @@ def test_without_a_window_flipping_and_pointing_still_do_not_fail(canvas: Canvas
     pygame.display.quit()
     canvas.screen.fill("red")
     canvas.flip()
-    assert canvas.at((5, 5)) == (5.0, 5.0)
+    assert canvas.to_canvas((5, 5)) == (5.0, 5.0)
 
 
 def test_the_pointer_hides_when_nobody_moves_the_mouse(canvas: Canvas, monkeypatch: pytest.MonkeyPatch) -> None:

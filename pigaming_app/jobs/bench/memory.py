@@ -72,7 +72,7 @@ def visit(state: str) -> float | None:
         readings.append(None if len(readings) < frames - 1 else resident_mb())
         return len(readings) == frames
 
-    run(Options(first=lambda context: Tour(context, state, route), headless=True, step=STEP, over=over))
+    run(Options(first_scene=lambda context: Tour(context, state, route), headless=True, step=STEP, should_close=over))
     return readings[-1]
 
 
@@ -83,10 +83,10 @@ class Tour:
         self.context, self.state, self.route = context, state, list(route)
         self._next()
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """No effect: each scene is entered when its turn comes."""
 
-    def on(self, press: Any) -> None:
+    def handle(self, press: Any) -> None:
         """Input is ignored."""
 
     def update(self, seconds: float) -> None:
@@ -102,7 +102,7 @@ class Tour:
     def _next(self) -> None:
         self.remaining, make = self.route.pop(0)
         self.scene = make(self.context, self.state)
-        self.scene.entered()
+        self.scene.on_enter()
 
 
 def title(context: "Context", state: str) -> "Scene":

@@ -175,7 +175,7 @@ def goal(color: Color) -> Sprite:
 @cached
 def cross(color: Color) -> Sprite:
     """The mark of an occluded line of sight."""
-    ink = GlowCanvas(80, 80, 3).to(40, 40)
+    ink = GlowCanvas(80, 80, 3).set_transform(40, 40)
     for side in (-1, 1):
         ink.line([(-13, -13 * side), (13, 13 * side)], color, THIN + 3)
     return trim(ink.lit(0.7), 40, 40)

@@ -144,7 +144,7 @@ def put_on(screen: pygame.Surface, image: pygame.Surface, x: float, y: float) ->
 @cached
 def box(seat: int, w: int, named: bool) -> pygame.Surface:
     """The outline of a box; `named`: with the robot's badge and the AI sign."""
-    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
     ink.line(cut_box(0, 0, w, H), color, THIN, True)
     if named:
         badge(ink, seat, 52, 36, 24)
@@ -155,7 +155,7 @@ def box(seat: int, w: int, named: bool) -> pygame.Surface:
 @cached
 def bar(seat: int, chosen: bool, full: bool) -> Sprite:
     """A wish bar, full or empty, anchored at the middle of its top."""
-    ink = GlowCanvas(BAR_W + 2 * EDGE, BAR_H + 2 * EDGE).to(EDGE + BAR_W / 2, EDGE)
+    ink = GlowCanvas(BAR_W + 2 * EDGE, BAR_H + 2 * EDGE).set_transform(EDGE + BAR_W / 2, EDGE)
     outline = cut_box(-BAR_W / 2, 0, BAR_W, BAR_H, 6)
     color = WHITE if chosen else dim(PLAYERS[seat], 0.75)
     if full:
@@ -168,7 +168,7 @@ def bar(seat: int, chosen: bool, full: bool) -> Sprite:
 @cached
 def sign(name: str, color: Color) -> Sprite:
     """The sign of a wish: an icon, or a crate's state."""
-    ink = GlowCanvas(96, 96, 3).to(48, 48)
+    ink = GlowCanvas(96, 96, 3).set_transform(48, 48)
     if name in CRATES:
         state_icon(ink, CRATES[name], 0, 0, 17, color)
     else:
@@ -180,7 +180,7 @@ def sign(name: str, color: Color) -> Sprite:
 def cell(fill: Color, held: bool) -> Sprite:
     """One cell of a stick."""
     half = CELL / 2 - 2
-    ink = GlowCanvas(64, 64, 3).to(32, 32)
+    ink = GlowCanvas(64, 64, 3).set_transform(32, 32)
     ink.fill(cut_box(-half, -half, 2 * half, 2 * half, 5), fill)
     if held:
         ink.line(cut_box(-half - 1, -half - 1, 2 * half + 2, 2 * half + 2, 5), WHITE, THIN, True)

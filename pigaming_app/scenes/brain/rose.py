@@ -58,7 +58,7 @@ def petal(k: int, level: int, inner: int, outer: int) -> Sprite:
     room = _slice(k, inner, outer)
     left, top = min(x for x, _ in room) - GLOW, min(y for _, y in room) - GLOW
     w, h = max(x for x, _ in room) + GLOW - left, max(y for _, y in room) + GLOW - top
-    ink = GlowCanvas(math.ceil(w), math.ceil(h)).to(-left, -top)
+    ink = GlowCanvas(math.ceil(w), math.ceil(h)).set_transform(-left, -top)
     ink.line(room, EMPTY, 2, True)
     if level:
         reach = inner + (outer - inner) * (SHORTEST + (1 - SHORTEST) * abs(level) / LEVELS)

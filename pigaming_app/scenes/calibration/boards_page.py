@@ -29,18 +29,18 @@ class BoardsPage:
         self.work = Calibration(site, number, measures, context.canvas.projection)
         self.work.begin()
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         self.context.sounds.music(False)
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Release the camera."""
         self.work.close()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """BACK aborts."""
         if event.button is Button.BACK:
             self.context.sounds.play("back")
-            self.left()
+            self.on_leave()
             return Pop()
         return None
 
@@ -50,15 +50,15 @@ class BoardsPage:
         self.work.pump()
         if not self.work.over:
             return None
-        self.left()
+        self.on_leave()
         work = self.work
         finding = CalibrationResult(
             self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small
         )
         self.context.sounds.play("accept" if finding.good else "back")
         if finding.good and not self.measures.height:
-            return Swap(HeightPage(self.context, finding, self._again))
-        return Swap(ResultPage(self.context, finding, self._again))
+            return Swap(HeightPage(self.context, finding, self._retry))
+        return Swap(ResultPage(self.context, finding, self._retry))
 
     def draw(self, screen: pygame.Surface) -> None:
         board = self.work.board
@@ -74,7 +74,7 @@ class BoardsPage:
         self._draw_progress(screen)
         self.work.shown(board)
 
-    def _again(self) -> Scene:
+    def _retry(self) -> Scene:
         """A page that repeats the calibration."""
         return BoardsPage(self.context, self.site, self.number, self.measures)
 

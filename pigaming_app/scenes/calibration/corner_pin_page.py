@@ -73,15 +73,15 @@ class CornerPinPage:
             solid=True,
         )
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Apply the pin; on failure, show the reason."""
         self._pin()
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Discard unsaved changes."""
         self._restore()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Directions move the corner; FIRE selects the next one."""
         event = self.prompts.as_button(event)
         match event.button:
@@ -199,14 +199,14 @@ def grid() -> Steps[pygame.Surface]:
     layer.canvas.crisp.line(cut_box(3, 3, 1914, 1074, 0), ICE, LINE, True)
     layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), STEEL, THIN, True)
     yield
-    light = yield from layer.lighting()
+    light = yield from layer.render_steps()
     surface = pygame.Surface((1920, 1080))
     light.draw(surface)
     yield
     pygame.draw.polygon(surface, (0, 0, 0), cut_box(BOX.x, BOX.y, BOX.w, BOX.h, 28))
     frame = Layer(*BOX)
     panel(frame.glow, BOX.x, BOX.y, BOX.w, BOX.h, STEEL, LINE, 28)
-    light = yield from frame.lighting()
+    light = yield from frame.render_steps()
     light.draw(surface)
     return surface
 
@@ -227,4 +227,4 @@ def handle(corner: int) -> LitImage:
         FOCUS,
         LINE,
     )
-    return layer.done()
+    return layer.render()

@@ -40,21 +40,21 @@ class DriftPage:
         self.clock = 0.0
         self.prompts = context.prompts([(Button.BACK, "calibrate.hint_back")])
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Start the check."""
         if self.context.session is not None:
             self.context.session.close()
         self.work.begin()
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Release the camera."""
         self.work.close()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Any button leads back."""
         if self.prompts.as_button(event).button in (Button.BACK, Button.FIRE, Button.START):
             self.context.sounds.play("back")
-            self.left()
+            self.on_leave()
             return Pop()
         return None
 
@@ -115,4 +115,4 @@ def bar() -> LitImage:
         x = BAR.x + BAR.w * mm / BAR_MM
         layer.glow.line([(x, BAR.y - 12), (x, BAR.bottom + 12)], color, LINE)
         layer.canvas.crisp.text(f"{mm:.0f} mm", BODY, x, BAR.bottom + 44, color, "body", "c")
-    return layer.done()
+    return layer.render()

@@ -22,28 +22,28 @@ NEAR, FAR = 86, 128  # px from the middle: ends of the four aiming lines
 
 
 class HeightPage:
-    """The page. `finding`: a calibration without camera position; `again`: makes the page that repeats it."""
+    """The page. `finding`: a calibration without camera position; `retry`: makes the page that repeats it."""
 
-    def __init__(self, context: Context, finding: CalibrationResult, again: Callable[[], Scene]) -> None:
+    def __init__(self, context: Context, finding: CalibrationResult, retry: Callable[[], Scene]) -> None:
         assert finding.ground is not None
-        self.context, self.finding, self.again = context, finding, again
+        self.context, self.finding, self.retry = context, finding, retry
         self.work = HeightProcedure(finding.site, finding.number, finding.ground)
         self.work.begin()
         self.seen_count = 0
         self.prompts = context.prompts([(Button.BACK, "calibrate.hint_stop")], 1040)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         pass
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Release the camera."""
         self.work.close()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """BACK aborts."""
         if self.prompts.as_button(event).button is Button.BACK:
             self.context.sounds.play("back")
-            self.left()
+            self.on_leave()
             return Pop()
         return None
 
@@ -57,12 +57,12 @@ class HeightPage:
             self.context.sounds.play("accept")
         if work.place is not None:
             return None
-        self.left()
+        self.on_leave()
         ground = work.found or self.finding.ground
         result = replace(
             self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small
         )
-        return Swap(ResultPage(self.context, result, self.again))
+        return Swap(ResultPage(self.context, result, self.retry))
 
     def draw(self, screen: pygame.Surface) -> None:
         place, words = self.work.place, self.context.words
@@ -88,7 +88,7 @@ class HeightPage:
 def spot(here: bool, done: bool) -> LitImage:
     """Four aiming lines; no light near the marker."""
     color = FOCUS if here else dim(ICE, 0.5) if done else STEEL
-    ink = GlowCanvas(2 * FAR + 60, 2 * FAR + 60).to(FAR + 30, FAR + 30)
+    ink = GlowCanvas(2 * FAR + 60, 2 * FAR + 60).set_transform(FAR + 30, FAR + 30)
     for across, down in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         ink.line([(NEAR * across, NEAR * down), (FAR * across, FAR * down)], color, LINE if here else THIN)
     if done:

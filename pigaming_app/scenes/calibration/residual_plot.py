@@ -32,7 +32,7 @@ def arrows(residuals: Residuals) -> tuple[LitImage, int]:
         layer.glow.disc(*begin, 3, dim(ICE, 0.6))
         layer.canvas.crisp.line([begin, end], color, HAIR + 1)
         layer.canvas.crisp.disc(*end, 3.5, color)
-    return layer.done(), times
+    return layer.render(), times
 
 
 def _at(x: float, y: float) -> tuple[float, float]:
@@ -52,4 +52,4 @@ def figure(name: str, value: str, share: float, limit: str) -> LitImage:
     layer.glow.fill(cut_box(4, 78, max(12.0, (bar - 8) * min(1.0, share / 2.0)), 18, 5), color)
     layer.glow.line([(bar / 2, 64), (bar / 2, 110)], ICE, LINE)
     layer.canvas.body(limit, SIDE.w, 142, MIST, "r", BODY - 8)
-    return layer.done()
+    return layer.render()

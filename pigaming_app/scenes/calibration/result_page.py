@@ -58,10 +58,10 @@ class CalibrationResult:
 
 
 class ResultPage:
-    """The page: save, again, or back. `again`: makes the page that repeats the calibration."""
+    """The page: save, again, or back. `retry`: makes the page that repeats the calibration."""
 
-    def __init__(self, context: Context, finding: CalibrationResult, again: Callable[[], Scene]) -> None:
-        self.context, self.finding, self.again = context, finding, again
+    def __init__(self, context: Context, finding: CalibrationResult, retry: Callable[[], Scene]) -> None:
+        self.context, self.finding, self.retry = context, finding, retry
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
         self.arrows: tuple[LitImage, int] | None = None
@@ -70,17 +70,17 @@ class ResultPage:
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Log the errors."""
         if self.finding.residuals and not self.finding.trouble:
             log.info("calibration: %s", english().long_sentence(self.finding.residuals.verdict))
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Left and right select, FIRE activates."""
         event = self.navigation.prompts.as_button(event)
-        if turn := self.navigation.on(event):
+        if turn := self.navigation.handle(event):
             return turn
-        chosen = self.focus.chosen(event)
+        chosen = self.focus.activated(event)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> StackOperation:
@@ -172,7 +172,7 @@ class ResultPage:
             return Pop()
         if name == "again":
             self.context.sounds.play("accept")
-            return Swap(self.again())
+            return Swap(self.retry())
         if finding.ground is None:
             return None
         path = store.calibration_file(finding.site.name)
@@ -181,7 +181,7 @@ class ResultPage:
         except NotSaved as trouble:
             log.warning("%s", trouble)
             self.context.sounds.play("back")
-            self.navigation.say(self.context.words("calibrate.unsaved", path=path))
+            self.navigation.show_message(self.context.words("calibrate.unsaved", path=path))
             return None
         self.context.sounds.play("accept")
         return Pop()

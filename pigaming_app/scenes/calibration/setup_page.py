@@ -67,30 +67,30 @@ class CalibrationPage:
         hints.append((Button.BACK, "calibrate.hint_back"))
         self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Open the camera, also when a calibration returns here."""
         self.cameras = self.site.cameras()
         if self.site.name == "real" and self.cameras and self.number not in [camera.number for camera in self.cameras]:
             self.number = self.cameras[0].number
         self._open_camera()
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Release the camera."""
         if self.preview is not None:
             self.preview.close()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Up and down select a row, left and right change it; the last row starts the calibration."""
         event = self.navigation.prompts.as_button(event)
-        if turn := self.navigation.on(event):
+        if turn := self.navigation.handle(event):
             return turn
         by = dials.step_of(event, self.focus, self._value(self.focus.name))
         if by:
             self.repeats = self.repeats + 1 if event.repeat else 0
             self._change(self.focus.name, by)
-        elif self.focus.chosen(event) is not None and event.button is not Button.CLICK:
+        elif self.focus.activated(event) is not None and event.button is not Button.CLICK:
             return self._accept(self.focus.name)
-        elif event.button is Button.CLICK and self.focus.under(event) == "begin":
+        elif event.button is Button.CLICK and self.focus.spot_at(event) == "begin":
             return self._accept("begin")
         return None
 
@@ -209,7 +209,7 @@ class CalibrationPage:
                 robot = bool(measures.height) if wrap else by > 0
                 height = 0.0 if robot else measures.height or self.site.measures.height or DEFAULT_HEIGHT
                 self.measures = Measurements(measures.width, height, measures.lid)
-                self.focus.place(dials.spots(self._rows()))
+                self.focus.set_spots(dials.spots(self._rows()))
             case "width" | "lid" | "height":
                 self._measure(name, by)
         self._save()
@@ -243,14 +243,14 @@ class CalibrationPage:
         self._state_of = (0, 0)
         if self.context.session is not None:
             self.context.session.close()
-        self.left()
+        self.on_leave()
         self.preview = CameraPreview(self.site, self.number)
         self.preview.begin()
 
     def _begin(self) -> StackOperation:
         """Start the calibration, full screen."""
         self.context.sounds.play("accept")
-        self.left()
+        self.on_leave()
         canvas = self.context.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             self._show(canvas.display, True)
@@ -274,4 +274,4 @@ class CalibrationPage:
             settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.navigation.say(self.context.words("app.unsaved"))
+            self.navigation.show_message(self.context.words("app.unsaved"))

@@ -25,9 +25,9 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 
-OWNED = 20.0  # seconds for which a pause belongs to its owner
-ESCAPE = 1.0  # seconds for which an operator holds Escape
-TAKE = 0.6  # seconds for which FIRE is held to take an AI's seat
+OWNER_SECONDS = 20.0  # seconds for which a pause belongs to its owner
+ESCAPE_SECONDS = 1.0  # seconds for which an operator holds Escape
+TAKE_SECONDS = 0.6  # seconds for which FIRE is held to take an AI's seat
 ALWAYS = (Button.FOUND, Button.LOST, Button.STOP, Button.POINT, Button.CLICK)  # accepted from any device
 
 Devices = Sequence[Device | None]
@@ -38,7 +38,7 @@ class Access:
 
     def __init__(self, context: Context, devices: Callable[[], Devices]) -> None:
         self.controls, self.devices = context.controls, devices
-        self.escape = HoldTimers(context.controls, ESCAPE)
+        self.escape = HoldTimers(context.controls, ESCAPE_SECONDS)
 
     @property
     def seated(self) -> list[Device]:
@@ -70,7 +70,7 @@ class Access:
         return events[0] if events else None
 
     @property
-    def voice(self) -> Device:
+    def hint_device(self) -> Device:
         """The device whose buttons the hints show: the one used last, if it may act."""
         last = self.controls.last
         buttons = [device for device in self.acting if device.kind != "mouse"]
@@ -82,7 +82,7 @@ class PauseAccess(Access):
 
     def __init__(self, context: Context, devices: Callable[[], Devices], owner: Device) -> None:
         super().__init__(context, devices)
-        self.owner, self.left = owner, OWNED
+        self.owner, self.seconds_left = owner, OWNER_SECONDS
 
     @property
     def acting(self) -> Collection[Device]:
@@ -94,12 +94,12 @@ class PauseAccess(Access):
     @property
     def owned(self) -> bool:
         """True while only the owner may act."""
-        return self.left > 0.0 and self.controls.connected(self.owner)
+        return self.seconds_left > 0.0 and self.controls.connected(self.owner)
 
     def update(self, seconds: float) -> InputEvent | None:
         """Advance the timers; an operator holding Escape becomes the owner."""
-        self.left -= seconds
+        self.seconds_left -= seconds
         events = super().update(seconds)
         if events:
-            self.owner, self.left = events.device, OWNED
+            self.owner, self.seconds_left = events.device, OWNER_SECONDS
         return events

@@ -48,10 +48,10 @@ class Context:
         y: int = 980,
         room: int = ROOM,
         solid: bool = False,
-        voice: Callable[[], Device] | None = None,
+        device: Callable[[], Device] | None = None,
     ) -> ButtonPrompts:
         """A page's row of button prompts, see `ButtonPrompts`."""
-        return ButtonPrompts(self.words, self.controls, items, y, room, solid, voice)
+        return ButtonPrompts(self.words, self.controls, items, y, room, solid, device)
 
     def stop_all_robots(self) -> None:
         """Stop all robots: after a scene failure, and when the arcade ends."""

@@ -18,10 +18,10 @@ class Navigation:
         hints: Sequence[tuple[Button, str]],
         idle: float,
         stay: float = 0.0,
-        voice: Callable[[], Device] | None = None,
+        device: Callable[[], Device] | None = None,
     ) -> None:
         self.context, self.focus, self.idle, self.stay = context, focus, idle, stay
-        self.prompts = context.prompts(hints, voice=voice)
+        self.prompts = context.prompts(hints, device=device)
         self._sentence, self._remaining = "", 0.0
 
     @property
@@ -29,16 +29,16 @@ class Navigation:
         """The visible sentence; empty if there is none."""
         return self._sentence if self._remaining > 0.0 else ""
 
-    def say(self, sentence: str) -> None:
+    def show_message(self, sentence: str) -> None:
         """Show a sentence for a while."""
         self._sentence, self._remaining = sentence, self.stay
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """BACK leaves the page; directions and the mouse move the focus."""
         if event.button is Button.BACK:
             self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(event):
+        if self.focus.handle(event):
             self.context.sounds.play("move")
         return None
 

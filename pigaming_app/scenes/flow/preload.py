@@ -1,4 +1,4 @@
-"""Preloader: imports modules, loads arenas and solves racing lines in a thread while the title is shown.
+"""Preloader: imports modules, loads arenas, solves racing lines and hashes the engine in a thread, below the title.
 
 No frame waits for it. The compiler of the Lab is started afterwards.
 """
@@ -19,7 +19,7 @@ class Preloader:
 
     def __init__(self) -> None:
         self.modules: Sequence[str] = ()
-        self.then: Callable[[], None] = lambda: None
+        self.on_done: Callable[[], None] = lambda: None
         self._thread: threading.Thread | None = None
         self._ended = False
         self._ready: set[tuple[str, str]] = set()
@@ -56,13 +56,14 @@ class Preloader:
         try:
             self._do()
         except Exception:
-            log.exception("what a match needs could not be prepared in the background")
+            log.exception("preloading failed")
         finally:
             sys.setswitchinterval(old_interval)
 
     def _do(self) -> None:
         """All steps, in the order in which they are likely to be needed."""
-        from pigaming_app.scenes.flow import arena_preload  # late: the title does not wait for it
+        from pigaming_app.games.engine_hash import engine_hash  # late: the title does not wait for these
+        from pigaming_app.scenes.flow import arena_preload
 
         all_arenas = arena_preload.every_arena()
         for arena in all_arenas:
@@ -76,4 +77,6 @@ class Preloader:
                 arena_preload.prepare(*arena)
                 self._ready.add(arena)
         if not self._ended:
-            self.then()
+            engine_hash()  # 0.1 s; cached for the first saved robot, ghost or replay
+        if not self._ended:
+            self.on_done()

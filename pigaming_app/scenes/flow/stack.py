@@ -11,10 +11,10 @@ from pigaming_app.ui.input.events import InputEvent
 class Scene(Protocol):
     """One screen."""
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Called when the scene becomes the top one: after a push, or when the scene above is popped."""
 
-    def on(self, event: InputEvent) -> "StackOperation":
+    def handle(self, event: InputEvent) -> "StackOperation":
         """Handle an input event."""
 
     def update(self, seconds: float) -> "StackOperation":
@@ -28,7 +28,7 @@ class Scene(Protocol):
 class Closable(Protocol):
     """A scene that holds a resource, such as a camera, while it is on the stack."""
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Release it: the scene was removed from the stack."""
 
 
@@ -71,18 +71,18 @@ class Stack:
 
     def __init__(self, first: Scene) -> None:
         self.scenes = [first]
-        first.entered()
+        first.on_enter()
 
     @property
     def top(self) -> Scene:
         return self.scenes[-1]
 
-    def turn(self, turn: StackOperation) -> None:
+    def apply(self, operation: StackOperation) -> None:
         """Apply a stack operation. An empty stack closes the arcade."""
-        if turn is None:
+        if operation is None:
             return
         before = self.scenes[:]
-        match turn:
+        match operation:
             case Push(scene):
                 self.scenes.append(scene)
             case Pop():
@@ -95,10 +95,10 @@ class Stack:
                 self.scenes.clear()
         self._leave(before)
         if self.scenes:
-            self.top.entered()
+            self.top.on_enter()
 
     def clear(self) -> None:
-        """Remove all scenes. Errors raised in `left` are raised after all scenes have been closed."""
+        """Remove all scenes. Errors raised in `on_leave` are raised after all scenes have been closed."""
         before = self.scenes[:]
         self.scenes.clear()
         self._leave(before)
@@ -109,7 +109,7 @@ class Stack:
         for scene in reversed(before):
             if scene not in self.scenes and isinstance(scene, Closable):
                 try:
-                    scene.left()
+                    scene.on_leave()
                 except Exception as error:
                     errors.append(error)
         if errors:

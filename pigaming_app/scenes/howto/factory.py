@@ -137,7 +137,7 @@ def _carried(share: float) -> tuple[float, float]:
 
 @cached
 def _warehouse() -> LitImage:
-    glow, crisp = GlowCanvas(240, 480).to(120, 240), GlowCanvas(240, 480).to(120, 240)
+    glow, crisp = GlowCanvas(240, 480).set_transform(120, 240), GlowCanvas(240, 480).set_transform(120, 240)
     box = cut_box(-54, -2 * PITCH - 12, 108, 4 * PITCH + 24, 16)
     glow.neon(box, crates.TEAMS[ICE], LINE, True)
     for i in range(4):
@@ -148,7 +148,7 @@ def _warehouse() -> LitImage:
 @cached
 def _machines() -> LitImage:
     """Both machines with their slots, and the path between them."""
-    glow, crisp = GlowCanvas(460, 460).to(230, 230), GlowCanvas(460, 460).to(230, 230)
+    glow, crisp = GlowCanvas(460, 460).set_transform(230, 230), GlowCanvas(460, 460).set_transform(230, 230)
     for kind, y in ((A, -MACHINE), (B, MACHINE)):
         draw_machine((glow, crisp), kind, 0, y)
         for side in (-1, 1):
@@ -162,14 +162,14 @@ def _machines() -> LitImage:
 
 @cached
 def _lorry() -> LitImage:
-    ink = GlowCanvas(240, 180).to(120, 90, 0, 1.4)
+    ink = GlowCanvas(240, 180).set_transform(120, 90, 0, 1.4)
     draw_lorry(ink, 0, 0, crates.TEAMS[ICE], -1)
     return LitImage(ink.lit(0.8), (-120, -90))
 
 
 @cached
 def _button(pressed: bool) -> LitImage:
-    ink = GlowCanvas(140, 140).to(70, 70)
+    ink = GlowCanvas(140, 140).set_transform(70, 70)
     ink.ring(0, 0, 36, FOCUS if pressed else STEEL, THIN)
     if pressed:
         ink.disc(0, 0, 24, FOCUS)
@@ -180,5 +180,5 @@ def _button(pressed: bool) -> LitImage:
 
 def _lit(glow: GlowCanvas, crisp: GlowCanvas, x: int, y: int) -> LitImage:
     out = glow.lit(0.6)
-    run_to_end(crisp.onto(out))
+    run_to_end(crisp.downscale_onto(out))
     return LitImage(out, (x, y))

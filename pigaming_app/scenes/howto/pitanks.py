@@ -107,7 +107,7 @@ def pickups(screen: pygame.Surface, x: float, y: float, seconds: float) -> str |
 
 @cached
 def _stick() -> LitImage:
-    ink = GlowCanvas(200, 200).to(100, 100)
+    ink = GlowCanvas(200, 200).set_transform(100, 100)
     ink.ring(0, 0, 40, MIST, THIN)
     for name, dx, dy in (("up", 0, -62), ("down", 0, 62), ("left", -62, 0), ("right", 62, 0)):
         icon(ink, name, dx, dy, 13, STEEL, THIN)
@@ -127,7 +127,7 @@ def _cell(lit: bool) -> LitImage:
 
 @cached
 def _halo() -> LitImage:
-    ink = GlowCanvas(200, 200).to(100, 100)
+    ink = GlowCanvas(200, 200).set_transform(100, 100)
     for i in range(8):
         a = i * math.tau / 8
         ink.line([(62 * math.cos(a), 62 * math.sin(a)), (72 * math.cos(a), 72 * math.sin(a))], FOCUS, LINE - HAIR)

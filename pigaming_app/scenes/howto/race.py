@@ -120,7 +120,7 @@ def _edge() -> LitImage:
 
 @cached
 def _post(line: int, lit: bool) -> LitImage:
-    ink = GlowCanvas(120, 120).to(60, 60)
+    ink = GlowCanvas(120, 120).set_transform(60, 60)
     badge(ink, line, 0, 0, 25, None if lit else dim(PLAYERS[line], 0.3))
     return LitImage(ink.lit(0.6), (-60, -60))
 
@@ -128,10 +128,11 @@ def _post(line: int, lit: bool) -> LitImage:
 def _sheets() -> tuple[GlowCanvas, GlowCanvas]:
     """A glowing and a crisp canvas, centred on (0, 0)."""
     side = 2 * WIDE + 60
-    return GlowCanvas(side, side + 40).to(side / 2, side / 2), GlowCanvas(side, side + 40).to(side / 2, side / 2)
+    glow, crisp = (GlowCanvas(side, side + 40).set_transform(side / 2, side / 2) for _ in range(2))
+    return glow, crisp
 
 
 def _lit(glow: GlowCanvas, crisp: GlowCanvas) -> LitImage:
     out = glow.lit(0.6)
-    run_to_end(crisp.onto(out))
+    run_to_end(crisp.downscale_onto(out))
     return LitImage(out, (-(WIDE + 30), -(WIDE + 30)))

@@ -41,11 +41,11 @@ class HowTo:
         self.context, self.game = context, game
         self.clock = 0.0
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Restart the animations."""
         self.clock = 0.0
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Switch games, or leave."""
         clicked = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
         if event.button in (Button.LEFT, Button.RIGHT):
@@ -121,7 +121,7 @@ def frame(number: int, w: int) -> Steps[LitImage]:
     layer.glow.fill(regular_polygon(40, 32, 0, w / 2, 0), ICE)
     layer.glow.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())
 
 
 @cached
@@ -132,7 +132,7 @@ def caption(sentence: str, room: int) -> LitImage:
     for i, line in enumerate(lines):
         size = fit_size(line, BODY, room, "body")
         layer.canvas.body(line, 0, 54 * (i - (len(lines) - 1) / 2), ICE, "c", size)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -149,7 +149,7 @@ def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
         layer.canvas.body(action, x + 10, FOOT_Y, MIST)
         x += 10 + text_width(action, BODY, "body") + 56
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())
 
 
 def _width(label: str) -> float:

@@ -76,7 +76,7 @@ class ArenaView:
             if bullet.alive
         ]
 
-    def warm(self, milliseconds: float) -> None:
+    def prewarm(self, milliseconds: float) -> None:
         """Prewarm sprites for at most this many milliseconds."""
         self.jobs.work(milliseconds)
 

@@ -9,7 +9,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import sheet_title
-from pigaming_app.scenes.play.scene import FREEZE, MatchScene, new_seed
+from pigaming_app.scenes.play.scene import FREEZE_SECONDS, MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
@@ -19,7 +19,7 @@ from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, overlay
 
 MINUTES = 1.0
 ROBOT = 1  # seat of the trained robot; the person has seat 0
-DEAF = 1.0  # s during which input is ignored
+INPUT_LOCKOUT = 1.0  # s during which input is ignored
 IDLE = 60.0  # s without input before the return to the Lab
 
 
@@ -31,33 +31,33 @@ class Challenge:
         off = Seat("off", 2), Seat("off", 3)
         setup = Setup(GAME, arena, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
         self.inner = MatchScene(context, setup, [device])
-        self.inner.open = False  # the robot's seat cannot be taken over
+        self.inner.join_allowed = False  # the robot's seat cannot be taken over
         self.inner.match.sit(ROBOT, BrainPlayer(kind, setup.seed))
         self.inner.runner.players[ROBOT] = kind.name
 
-    def entered(self) -> None:
-        self.inner.entered()
+    def on_enter(self) -> None:
+        self.inner.on_enter()
 
-    def on(self, event: InputEvent) -> StackOperation:
-        return self.inner.on(event)
+    def handle(self, event: InputEvent) -> StackOperation:
+        return self.inner.handle(event)
 
     def update(self, seconds: float) -> StackOperation:
         """Advance the match; stopped by hand, it returns to the Lab at once."""
         inner = self.inner
-        if inner.repeated:
-            return Swap(self.again(inner.devices[0]))
-        if inner.stopped:
+        if inner.restart_requested:
+            return Swap(self.rematch(inner.devices[0]))
+        if inner.stop_requested:
             return Pop()
         if inner.match.over:
             inner.frozen += seconds
             inner.runner.wait(seconds)
-            return Swap(ChallengeResult(self)) if inner.frozen >= FREEZE else None
+            return Swap(ChallengeResult(self)) if inner.frozen >= FREEZE_SECONDS else None
         return inner.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         self.inner.draw(screen)
 
-    def again(self, device: Device | None) -> "Challenge":
+    def rematch(self, device: Device | None) -> "Challenge":
         """A rematch, driven by `device`, or by the same device if None."""
         return Challenge(self.context, self.kind, device or self.device, self.arena)
 
@@ -73,24 +73,24 @@ class ChallengeResult:
         self.access = Access(self.context, lambda: [fight.inner.devices[0]])
         self.leaving = HoldTimers(self.context.controls, LEAVE)
         hints = [(Button.FIRE, "results.again"), (Button.BACK, "lab.hint_lab")]
-        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: self.access.hint_device)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         own, theirs = self.scores
         self.context.sounds.play("win" if own > theirs else "lose" if own < theirs else "tie", 0)
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE starts a rematch with the device that pressed it; BACK, held, returns to the Lab."""
         event = self.prompts.as_button(event)
         admitted = self.access.admit(event)
         if admitted is None and event.button not in (Button.FIRE, Button.START):
             return None
         self.idle = 0.0
-        if self.age < DEAF:
+        if self.age < INPUT_LOCKOUT:
             return None
         if event.button in (Button.FIRE, Button.START):
             self.context.sounds.play("accept")
-            return Swap(self.fight.again(None if event.device.kind == "mouse" else event.device))
+            return Swap(self.fight.rematch(None if event.device.kind == "mouse" else event.device))
         if admitted and event.button is Button.BACK:
             if event.device.kind == "mouse":
                 return self._leave()

@@ -14,7 +14,7 @@ from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.experiments.training import GAME
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.scenes.lab.bench import IDLE, LabHost
+from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box, icon
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
@@ -59,7 +59,7 @@ class ComparePage:
         words, trainer = self.context.words, lab.trainer
         checkpoints = trainer.checkpoints()
         self.players = [Entrant(words("lab.after", matches=n), checkpoints[n].kind) for n in sorted(checkpoints)]
-        now = trainer.moment.matches
+        now = trainer.snapshot.matches
         if now not in checkpoints:
             self.players.append(Entrant(words("lab.now", matches=now), trainer.checkpoint("now").kind))
         self.players.append(Entrant(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
@@ -70,10 +70,10 @@ class ComparePage:
         self.exam: Evaluation | None = None
         self.prompts = self.context.prompts([(Button.BACK, "lab.hint_lab")])
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Any button returns to the Lab."""
         event = self.prompts.as_button(event)
         if event.button in (Button.BACK, Button.FIRE, Button.START):
@@ -148,4 +148,4 @@ def row(name: str, own: bool, best: bool) -> LitImage:
     icon(layer.glow, "crown" if best else "ai", 62, HIGH / 2, 26, FOCUS if best else MIST, THIN)
     color = FOCUS if best else ICE if own else MIST
     layer.canvas.body(name, 124, HIGH / 2, color, "l", fit_size(name, LABEL, 780, "body"))
-    return layer.done()
+    return layer.render()

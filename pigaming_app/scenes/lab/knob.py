@@ -32,7 +32,7 @@ def dial(value: int, held: bool) -> LitImage:
     if held:
         for side in (-1, 1):
             layer.glow.fill([(side * ARROW, 0), (side * (ARROW - 18), -16), (side * (ARROW - 18), 16)], FOCUS)
-    return layer.done()
+    return layer.render()
 
 
 def signed(value: int) -> str:

@@ -3,8 +3,8 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
-from pigaming_app.scenes.lab.bench import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.compare_page import ComparePage
+from pigaming_app.scenes.lab.host import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.name_page import NamePage
 from pigaming_app.scenes.lab.open_page import OpenPage
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
@@ -30,19 +30,19 @@ class LabMenu:
             [(Button.FIRE, "pause.hint_ok"), (Button.BACK, "lab.hint_lab")], PROMPTS, W - 80
         )
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE selects the focused item; START and BACK return to the Lab."""
         event = self.prompts.as_button(event)
         if event.button in (Button.START, Button.BACK):
             self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(event):
+        if self.focus.handle(event):
             self.sure = False
             self.context.sounds.play("move")
-        chosen = self.focus.chosen(event)
+        chosen = self.focus.activated(event)
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> StackOperation:

@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.scenes.lab.bench import IDLE, LabHost
+from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, RobotFileError, names, proposal, save_robot
 from pigaming_app.ui.draw import (
     ALARM,
@@ -24,7 +24,7 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters
 
-DEAF = 0.3  # s during which input is ignored
+INPUT_LOCKOUT = 0.3  # s during which input is ignored
 W, H, GAP, MIDDLE = 176, 240, 32, 510  # px, letter boxes
 SIZE = 168  # px, letter size
 
@@ -41,7 +41,7 @@ class NamePage:
             [(Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save")],
         )
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
     @property
@@ -49,10 +49,10 @@ class NamePage:
         """The current spelling."""
         return self.picker.spelled.strip()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Edit letters; START saves; BACK goes back one letter, and from the first one to the Lab."""
         event = self.prompts.as_button(event)
-        if self.age < DEAF:
+        if self.age < INPUT_LOCKOUT:
             return None
         if event.button is not Button.START:
             self.taken = self.taken and event.button is Button.POINT
@@ -126,11 +126,11 @@ class NamePage:
             return None
         words = self.context.words
         try:
-            self.lab.trainer.hold(lambda training: save_robot(training, name))
+            self.lab.trainer.locked(lambda training: save_robot(training, name))
             self.lab.name = name
-            self.lab.say(words("lab.saved", name=name))
+            self.lab.show_message(words("lab.saved", name=name))
         except RobotFileError as error:
-            self.lab.say(words(str(error)), wrong=True)
+            self.lab.show_message(words(str(error)), wrong=True)
         return Pop()
 
 
@@ -145,4 +145,4 @@ def box() -> LitImage:
     layer = Layer(-W / 2, -H / 2, W, H)
     panel(layer.glow, -W / 2, -H / 2, W, H)
     layer.glow.line(cut_box(-W / 2, -H / 2, W, H, 20), STEEL, THIN, True)
-    return layer.done()
+    return layer.render()

@@ -5,7 +5,7 @@ from datetime import datetime
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.scenes.lab.bench import IDLE, LabHost
+from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, file_of, load_robot, names
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
@@ -17,7 +17,7 @@ from pigaming_app.ui.widgets.labels import black_out, heading
 
 COLUMNS, ROWS = 3, 4
 TOP, HIGH, PITCH = 236, 140, 164
-DEAF = 0.3  # s during which input is ignored
+INPUT_LOCKOUT = 0.3  # s during which input is ignored
 
 
 class OpenPage:
@@ -30,10 +30,10 @@ class OpenPage:
         self.focus = Focus(self._spots())
         self.prompts = self.context.prompts(self._hints())
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE opens, BACK returns to the Lab, Y shows the next page."""
         event = self.prompts.as_button(event)
         if event.button is Button.BACK or (not self.names and event.button in (Button.FIRE, Button.START)):
@@ -44,10 +44,10 @@ class OpenPage:
             self.focus = Focus(self._spots())
             self.context.sounds.play("move")
         elif self.names:
-            if self.focus.on(event):
+            if self.focus.handle(event):
                 self.context.sounds.play("move")
-            chosen = self.focus.chosen(event)
-            return self._open(chosen) if chosen and self.age > DEAF else None
+            chosen = self.focus.activated(event)
+            return self._open(chosen) if chosen and self.age > INPUT_LOCKOUT else None
         return None
 
     def update(self, seconds: float) -> StackOperation:
@@ -90,11 +90,11 @@ class OpenPage:
         words, trainer = self.context.words, self.lab.trainer
         try:
             training, other_engine = load_robot(name, trainer.fast)
-            trainer.take(training)
+            trainer.replace_training(training)
             self.lab.name = name
-            self.lab.say(words("lab.opened_other" if other_engine else "lab.opened", name=name))
+            self.lab.show_message(words("lab.opened_other" if other_engine else "lab.opened", name=name))
         except RobotFileError as error:
-            self.lab.say(words(str(error), name=name), wrong=True)
+            self.lab.show_message(words(str(error), name=name), wrong=True)
         return Pop()
 
 
@@ -120,4 +120,4 @@ def card(name: str, when: str, hot: bool) -> LitImage:
     layer.glow.line(cut_box(0, 0, w, HIGH, 16), STEEL, THIN, True)
     layer.canvas.text(name, fit_size(name, SUB, w - 330, "hero"), 36, HIGH / 2, FOCUS if hot else ICE, "hero")
     layer.canvas.body(when, w - 32, HIGH / 2, MIST, "r", BODY)
-    return layer.done()
+    return layer.render()

@@ -27,7 +27,7 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 FIRST = replace(RECIPES[1], behind_always=1)  # each knob affects every decision, so that a change shows quickly
 IDLE = 300.0  # s without input before the return to the title, which resets the table for the next visitors
-DEAF = 0.35  # s during which input is ignored after entering
+INPUT_LOCKOUT = 0.35  # s during which input is ignored after entering
 CONFIRM_SECONDS = 20.0  # s before the end of IDLE at which a confirmation prompt appears
 MESSAGE_SECONDS = 4.0  # s, display time of a message
 COMPILE_NOTICE = 2.0  # s of compiling before a notice is shown
@@ -66,13 +66,13 @@ class Lab:
 
     # ---- scene
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         self.age, self.held = 0.0, ""
         self.context.sounds.music(True)
         if self.page and self.page.language != self.context.words.language:
             self.page = None
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Adjust the held knob, or select, play, change speed, open the menu, leave."""
         event = (self.turning if self.held else self.prompts).as_button(event)
         if self.held and event.button not in (Button.X, Button.Y):
@@ -89,10 +89,10 @@ class Lab:
                 self.context.sounds.play("back")
                 return self.leave(Pop())
             case Button.FIRE | Button.CLICK:
-                self.focus.on(event)
-                return self._choose(event) if self.age > DEAF else None
+                self.focus.handle(event)
+                return self._choose(event) if self.age > INPUT_LOCKOUT else None
             case _:
-                if self.focus.on(event):
+                if self.focus.handle(event):
                     self.context.sounds.play("move")
         return None
 
@@ -126,13 +126,13 @@ class Lab:
         elif self.compiling > COMPILE_NOTICE:
             warming(words("lab.warming")).draw(screen)
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Pause the training when the scene is removed."""
         self.trainer.close()
 
     # ---- interface for the pages above
 
-    def say(self, sentence: str, wrong: bool = False) -> None:
+    def show_message(self, sentence: str, wrong: bool = False) -> None:
         """Show a message for a few seconds."""
         self.sentence, self.wrong, self.message_left = sentence, wrong, MESSAGE_SECONDS
         self.context.sounds.play("error" if wrong else "accept")
@@ -152,15 +152,15 @@ class Lab:
         self.trainer.begin(new_seed())
         self.name, self.seen = "", -1
 
-    def leave(self, turn: StackOperation) -> StackOperation:
-        """Pause the training and return `turn`."""
+    def leave(self, operation: StackOperation) -> StackOperation:
+        """Pause the training and return `operation`."""
         self.trainer.close()
-        return turn
+        return operation
 
     # ---- inside
 
     def _choose(self, event: InputEvent) -> StackOperation:
-        chosen = self.focus.chosen(event)
+        chosen = self.focus.activated(event)
         if chosen == "play":
             return self.play(event.device)
         if chosen == "speed":
@@ -205,7 +205,7 @@ class Lab:
 
     def _follow(self, seconds: float) -> None:
         """Update the page state."""
-        trainer, now, moment = self.trainer, self.shown, self.trainer.moment
+        trainer, now, moment = self.trainer, self.shown, self.trainer.snapshot
         if self.page and moment.number != self.seen:
             self.seen = moment.number
             self.page.watch(moment.state)
@@ -227,7 +227,7 @@ class Lab:
             self.was_behind = progress
         elif share is not None and share > EVEN and self.was_behind is progress is not self.celebrated:
             self.celebrated = progress
-            self.say(self.context.words("lab.outdone"))
+            self.show_message(self.context.words("lab.outdone"))
             self.context.sounds.play("win")
 
 

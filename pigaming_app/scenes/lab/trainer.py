@@ -34,7 +34,7 @@ log = logging.getLogger("pigaming")
 
 
 class Trainer:
-    """Runs one training. `recipe` and `speed` may be set at any time; `moment` is the published state."""
+    """Runs one training. `recipe` and `speed` may be set at any time; `snapshot` is the published state."""
 
     def __init__(self, recipe: Recipe, seed: int, fast: bool | None = None, compiler: Compiler | None = None) -> None:
         """`fast`: compiled as soon as `compiler` is done; None: if numba is available."""
@@ -51,9 +51,9 @@ class Trainer:
         self._backlog = 0.0  # ticks
 
     @property
-    def moment(self) -> TrainingState:
+    def snapshot(self) -> TrainingState:
         """The latest snapshot."""
-        return self.progress.moment
+        return self.progress.snapshot
 
     @property
     def fast(self) -> bool:
@@ -92,7 +92,7 @@ class Trainer:
         with self._lock:
             return dict(self.progress.checkpoints)
 
-    def hold(self, work: Callable[[Training], None]) -> None:
+    def locked(self, work: Callable[[Training], None]) -> None:
         """Run `work` on the training under the lock. Exceptions of `work` propagate."""
         with self._lock:
             work(self.training)
@@ -102,7 +102,7 @@ class Trainer:
         with self._lock:
             self._train(Training(self.recipe, seed, fast=self.training.fast))
 
-    def take(self, training: Training) -> None:
+    def replace_training(self, training: Training) -> None:
         """Continue with another training."""
         with self._lock:
             self.recipe = training.recipe

@@ -101,7 +101,7 @@ class LabPage:
     def update(self, seconds: float) -> None:
         """Animate the robots and prewarm sprites."""
         self.arena.update(seconds)
-        self.arena.warm(WARM)
+        self.arena.prewarm(WARM)
 
     def draw(self, screen: pygame.Surface, now: LabState) -> None:
         screen.blit(self.ground, (0, 0))
@@ -161,7 +161,7 @@ def ground(language: str) -> Steps[pygame.Surface]:
     _bar(canvas, words)
     _play(canvas, words("lab.play"))
     yield
-    light = yield from canvas.lighting()
+    light = yield from canvas.render_steps()
     out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     return out
 
@@ -236,7 +236,7 @@ def speed(max_label: str, chosen: int) -> LitImage:
         left = x + (w - width - 44) / 2
         icon(layer.canvas.crisp, name, left + 16, SPEED.h / 2, 17, BLUE if on else STEEL, THIN)
         layer.canvas.crisp.text(label, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
-    return layer.done()
+    return layer.render()
 
 
 def speed_part(i: int) -> tuple[int, int]:
@@ -258,7 +258,7 @@ def knob_name(label: str, focus: bool) -> LitImage:
     for i, line in enumerate(lines):
         y = 84 + 40 * i + (20 if len(lines) == 1 else 0)
         layer.canvas.body(line, 0, y, color, "c", fit_size(line, BODY, 200, "body"))
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -269,14 +269,14 @@ def warming(label: str) -> LitImage:
     for i, line in enumerate(wrap_balanced(label, 2)):
         size = fit_size(line, BODY, PLOT.w - 92, "body")
         layer.canvas.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
-    return layer.done()
+    return layer.render()
 
 
 @cached
 def tag(label: str) -> Sprite:
     """Text on a black plate, relative to its top left."""
     w = round(text_width(label, BODY, "body")) + 40
-    ink = GlowCanvas(w + 48, 102).to(24, 24)
+    ink = GlowCanvas(w + 48, 102).set_transform(24, 24)
     ink.solid(cut_box(0, 0, w, 54, 12)).line(cut_box(0, 0, w, 54, 12), STEEL, 3, True)
     ink.text(label, BODY, w / 2, 27, ICE, "body", "c")
     return Sprite(ink.sprite(0.5), -24, -24)

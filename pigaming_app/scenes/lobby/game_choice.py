@@ -32,12 +32,12 @@ class GameChoice:
         after = names[(names.index(setup.game) + 1) % len(names)]
         self.focus = Focus([FocusSpot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(names)], after)
         hints = [(Button.FIRE, "choice.hint_ok"), (Button.BACK, "choice.hint_back")]
-        self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
+        self.prompts = context.prompts(hints, device=lambda: self.access.hint_device)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE selects a game, BACK returns to the results."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
@@ -45,9 +45,9 @@ class GameChoice:
         if admitted.button is Button.BACK:
             self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(admitted):
+        if self.focus.handle(admitted):
             self.context.sounds.play("move")
-        game = self.focus.chosen(admitted)
+        game = self.focus.activated(admitted)
         return self._open(game) if game else None
 
     def update(self, seconds: float) -> StackOperation:

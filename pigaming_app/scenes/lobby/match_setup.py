@@ -35,7 +35,7 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, frame, heading
 
 IDLE = 60.0  # s without input before the return to the title
-DEAF = 0.35  # s during which a start is ignored, because players may still hammer on "ready"
+INPUT_LOCKOUT = 0.35  # s during which a start is ignored, because players may still hammer on "ready"
 SLIDE_SECONDS = 0.18  # s, slide-in of another arena
 FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 PICTURE = FRAME.inflate(-24, -24)
@@ -60,14 +60,14 @@ class MatchSetupPage:
         self.going = False  # start requested, waiting for the preloader
         hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), (Button.BACK, "setup.hint_back")]
         self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
-        self.navigation = Navigation(context, self.focus, hints, IDLE, voice=lambda: self.access.voice)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, device=lambda: self.access.hint_device)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Reset on first display and on return from the results."""
         self.clock, self.going = 0.0, False
         self.context.sounds.music(True)
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Change a value, start or go back."""
         admitted = self.access.admit(self.navigation.prompts.as_button(event))
         if admitted is None or self.going:
@@ -77,12 +77,12 @@ class MatchSetupPage:
             case Button.LEFT | Button.RIGHT:
                 self._change(self.focus.name, 1 if event.button is Button.RIGHT else -1)
             case Button.FIRE | Button.START:
-                return self._go() if self.clock > DEAF else None
+                return self._go() if self.clock > INPUT_LOCKOUT else None
             case Button.CLICK:
-                self.focus.on(event)
+                self.focus.handle(event)
                 return self._click(event)
             case _:
-                return self.navigation.on(event)
+                return self.navigation.handle(event)
         return None
 
     def update(self, seconds: float) -> StackOperation:
@@ -192,7 +192,7 @@ class MatchSetupPage:
 
     def _click(self, event: InputEvent) -> StackOperation:
         """Handle a click on the arrows or chips of a row, the preview (next arena) or the start button."""
-        name = self.focus.under(event)
+        name = self.focus.spot_at(event)
         at = event.at or (0.0, 0.0)
         if name == "go":
             return self._go()

@@ -40,7 +40,7 @@ def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
     size, parts = fit_lines(line, room, 2)
     for i, part in enumerate(parts):
         layer.canvas.body(part, PAD, 156 + 48 * i, MIST, "l", size)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -52,7 +52,7 @@ def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
         x, on = PAD + i * pitch, label == value
         layer.glow.line(cut_box(x, 66, width, 60, 12 if width == CHIP else 10), ICE if on else STEEL, THIN, True)
         layer.canvas.crisp.text(label, BODY, x + width / 2, 96, ICE if on else MIST, "head", "c")
-    return layer.done()
+    return layer.render()
 
 
 def chip_size(count: int) -> tuple[int, int]:
@@ -79,7 +79,7 @@ def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
         layer.canvas.body(name, PAD + 52, y, MIST, "l", fit_size(name, BODY, W - 2 * PAD - 364, "body"))
         layer.canvas.text(value, BODY, W - PAD - 110, y, ICE, "head", "r")
         layer.canvas.text(initials, BODY, W - PAD, y, FOCUS, "head", "r")
-    return layer.done()
+    return layer.render()
 
 
 def records_height(lines: int) -> int:
@@ -96,7 +96,7 @@ def start_button(label: str) -> LitImage:
     x = W / 2 - text_width(label, size) / 2
     icon(layer.glow, "right", x - 30, 48, 24, FOCUS, LINE)
     layer.canvas.text(label, size, W / 2 + 16, 48, FOCUS, "head", "c")
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -108,7 +108,7 @@ def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
         x = -pitch * (len(seats) - k)
         badge(layer.glow, seat, x + 50, 0, 30)
         icon(layer.glow, sign, x + 124, 0, 30, MIST, THIN)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -116,7 +116,7 @@ def mark(seat: int) -> LitImage:
     """Start position marker of a seat, centred on (0, 0)."""
     layer = Layer(-24, -24, 48, 48)
     badge(layer.glow, seat, 0, 0, 17)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -124,7 +124,7 @@ def focus_outline(height: int) -> LitImage:
     """Additional highlight of the focused row, drawn over its outline; top left at (0, 0)."""
     layer = Layer(0, 0, W, height)
     layer.glow.line(cut_box(0, 0, W, height, 16), dim(FOCUS, 0.55), THIN, True)
-    return layer.done()
+    return layer.render()
 
 
 def _layer(name: str, height: int) -> Layer:

@@ -51,10 +51,10 @@ class Lobby:
         self.access = Access(context, self.seats.devices)
         self.page = LobbyPage(context, self.seats, self.now, lambda: choice_summary(context, game), self.access)
         self.focus = Focus(spots(self.seats))
-        self.ahead = PrewarmQueue(card.ahead())
+        self.prewarm_queue = PrewarmQueue(card.prewarm_jobs())
         self.warmup: MatchRunner | None = None
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Reset on first display and on return from match setup: everyone has to confirm again."""
         self.context.sounds.music(True)
         self.now.starting = None
@@ -64,7 +64,7 @@ class Lobby:
             if device and not self.context.controls.connected(device):
                 self._unplugged(device)
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Handle joining, readiness, leaving, AIs, teams and start."""
         mapped = self.page.prompts.as_button(event)
         admitted = self.access.admit(mapped)
@@ -100,7 +100,7 @@ class Lobby:
 
     def update(self, seconds: float) -> StackOperation:
         """Animate; go on when everyone is ready, leave when abandoned."""
-        self.now.pass_by(seconds)
+        self.now.advance(seconds)
         self.focus.update(seconds)
         if self.access.update(seconds):
             self.context.sounds.play("back")
@@ -119,7 +119,7 @@ class Lobby:
 
     def _prewarm(self) -> None:
         """Prewarm while people choose: first this page, then the sprites of the match."""
-        if not self.ahead.work(PREWARM_MS):
+        if not self.prewarm_queue.work(PREWARM_MS):
             return
         now = last_choice(self.context, self.game)
         if self.warmup is None and self.context.preloader.ready(self.game, now.arena):
@@ -127,7 +127,7 @@ class Lobby:
             setup = Setup(self.game, now.arena, (one, two, three, four), now.minutes, 1, now.variant, now.goal)
             self.warmup = MatchRunner(self.context, Match(setup), loud=False)
         elif self.warmup:
-            self.warmup.warm(PREWARM_MS)
+            self.warmup.prewarm(PREWARM_MS)
 
     # ---- input
 
@@ -147,7 +147,7 @@ class Lobby:
             for waiting in self.seats.waiting:
                 self.seats.places[waiting].ready = True
             return
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if seat is not None:
             self.seats.places[seat].ready = True
             self.context.sounds.play("ready", seat)
@@ -178,7 +178,7 @@ class Lobby:
     def _back(self, device: Device) -> StackOperation:
         """BACK: revoke readiness, then leave the seat, then return to the title."""
         self.context.sounds.play("back")
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if seat is None:
             return Pop()
         if self.seats.places[seat].ready:
@@ -189,16 +189,16 @@ class Lobby:
         return None
 
     def _leave(self, device: Device) -> None:
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if seat is not None:
             self.seats.leave(seat)
             self.context.sounds.play("back")
 
     def _add_ai(self) -> None:
         """Add one AI; remove all if every seat is taken."""
-        seat = self.seats.add()
+        seat = self.seats.add_ai()
         if seat is None:
-            self.seats.clear()
+            self.seats.remove_ais()
             self.context.sounds.play("back")
         else:
             self.now.seated[seat] = 0.0
@@ -208,7 +208,7 @@ class Lobby:
         """Left and right select the device's own team if teams are on, up and down its robot if a mat is present; the
         remaining directions set the strength of the AIs.
         """
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if self.seats.mat and seat is not None and act in (Button.UP, Button.DOWN):
             self._swap(seat)
             return
@@ -237,15 +237,15 @@ class Lobby:
         self.context.sounds.play("move")
 
     def _unplugged(self, device: Device) -> None:
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if seat is not None:
             self.seats.leave(seat)
             self._say(self.context.words("lobby.unplugged", player=seat + 1), "back")
 
     def _mouse(self, event: InputEvent) -> None:
         self.now.pointer_left = POINTER_SECONDS
-        self.focus.on(event)
-        name = self.focus.chosen(event)
+        self.focus.handle(event)
+        name = self.focus.activated(event)
         if name is None:
             return
         what, seat = name.split()[0], int(name.split()[1])
@@ -262,7 +262,7 @@ class Lobby:
             self.seats.leave(seat)
             self.context.sounds.play("back")
         elif kind == EMPTY:
-            self.seats.add(seat)
+            self.seats.add_ai(seat)
             self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
         else:
@@ -271,7 +271,7 @@ class Lobby:
 
     def _update_countdown(self) -> None:
         """Start the countdown when all are ready, cancel it otherwise."""
-        self.focus.place(spots(self.seats))
+        self.focus.set_spots(spots(self.seats))
         alone = len(self.seats.of_kind(HUMAN)) == 1
         if not self.seats.of_kind(HUMAN) or self.seats.waiting:
             self.now.starting = None
@@ -281,7 +281,7 @@ class Lobby:
                 self.now.starting = self.now.countdown = COUNTDOWN_ALONE if alone else COUNTDOWN
 
     def _add_opponents(self) -> None:
-        for seat in self.seats.fill():
+        for seat in self.seats.add_opponents():
             self.now.seated[seat] = 0.0
 
     def _say(self, message: str, sound: str) -> None:

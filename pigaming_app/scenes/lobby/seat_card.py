@@ -63,7 +63,7 @@ def frame(player: int, text: str, bold: bool) -> Steps[LitImage]:
     badge(layer.glow, player, 72, 76, 36)
     layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, ICE)
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())
 
 
 @cached
@@ -77,7 +77,7 @@ def empty(player: int, text: str) -> Steps[LitImage]:
     outline = [(MIDDLE + y * OUTLINE, PLUS_Y - x * OUTLINE) for x, y in shape_points(player, 1)]
     layer.glow.dashes(outline, dim(color, 0.7), LINE, 24, 18)
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())
 
 
 @cached
@@ -94,7 +94,7 @@ def invitation(player: int, text: str, labels: tuple[str, ...], level: int) -> L
         y = BUTTONS_Y + BUTTON_PITCH * (i - (len(rows) - 1) / 2)
         for label in row:
             x += button(layer.canvas, x, y, label, FOCUS if level else STEEL) + GAP
-    return layer.done()
+    return layer.render()
 
 
 def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
@@ -121,7 +121,7 @@ def driver(sign: str, name: str) -> LitImage:
             icon(layer.glow, ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, ICE, LINE)
     else:
         layer.canvas.body(name, 136, DEVICE_Y, ICE, "l", fit_size(name, BODY, W - 160, "body"))
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -132,7 +132,7 @@ def strength(text: str, upright: bool) -> LitImage:
     layer.canvas.text(text, fit_size(text, LABEL, W - 190), MIDDLE, BAR_Y, ICE, "head", "c")
     for name, x in zip(("down", "up") if upright else ("left", "right"), (60, W - 60), strict=True):
         icon(layer.glow, name, x, BAR_Y, 20, MIST, LINE)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -142,7 +142,7 @@ def team(text: str, number: int) -> LitImage:
     for i in range(number + 1):
         layer.glow.line([(x + 14 * i, TEAM_Y - 17), (x + 14 * i, TEAM_Y + 17)], ICE, LINE)
     layer.canvas.crisp.text(text, size, x + 44, TEAM_Y, ICE, "head")
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -151,7 +151,7 @@ def side(text: str, number: int) -> LitImage:
     layer, x, size = _team(text)
     emblem(layer.glow, number, x + 10, TEAM_Y, 24)
     layer.canvas.crisp.text(text, size, x + 48, TEAM_Y, TEAMS[number], "head")
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -167,7 +167,7 @@ def real(text: str, on: bool, middle: int) -> LitImage:
     layer.canvas.body(text, x + 54, middle, ICE if on else MIST, "l", size)
     for name, cx in (("up", 60), ("down", W - 60)):
         icon(layer.glow, name, cx, middle, 16, MIST, LINE)
-    return layer.done()
+    return layer.render()
 
 
 def _team(text: str) -> tuple[Layer, float, int]:
@@ -197,7 +197,7 @@ def robot(player: int, turn: int, scale: float) -> Sprite:
     return seat_robot(player, turn * math.tau / HEADINGS, scale)
 
 
-def ahead() -> Iterator[Callable[[], object]]:
+def prewarm_jobs() -> Iterator[Callable[[], object]]:
     """Prewarm jobs for the larger widgets, in the order of likely use."""
     for player in range(4):
         yield partial(robot, player, UPRIGHT, ROBOT[1])

@@ -44,7 +44,7 @@ class Seats:
 
     # ---- queries
 
-    def of(self, device: Device) -> int | None:
+    def seat_of(self, device: Device) -> int | None:
         """The seat of a device, if any."""
         return next((i for i, place in enumerate(self.places) if place.device == device), None)
 
@@ -109,7 +109,7 @@ class Seats:
     def leave(self, seat: int) -> None:
         self.places[seat] = SeatState(team=self.places[seat].team, real=self.places[seat].real)
 
-    def add(self, seat: int | None = None) -> int | None:
+    def add_ai(self, seat: int | None = None) -> int | None:
         """Add an AI on a seat, or on the next empty one. Returns the seat, None if all are taken."""
         seat = next(iter(self.of_kind(EMPTY)), None) if seat is None else seat
         if seat is not None:
@@ -117,7 +117,7 @@ class Seats:
             self.places[seat] = SeatState(AI, strength=self.strength, team=self._smaller_team(seat), real=real)
         return seat
 
-    def clear(self) -> None:
+    def remove_ais(self) -> None:
         """Remove all AIs."""
         for seat in self.of_kind(AI):
             self.leave(seat)
@@ -139,7 +139,7 @@ class Seats:
         for place in self.places:
             place.ready = False
 
-    def fill(self) -> list[int]:
+    def add_opponents(self) -> list[int]:
         """Add opponents for a single person, or for a pair without rivals: one AI, or all seats in team games. Returns
         the seats.
         """
@@ -148,7 +148,7 @@ class Seats:
             return []
         first = next(place for place in self.places if place.kind != EMPTY)
         wanted = 1 if self.team_mode == FREE else len(self.of_kind(EMPTY))
-        added = [seat for seat in (self.add() for _ in range(wanted)) if seat is not None]
+        added = [seat for seat in (self.add_ai() for _ in range(wanted)) if seat is not None]
         if self.team_mode == FREE:
             self.places[added[0]].team = 1 - first.team
         return added

@@ -38,7 +38,7 @@ class LobbyState:
     message_left: float = 0.0  # remaining display time of the message
     pointer_left: float = 0.0  # remaining display time of the mouse focus
 
-    def pass_by(self, seconds: float) -> None:
+    def advance(self, seconds: float) -> None:
         self.clock += seconds
         self.message_left -= seconds
         self.pointer_left -= seconds
@@ -65,7 +65,7 @@ class LobbyPage:
     @property
     def prompts(self) -> ButtonPrompts:
         """Prompts for the device used last, if it may act."""
-        seat = self.seats.of(self.access.voice)
+        seat = self.seats.seat_of(self.access.hint_device)
         full = not self.seats.of_kind(EMPTY)
         hints = [
             (Button.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
@@ -74,13 +74,15 @@ class LobbyPage:
         ]
         if self.seats.team_mode == FREE:
             hints.append((Button.X, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
-        return self.context.prompts([*hints, (Button.START, "lobby.hint_begin")], voice=lambda: self.access.voice)
+        return self.context.prompts(
+            [*hints, (Button.START, "lobby.hint_begin")], device=lambda: self.access.hint_device
+        )
 
     @property
     def invited(self) -> tuple[str, ...]:
         """Distinct labels of the buttons with which free devices can join: pads first, then keyboard clusters."""
         controls, words = self.context.controls, self.context.words
-        free = [device for device in controls.players() if self.seats.of(device) is None]
+        free = [device for device in controls.players() if self.seats.seat_of(device) is None]
         return tuple(dict.fromkeys(words.key_name(controls.label(device, Button.FIRE)) for device in free))
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:

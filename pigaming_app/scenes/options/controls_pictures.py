@@ -53,7 +53,7 @@ def no_pad(title: str, hint: str) -> LitImage:
     icon(layer.glow, "pad", W / 2, 118, 62, STEEL, THIN)
     layer.canvas.body(title, W / 2, 222, MIST, "c", fit_size(title, BODY, W - 40, "body"))
     layer.canvas.body(hint, W / 2, 276, dim(MIST, 0.7), "c", fit_size(hint, BODY, W - 40, "body"))
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -71,7 +71,7 @@ def pad(name: str, labels: tuple[str, ...]) -> LitImage:
         layer.glow.line(START_LINE, STEEL, THIN, True)
         size = fit_size(labels[-1], 30, START.w - 16)
         layer.canvas.crisp.text(labels[-1], size, START.centerx, START.centery, MIST, "head", "c")
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -80,12 +80,12 @@ def pad_light(button: Button, label: str) -> LitImage:
     if button is Button.START:
         layer = Layer(*START)
         layer.glow.fill(START_LINE, dim(FOCUS, 0.35)).line(START_LINE, FOCUS, THIN, True)
-        return layer.done()
+        return layer.render()
     x, y = DIAMOND[button]
     layer = Layer(x - 32, y - 32, 64, 64)
     layer.glow.disc(x, y, 30, dim(FOCUS, 0.35)).ring(x, y, 30, FOCUS, THIN)
     _draw_label(layer.glow, label, x, y, FOCUS)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -107,7 +107,7 @@ def cap(label: str, w: int, h: int, down: bool) -> LitImage:
         icon(layer.glow, ARROWS[label], w / 2, h / 2, 18, color, LINE)
     else:
         layer.canvas.crisp.text(label, fit_size(label, BODY, w - 20), w / 2, h / 2, color, "head", "c")
-    return layer.done()
+    return layer.render()
 
 
 def _draw_label(ink: GlowCanvas, label: str, x: float, y: float, color: Color) -> None:

@@ -41,10 +41,10 @@ class ControlsTest:
         self.headings = [-math.pi / 2] * PLACES
         self.clicks: list[tuple[float, float, float]] = []  # x, y, age in seconds
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Highlight the button; Escape, the prompt, and B held, leave."""
         action = self._prompts().as_button(event)
         if action.button is Button.BACK and action.device.kind != "pad":

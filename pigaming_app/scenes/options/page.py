@@ -58,10 +58,10 @@ class OptionsPage:
         ]
         self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Up and down select a row, left and right change it, FIRE changes or activates it."""
         event = self.navigation.prompts.as_button(event)
         match event.button:
@@ -70,10 +70,10 @@ class OptionsPage:
             case Button.FIRE | Button.START:
                 return self._do(self.focus.name, event)
             case Button.CLICK:
-                self.focus.on(event)
+                self.focus.handle(event)
                 return self._click(event)
             case _:
-                before, turn = self.focus.name, self.navigation.on(event)
+                before, turn = self.focus.name, self.navigation.handle(event)
                 if self.focus.name != before:
                     self.clearing.clear()
                 return turn
@@ -177,7 +177,7 @@ class OptionsPage:
         return None
 
     def _click(self, event: InputEvent) -> StackOperation:
-        name = self.focus.under(event)
+        name = self.focus.spot_at(event)
         if name is None or event.at is None:
             return None
         value = self._value(name)
@@ -231,4 +231,4 @@ class OptionsPage:
                 self.context.settings.save(folders().config)
         except NotSaved as trouble:
             log.warning("%s", trouble)
-            self.navigation.say(self.context.words("app.unsaved"))
+            self.navigation.show_message(self.context.words("app.unsaved"))

@@ -72,7 +72,7 @@ def _robot() -> Sprite:
 
 @cached
 def _burst(strength: int, stage: int) -> LitImage:
-    ink = GlowCanvas(400, 400).to(200, 200)
+    ink = GlowCanvas(400, 400).set_transform(200, 200)
     fade = (1.0 - stage / 6) * (0.25, 0.6, 1.0)[strength]
     for i in range(12):
         c, s = math.cos(i * math.tau / 12 + 0.2), math.sin(i * math.tau / 12 + 0.2)
@@ -83,7 +83,7 @@ def _burst(strength: int, stage: int) -> LitImage:
 
 @cached
 def _speaker(loud: int, wave: int) -> LitImage:
-    ink = GlowCanvas(400, 320).to(200, 160)
+    ink = GlowCanvas(400, 320).set_transform(200, 160)
     ink.line([(-92, -26), (-56, -26), (-10, -68), (-10, 68), (-56, 26), (-92, 26)], FOCUS, LINE, True)
     reach = (loud + 3) // 4  # number of waves lit, of three
     for i, r in enumerate((46, 82, 118)):
@@ -96,7 +96,7 @@ def _speaker(loud: int, wave: int) -> LitImage:
 @cached
 def _note(loud: int, beat: int) -> LitImage:
     """Bouncing bars, as high as the music volume."""
-    ink = GlowCanvas(440, 320).to(220, 160)
+    ink = GlowCanvas(440, 320).set_transform(220, 160)
     for i in range(8):
         share = 0.35 + 0.65 * abs(math.sin(1.7 * i + beat * math.pi / 4))
         cells = round(6 * share * (loud / 10)) if loud else 0
@@ -111,7 +111,7 @@ def _note(loud: int, beat: int) -> LitImage:
 
 @cached
 def _drawn(name: str, chosen: int, beat: int) -> LitImage:
-    ink = GlowCanvas(480, 340).to(240, 170)
+    ink = GlowCanvas(480, 340).set_transform(240, 170)
     if name == "language":
         for i, code in enumerate(("EN", "PT")):
             lit: Color = FOCUS if i == chosen else STEEL

@@ -28,13 +28,13 @@ class Countdown:
     """Blocks motion while it runs. `step`: seconds per number; `lead`: seconds before the first."""
 
     def __init__(self, step: float = 1.0, lead: float = 0.0) -> None:
-        self.step, self.left, self.since = step, 3 * step + lead, 0.0
+        self.step, self.seconds_left, self.since = step, 3 * step + lead, 0.0
         self.number = 4
 
     @property
     def locked(self) -> bool:
         """True while robots may not move."""
-        return self.left > 0.0
+        return self.seconds_left > 0.0
 
     @property
     def shown(self) -> bool:
@@ -46,11 +46,11 @@ class Countdown:
         if not self.locked:
             self.since += seconds
             return None
-        self.left -= seconds
+        self.seconds_left -= seconds
         if not self.locked:
             self.since = 0.0
             return "go"
-        number = math.ceil(self.left / self.step)
+        number = math.ceil(self.seconds_left / self.step)
         self.since += seconds
         if number < self.number:
             self.number, self.since = number, 0.0
@@ -102,7 +102,7 @@ def _word(text: str, color: Color) -> Steps[Sprite]:
         angle = i * math.tau / 24
         out.blit(edge, (64 + OUTLINE * math.cos(angle), top + OUTLINE * math.sin(angle)))
     yield
-    light = yield from GlowCanvas(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lighting(0.8)
+    light = yield from GlowCanvas(w, h).text(text, HUGE, w / 2, h / 2, color, "hero", "c").lit_steps(0.8)
     out.blit(light, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     yield
     return trim(out, w / 2, h / 2)
@@ -127,7 +127,7 @@ def show(screen: pygame.Surface, sign: Sprite, at: tuple[int, int] = CENTRE) -> 
 def arcs(count: int) -> Steps[Sprite]:
     """Three arcs round a number, `count` of them lit."""
     half = 270
-    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
+    ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
     for i in range(3):
         start = -math.pi / 2 + i * math.tau / 3 + 0.14
         lit = i < count

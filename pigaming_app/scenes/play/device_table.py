@@ -26,12 +26,12 @@ class DeviceTable:
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[LitImage] = []
         self.making = self._make()
-        self.prompts = context.prompts([(Button.BACK, "pause.hint_back")], voice=lambda: access.voice)
+        self.prompts = context.prompts([(Button.BACK, "pause.hint_back")], device=lambda: access.hint_device)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Any button leads back."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted and admitted.button in (Button.FIRE, Button.START, Button.BACK):
@@ -56,7 +56,7 @@ class DeviceTable:
         panes = (self._row(i, *row) for i, row in enumerate(self.rows))
         for layer in chain([self._heading()], panes):
             yield
-            lit = yield from layer.lighting()
+            lit = yield from layer.render_steps()
             self.lit.append(lit)
 
     def _heading(self) -> Layer:

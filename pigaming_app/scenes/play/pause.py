@@ -11,7 +11,7 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.scenes.flow.access import OWNED, Access, PauseAccess
+from pigaming_app.scenes.flow.access import OWNER_SECONDS, Access, PauseAccess
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.play.device_table import DeviceTable
@@ -43,7 +43,7 @@ ITEMS = ("continue", "restart", "controls", "end")
 PITCH, ITEM_H = 74, 66
 ITEM_W = 620
 NEED_CONFIRMATION = ("restart", "end")  # items that need a confirming press
-SURE = 3.0  # seconds for the confirming press
+CONFIRM_SECONDS = 3.0  # seconds for the confirming press
 EXPLAIN_SECONDS = 2.0  # seconds for which a rejected press is explained
 RING = X + W - 112, Y + 116
 
@@ -67,7 +67,7 @@ class PausedMatch(Protocol):
         """End the match now."""
 
     @property
-    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
+    def extra_items(self) -> Mapping[str, Callable[[Access], Scene]]:
         """Additional menu items: page factories by name, given the access of the pause."""
 
     @property
@@ -77,10 +77,10 @@ class PausedMatch(Protocol):
     def return_seat(self, event: InputEvent) -> bool:
         """Return its seat to an idle device; true if done."""
 
-    def hold(self, seconds: float) -> None:
+    def advance_paused(self, seconds: float) -> None:
         """Advance by `seconds` while a page is open."""
 
-    def shine(self, screen: pygame.Surface) -> None:
+    def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw overlays that must not be hidden by a page."""
 
 
@@ -92,19 +92,19 @@ class Pause:
         self.player = match.devices.index(device) if device in match.devices else None
         self.access = PauseAccess(match.context, lambda: match.devices, device)
         self.picture: pygame.Surface | None = None
-        self.sure = self.explain_left = 0.0
-        self.focus = Focus(menu_spots((ITEMS[0], *match.extras, *ITEMS[1:])))
+        self.confirm_left = self.explain_left = 0.0
+        self.focus = Focus(menu_spots((ITEMS[0], *match.extra_items, *ITEMS[1:])))
         hints = [
             (Button.FIRE, "pause.hint_ok"),
             (Button.BACK, "pause.hint_continue"),
             (Button.BRAIN, "pause.hint_brain"),
         ]
-        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: self.access.hint_device)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         self.context.sounds.music(False)
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """START, BACK and F4 (Y on a pad), which also shows an AI's thoughts, continue; FIRE activates the item."""
         event = self.prompts.as_button(event)
         if event.button is Button.Y:
@@ -119,22 +119,22 @@ class Pause:
             self.match.next_brain()
         if event.button in (Button.START, Button.BACK, Button.BRAIN):
             return self._do("continue")
-        if self.focus.on(event):
-            self.sure = 0.0
+        if self.focus.handle(event):
+            self.confirm_left = 0.0
             self.context.sounds.play("move")
-        chosen = self.focus.chosen(event)
-        if chosen in NEED_CONFIRMATION and self.sure <= 0.0:
-            self.sure = SURE
+        chosen = self.focus.activated(event)
+        if chosen in NEED_CONFIRMATION and self.confirm_left <= 0.0:
+            self.confirm_left = CONFIRM_SECONDS
             self.context.sounds.play("move")
             return None
         return self._do(chosen) if chosen else None
 
     def update(self, seconds: float) -> StackOperation:
         """Animate the focus; expire the confirmation and the ownership."""
-        self.match.hold(seconds)
+        self.match.advance_paused(seconds)
         self.access.update(seconds)
         self.focus.update(seconds)
-        self.sure -= seconds
+        self.confirm_left -= seconds
         self.explain_left -= seconds
         return None
 
@@ -143,9 +143,9 @@ class Pause:
             color = ICE if self.player is None else PLAYERS[self.player]
             self.picture = overlay(self.match.picture(), color, self._paint)
         screen.blit(self.picture, (0, 0))
-        color, box = (ALARM if self.sure > 0.0 else FOCUS), self.focus.spot.rect
+        color, box = (ALARM if self.confirm_left > 0.0 else FOCUS), self.focus.spot.rect
         self.focus.draw(screen, color)
-        if self.sure > 0.0:
+        if self.confirm_left > 0.0:
             pygame.draw.rect(screen, (0, 0, 0), box)
             sure(self.context.words(f"pause.sure_{self.focus.name}", button="{button}"), self._button()).draw(
                 screen, *box.center
@@ -157,19 +157,19 @@ class Pause:
             caption(self._rejection(), FOCUS).draw(screen, 960, PROMPTS)
         else:
             self.prompts.draw(screen)
-        self.match.shine(screen)
+        self.match.draw_overlay(screen)
 
     def _button(self) -> str:
         """The label of the button that activates the focused item."""
-        return self.context.words.key_name(self.context.controls.label(self.access.voice, Button.FIRE))
+        return self.context.words.key_name(self.context.controls.label(self.access.hint_device, Button.FIRE))
 
     def _draw_owned(self, screen: pygame.Surface) -> None:
         """The ring with the remaining seconds of ownership."""
         if not self.access.owned or len(self.access.seated) < 2:
             return
-        image, dx, dy = timer_ring(FOCUS, math.ceil(12 * self.access.left / OWNED) * 4, 46, LINE)
+        image, dx, dy = timer_ring(FOCUS, math.ceil(12 * self.access.seconds_left / OWNER_SECONDS) * 4, 46, LINE)
         screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
-        word(str(math.ceil(self.access.left)), LABEL, FOCUS, "head").draw(screen, *RING)
+        word(str(math.ceil(self.access.seconds_left)), LABEL, FOCUS, "head").draw(screen, *RING)
 
     def _rejection(self) -> str:
         """The reason for which a press was rejected."""
@@ -186,8 +186,8 @@ class Pause:
                 self.match.stop()
             case "controls":
                 return Push(DeviceTable(self.context, self.match.devices, self.access))
-            case extra if extra in self.match.extras:
-                return Push(self.match.extras[extra](self.access))
+            case extra if extra in self.match.extra_items:
+                return Push(self.match.extra_items[extra](self.access))
         return Pop()
 
     def _paint(self, layer: Layer) -> None:
@@ -220,7 +220,7 @@ def sure(sentence: str, label: str) -> LitImage:
     layer.canvas.text(before.strip(), size, x, 0, ALARM)
     button(layer.canvas, x + ends[0] + 18, 0, label, ALARM)
     layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, ALARM)
-    return layer.done()
+    return layer.render()
 
 
 def sheet_title(layer: Layer, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:

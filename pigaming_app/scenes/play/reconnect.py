@@ -15,8 +15,8 @@ from pigaming_app.ui.draw.text import fit_size, word, wrap
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
 
-WAIT = 15.0  # seconds
-IGNORED = 1.0  # seconds in which presses are ignored: other players are still pressing buttons
+TIMEOUT = 15.0  # seconds
+INPUT_LOCKOUT = 1.0  # seconds in which presses are ignored: other players are still pressing buttons
 RING = X + 398, Y + 468
 PAD = X + 184, Y + 376
 TEXT_X, TEXT_W = X + 352, W - 352 - 56
@@ -26,13 +26,13 @@ class OpenMatch(PausedMatch, Protocol):
     """A match whose seats can be reassigned."""
 
     @property
-    def lost(self) -> list[int]:
+    def unplugged_seats(self) -> list[int]:
         """Seats whose device is unplugged."""
 
-    def free(self, device: Device) -> bool:
+    def is_free(self, device: Device) -> bool:
         """True if this device drives no seat."""
 
-    def hand(self, seat: int, device: Device | None) -> None:
+    def assign_seat(self, seat: int, device: Device | None) -> None:
         """Assign a seat to a device, or to an AI."""
 
 
@@ -44,14 +44,14 @@ class Reconnect:
         self.age, self.replugged = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
         hints = [(Button.X, "pause.hint_ai"), (Button.BACK, "pause.hint_menu")]
-        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: match.access.hint_device)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Play the error sound."""
         self.context.sounds.music(False)
         self.context.sounds.play("error")
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE on a free device takes the seat; X gives it to an AI; BACK opens the menu."""
         event = self.prompts.as_button(event)
         admitted = self.match.access.admit(event)
@@ -60,9 +60,9 @@ class Reconnect:
             self.context.sounds.play("move")
         elif event.button is Button.LOST:
             self.replugged = False
-        elif event.button in (Button.FIRE, Button.START) and self.match.free(event.device):
+        elif event.button in (Button.FIRE, Button.START) and self.match.is_free(event.device):
             return self._hand(event.device)
-        elif admitted is None or self.age < IGNORED:
+        elif admitted is None or self.age < INPUT_LOCKOUT:
             return None
         elif admitted.button is Button.X:
             return self._hand(None)
@@ -72,11 +72,11 @@ class Reconnect:
 
     def update(self, seconds: float) -> StackOperation:
         """Hand the seat to an AI after the timeout."""
-        self.match.hold(seconds)
+        self.match.advance_paused(seconds)
         self.age += seconds
         if held := self.match.access.update(seconds):
             return Swap(Pause(self.match, held.device))
-        return self._hand(None) if self.age >= WAIT else None
+        return self._hand(None) if self.age >= TIMEOUT else None
 
     def draw(self, screen: pygame.Surface) -> None:
         if self.replugged not in self.pictures:
@@ -88,12 +88,12 @@ class Reconnect:
         plug(MIST if not self.replugged else GREEN, self.replugged).draw(screen, PAD[0], PAD[1] - gap)
         if not self.replugged and self.age % 1.4 < 0.7:
             bolt().draw(screen, *PAD)
-        ring(screen, WAIT - self.age, WAIT)
+        ring(screen, TIMEOUT - self.age, TIMEOUT)
         self.prompts.draw(screen)
-        self.match.shine(screen)
+        self.match.draw_overlay(screen)
 
     def _hand(self, device: Device | None) -> StackOperation:
-        self.match.hand(self.seat, device)
+        self.match.assign_seat(self.seat, device)
         return Pop()
 
     def _paint(self, layer: Layer) -> None:
@@ -116,12 +116,12 @@ class StillThere:
         self.picture: pygame.Surface | None = None
         self.prompts = self.context.prompts([(Button.FIRE, "pause.hint_continue")], PROMPTS, W - 80)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Play the error sound."""
         self.context.sounds.music(False)
         self.context.sounds.play("error")
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Any button continues; an idle device gets its seat back."""
         if event.button in (Button.LOST, Button.FOUND, Button.POINT):
             return None
@@ -129,17 +129,17 @@ class StillThere:
 
     def update(self, seconds: float) -> StackOperation:
         """Return to the title after the timeout."""
-        self.match.hold(seconds)
+        self.match.advance_paused(seconds)
         self.age += seconds
-        return Home() if self.age >= WAIT else None
+        return Home() if self.age >= TIMEOUT else None
 
     def draw(self, screen: pygame.Surface) -> None:
         if self.picture is None:
             self.picture = overlay(self.match.picture(), FOCUS, self._paint)
         screen.blit(self.picture, (0, 0))
-        ring(screen, WAIT - self.age, WAIT)
+        ring(screen, TIMEOUT - self.age, TIMEOUT)
         self.prompts.draw(screen)
-        self.match.shine(screen)
+        self.match.draw_overlay(screen)
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
@@ -176,7 +176,7 @@ def empty() -> LitImage:
     """The empty ring."""
     layer = Layer(-50, -50, 100, 100)
     layer.canvas.crisp.ring(0, 0, 46, (34, 44, 64), LINE)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -185,7 +185,7 @@ def plug(color: Color, joined: bool) -> LitImage:
     layer = Layer(-40, -120, 80, 120)
     dy = 36 if joined else 0
     layer.glow.line([(-16, dy - 84), (16, dy - 84)], color, LINE).line([(0, dy - 84), (0, -112)], color, LINE)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -194,4 +194,4 @@ def bolt() -> LitImage:
     layer = Layer(-60, -80, 120, 30)
     for side in (-1, 1):
         layer.glow.line([(26 * side, -65), (52 * side, -65)], FOCUS, LINE)
-    return layer.done()
+    return layer.render()

@@ -26,12 +26,12 @@ class ReplayScene:
         self.context, self.replay = context, replay
         self.length = len(replay.ticks) // BYTES_PER_TICK * DT
         self.speed, self.hints_left, self.playing = 0, HINTS_SECONDS, True
-        self.runner, self.warm = MatchRunner(context, to_match(replay)), False
+        self.runner, self.prewarmed = MatchRunner(context, to_match(replay)), False
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE pauses and resumes, LEFT and RIGHT change the speed, X restarts, BACK leaves."""
         event = self.hints.as_button(event)
         self.hints_left = HINTS_SECONDS
@@ -55,7 +55,7 @@ class ReplayScene:
 
     def update(self, seconds: float) -> StackOperation:
         self.hints_left -= seconds
-        self.warm = self.warm or self.runner.warm(4.0)
+        self.prewarmed = self.prewarmed or self.runner.prewarm(4.0)
         if self.playing and not self.ended:
             self.runner.advance(seconds, SPEEDS[self.speed])
         else:
@@ -67,7 +67,7 @@ class ReplayScene:
         self.runner.draw(screen)
         words, seconds = self.context.words, self.runner.match.seconds
         if seconds < HINTS_SECONDS or not self.playing:
-            self.runner.captions(screen, [None] * len(self.replay.setup.seats))
+            self.runner.draw_captions(screen, [None] * len(self.replay.setup.seats))
         x = LINE_LEFT + (LINE_RIGHT - LINE_LEFT) * min(1.0, seconds / max(DT, self.length))
         pygame.draw.line(screen, STEEL, (LINE_LEFT, LINE_Y), (LINE_RIGHT, LINE_Y), 4)
         pygame.draw.line(screen, ICE, (LINE_LEFT, LINE_Y), (x, LINE_Y), 6)
@@ -103,4 +103,4 @@ class ReplayScene:
         return match.over or match.seconds >= self.length
 
     def _begin(self) -> None:
-        self.runner, self.warm, self.playing = MatchRunner(self.context, to_match(self.replay)), False, True
+        self.runner, self.prewarmed, self.playing = MatchRunner(self.context, to_match(self.replay)), False, True

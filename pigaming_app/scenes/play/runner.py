@@ -21,7 +21,7 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import Caption, caption
 
-BEHIND = 72  # of 255: brightness of a match behind a page
+PAUSED_BRIGHTNESS = 72  # of 255: brightness of a match behind a page
 TICK_SOUNDS = 10  # seconds at the end with a tick sound each
 CAPTION_GAP = 104  # px from a robot to its caption
 
@@ -40,10 +40,10 @@ class MatchRunner:
         self.undrawn = 0.0  # seconds of real time since the last picture
         self.second = TICK_SOUNDS + 1
 
-    def warm(self, milliseconds: float) -> bool:
+    def prewarm(self, milliseconds: float) -> bool:
         """Prewarm sprites for up to `milliseconds`; true when done."""
         with self._tag_sprites():
-            return bool(self.view.warm(milliseconds))
+            return bool(self.view.prewarm(milliseconds))
 
     def advance(self, seconds: float, speed: float = 1.0) -> None:
         """Advance the match by `seconds` of real time."""
@@ -75,21 +75,21 @@ class MatchRunner:
         """The current match, darkened, as drawn behind a page."""
         canvas = pygame.Surface((1920, 1080))
         self.draw(canvas)
-        canvas.fill((BEHIND, BEHIND, BEHIND), special_flags=pygame.BLEND_RGB_MULT)
+        canvas.fill((PAUSED_BRIGHTNESS, PAUSED_BRIGHTNESS, PAUSED_BRIGHTNESS), special_flags=pygame.BLEND_RGB_MULT)
         return canvas
 
     def robots(self) -> list[tuple[float, float]]:
         """Positions of the robots on the canvas."""
         return [(LEFT + robot.x, TOP + robot.y) for robot in self.match.state.robots if robot.present]
 
-    def captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
+    def draw_captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
         """Draw the driver's caption beside each robot."""
         for seat, robot in enumerate(self.match.state.robots):
             if robot.present:
                 name, sign = self.driver(seat, devices[seat])
-                self.beside(screen, seat, caption(name, PLAYERS[seat], sign=sign))
+                self.draw_beside(screen, seat, caption(name, PLAYERS[seat], sign=sign))
 
-    def beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
+    def draw_beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
         """Draw a caption above or below a robot, where the arena has more room."""
         robot = self.match.state.robots[seat]
         margin = LEFT + 24 + sheet.width / 2

@@ -16,7 +16,7 @@ import pygame
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.registry import make, seated
 from pigaming_app.games.game import Setup
-from pigaming_app.scenes.flow.access import TAKE, Access
+from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
@@ -35,20 +35,20 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.caption import RING_STEPS, Caption, caption, hold_ring
 
-LEAD = 0.8  # seconds before the countdown, to look round
-RESUME = 0.5  # seconds per number after an interruption
-FREEZE = 1.5  # seconds between the last tick and the results
-STILL = 60.0  # seconds without any input until the match is halted
-NOTICE = 3.0  # seconds for which a notice is shown
-WARM = 7.0  # ms per frame for prewarming while motion is locked
-STAND_IN = "normal"  # the brain that takes over for a person
+LEAD_SECONDS = 0.8  # seconds before the countdown, to look round
+RESUME_STEP = 0.5  # seconds per number after an interruption
+FREEZE_SECONDS = 1.5  # seconds between the last tick and the results
+HALT_AFTER = 60.0  # seconds without any input until the match is halted
+NOTICE_SECONDS = 3.0  # seconds for which a notice is shown
+PREWARM_MS = 7.0  # ms per frame for prewarming while motion is locked
+SUBSTITUTE_BRAIN = "normal"  # the brain that takes over for a person
 
 
 class MatchScene:
     """One match, from its countdown to its results. `devices`: the device of each seat; None: an AI, or nobody yet.
 
-    `humans`: seats of people, present or away; `helped`: those for whom an AI has driven for a while; `open`: true if a
-    free device may take the seat of an AI. `game_choice`: see `Results`.
+    `humans`: seats of people, present or away; `ai_assisted`: those for whom an AI has driven for a while;
+    `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see `Results`.
     """
 
     def __init__(
@@ -65,18 +65,18 @@ class MatchScene:
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = seated(setup, plant)
         self.runner = MatchRunner(context, self.match)
-        self.count = Countdown(lead=LEAD)
-        self.spot = CENTRE
+        self.countdown = Countdown(lead=LEAD_SECONDS)
+        self.countdown_at = CENTRE
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
-        self.begun = self.warm = self.stopped = self.repeated = False
+        self.begun = self.prewarmed = self.stop_requested = self.restart_requested = False
         self.idle = self.frozen = self.notice_left = 0.0
         self.notice: Caption | None = None
         self.results: Results | None = None
         self.access = Access(context, lambda: self.devices)
-        self.joining = HoldTimers(context.controls, TAKE)
+        self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
-        self.helped: set[int] = set()
-        self.open = True
+        self.ai_assisted: set[int] = set()
+        self.join_allowed = True
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans:
@@ -84,17 +84,17 @@ class MatchScene:
 
     # ---- lifecycle
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Start, or resume after an interruption."""
         self.context.sounds.music(True)
         self.context.controls.forget_taps()
         self.joining.clear()
         if self.begun and not self.match.over:
-            self.count = Countdown(RESUME) if not self.count.locked else Countdown()
+            self.countdown = Countdown(RESUME_STEP) if not self.countdown.locked else Countdown()
         self.begun = True
         self.idle = 0.0
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
         if self.match.over:
             return None
@@ -103,7 +103,7 @@ class MatchScene:
         if self.return_seat(event):
             return None
         admitted = self.access.admit(event)
-        if event.button is Button.FIRE and self.free(event.device):
+        if event.button is Button.FIRE and self.is_free(event.device):
             self._request_seat(event)
         if admitted is None:
             return None
@@ -118,28 +118,28 @@ class MatchScene:
 
     def update(self, seconds: float) -> StackOperation:
         self.notice_left -= seconds
-        if self.repeated:
-            return Swap(self.again(self.context, self.setup, self.devices))
-        if self.match.over or self.stopped:
+        if self.restart_requested:
+            return Swap(self.rematch(self.context, self.setup, self.devices))
+        if self.match.over or self.stop_requested:
             return self._end(seconds)
         if held := self.access.update(seconds):
             return Push(Pause(self, held.device))
-        if lost := self.lost:
+        if lost := self.unplugged_seats:
             return Push(Reconnect(self, lost[0]))
         for event in self.joining.update(seconds):
             self._join(event.device)
         self.signs.work(0.0)
-        self.warm = self.warm or self.runner.warm(WARM if self.count.locked else 2.0)
-        if self.count.shown and (sound := self.count.update(seconds)):
+        self.prewarmed = self.prewarmed or self.runner.prewarm(PREWARM_MS if self.countdown.locked else 2.0)
+        if self.countdown.shown and (sound := self.countdown.update(seconds)):
             self.context.sounds.play(sound)
-        if self.count.locked:
+        if self.countdown.locked:
             self.context.controls.forget_taps()
             self.runner.wait(seconds)
             return None
         self.idle += seconds
         self._replace_idle(seconds)
         self.runner.advance(seconds, self.speed)
-        if self.humans and self.idle > STILL:
+        if self.humans and self.idle > HALT_AFTER:
             return Push(StillThere(self))
         return None
 
@@ -147,20 +147,20 @@ class MatchScene:
         """Draw the arena, and the countdown, captions and notices over it."""
         self.runner.draw(screen)
         words = self.context.words
-        if self.match.over and not self.stopped:
+        if self.match.over and not self.stop_requested:
             pop = min(4, int(self.frozen / 0.04))
             ending = "time" if self.match.seconds_left <= 0.0 else "finish"
             show(screen, popped(words(f"match.{ending}"), ALARM, pop))
-        elif self.count.shown:
+        elif self.countdown.shown:
             if self.match.setup.game == "race" and self.match.seconds < 1.0:
                 self._draw_laps(screen)
-            if self.count.locked:
-                self.runner.captions(screen, self.devices)
-                self.spot = clear_of(self.runner.robots())
-            self.count.draw(screen, words("match.go"), self.spot)
+            if self.countdown.locked:
+                self.runner.draw_captions(screen, self.devices)
+                self.countdown_at = clear_of(self.runner.robots())
+            self.countdown.draw(screen, words("match.go"), self.countdown_at)
         for seat, left in self.idle_seats.prompted().items():
             sentence = words("match.still", seconds=max(1, math.ceil(left)))
-            self.runner.beside(screen, seat, caption(sentence, PLAYERS[seat], player=seat))
+            self.runner.draw_beside(screen, seat, caption(sentence, PLAYERS[seat], player=seat))
         self._draw_joining(screen)
         if self.notice and self.notice_left > 0.0:
             self.notice.draw(screen, 960, 206)
@@ -176,7 +176,7 @@ class MatchScene:
     # ---- interface for the pages above
 
     @property
-    def lost(self) -> list[int]:
+    def unplugged_seats(self) -> list[int]:
         """Seats whose device is unplugged and that have no driver."""
         gone = [(i, device) for i, device in enumerate(self.devices) if device]
         return [i for i, device in gone if not self.context.controls.connected(device)]
@@ -186,17 +186,17 @@ class MatchScene:
         """Seats of people for whom an AI drives."""
         return [i for i in self.humans if self.devices[i] is None]
 
-    def free(self, device: Device) -> bool:
+    def is_free(self, device: Device) -> bool:
         """True if this device drives no seat."""
         return device.kind != "mouse" and device not in self.devices
 
-    def hand(self, seat: int, device: Device | None) -> None:
+    def assign_seat(self, seat: int, device: Device | None) -> None:
         """Assign a seat to a device, or to an AI until somebody takes it."""
         self._sit(seat, device)
         self.idle_seats.reassign(seat, device)
         name, sign = self.runner.driver(seat, device)
         name = name if device else self.context.words("match.back_in")
-        self.notice, self.notice_left = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE
+        self.notice, self.notice_left = caption(name, PLAYERS[seat], player=seat, sign=sign), NOTICE_SECONDS
         self.context.sounds.play("join", seat)
 
     def return_seat(self, event: InputEvent) -> bool:
@@ -204,13 +204,13 @@ class MatchScene:
         if event.device not in self.idle_seats.claims or event.button in (Button.STOP, Button.BRAIN):
             return False
         self.idle = 0.0
-        self.hand(self.idle_seats.claims[event.device], event.device)
+        self.assign_seat(self.idle_seats.claims[event.device], event.device)
         return True
 
     def next_brain(self) -> None:
         """Show the thoughts of the next AI, after the last none; show a notice if there is no AI."""
         if not self.runner.brain.seats:
-            self.notice, self.notice_left = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE
+            self.notice, self.notice_left = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE_SECONDS
         self.runner.brain.next()
 
     def picture(self) -> pygame.Surface:
@@ -219,38 +219,38 @@ class MatchScene:
 
     def stop(self) -> None:
         """End the match now, with the current score."""
-        self.stopped = True
+        self.stop_requested = True
 
     def restart(self) -> None:
         """Restart with another seed."""
-        self.repeated = True
+        self.restart_requested = True
 
-    def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+    def rematch(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with another seed."""
         return MatchScene(context, rematch_setup(setup, devices), devices, game_choice=self.game_choice)
 
     @property
-    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
+    def extra_items(self) -> Mapping[str, Callable[[Access], Scene]]:
         """Additional pause items: page factories by name, given the access of the pause."""
         return {}
 
     @property
-    def stuck(self) -> bool:
+    def blocked(self) -> bool:
         """True if the match waits for an event that may never come."""
         return False
 
-    def hold(self, seconds: float) -> None:
+    def advance_paused(self, seconds: float) -> None:
         """Advance by `seconds` while a page is open."""
 
-    def shine(self, screen: pygame.Surface) -> None:
+    def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw overlays that must not be hidden by a page."""
 
     # ---- internals
 
     @property
-    def takeable(self) -> list[int]:
+    def takeable_seats(self) -> list[int]:
         """Seats driven by AIs, in the order of assignment to free devices: those of absent people first."""
-        if not self.open:
+        if not self.join_allowed:
             return self.ai_replaced
         robots = self.match.state.robots
         ais = [i for i, robot in enumerate(robots) if robot.present and i not in self.humans]
@@ -264,26 +264,26 @@ class MatchScene:
         """FIRE on a free device: take an unclaimed seat at once, any other after holding."""
         claimed = self.idle_seats.claims.values()
         if vacant := [seat for seat in self.ai_replaced if seat not in claimed]:
-            self.hand(vacant[0], event.device)
-        elif self.takeable:
+            self.assign_seat(vacant[0], event.device)
+        elif self.takeable_seats:
             self.joining.begin(event)
-            self.notice, self.notice_left = caption(self.context.words("match.hold"), sign="ai"), NOTICE
+            self.notice, self.notice_left = caption(self.context.words("match.hold"), sign="ai"), NOTICE_SECONDS
 
     def _join(self, device: Device) -> None:
         """Give a device the seat of an AI."""
-        if self.takeable and self.free(device):
-            seat = self.takeable[0]
+        if self.takeable_seats and self.is_free(device):
+            seat = self.takeable_seats[0]
             if seat not in self.humans:
                 self.humans.append(seat)
-                self.helped.add(seat)
+                self.ai_assisted.add(seat)
             self.idle = 0.0
-            self.hand(seat, device)
+            self.assign_seat(seat, device)
 
     def _draw_joining(self, screen: pygame.Surface) -> None:
         """A filling ring beside each robot that is about to be taken."""
-        for (device, share), seat in zip(self.joining.shares.items(), self.takeable, strict=False):
-            if self.free(device):
-                self.runner.beside(screen, seat, hold_ring(seat, math.ceil(share * RING_STEPS)))
+        for (device, share), seat in zip(self.joining.shares.items(), self.takeable_seats, strict=False):
+            if self.is_free(device):
+                self.runner.draw_beside(screen, seat, hold_ring(seat, math.ceil(share * RING_STEPS)))
 
     def _replace_idle(self, seconds: float) -> None:
         """Replace people at idle seats by AIs."""
@@ -293,16 +293,20 @@ class MatchScene:
             if controls.touched(device):
                 self.idle_seats.touch(seat)
         for seat in self.idle_seats.update(seconds, driven):
-            self.hand(seat, None)
+            self.assign_seat(seat, None)
             self.idle_seats.leave(driven[seat], seat)
 
     def _sit(self, seat: int, device: Device | None) -> None:
         self.devices[seat] = device
         if device is None:
-            self.helped.add(seat)
-        brain = HumanPlayer(lambda: self._read(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
+            self.ai_assisted.add(seat)
+        brain = (
+            HumanPlayer(lambda: self._read(seat, device))
+            if device
+            else make(self.setup.game, SUBSTITUTE_BRAIN, new_seed())
+        )
         self.match.sit(seat, brain)
-        self.runner.players[seat] = "human" if device else STAND_IN
+        self.runner.players[seat] = "human" if device else SUBSTITUTE_BRAIN
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
@@ -315,24 +319,24 @@ class MatchScene:
     def _end(self, seconds: float) -> StackOperation:
         """Build the results while the last picture stays on the screen."""
         if self.results is None:
-            finished = self.match.over and not self.stopped
-            helped = self.helped if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
+            finished = self.match.over and not self.stop_requested
+            helped = self.ai_assisted if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
             self.results = Results(
                 self.context,
                 self.match.outcome(),
                 self.setup,
                 self.devices,
-                self.again,
+                self.rematch,
                 finished,
                 helped,
                 self.game_choice,
             )
             if finished:
                 self.context.sounds.play("go")
-        ready = self.results.warm(WARM)
+        ready = self.results.prewarm(PREWARM_MS)
         self.frozen += seconds
         self.runner.wait(seconds)
-        if ready and (self.stopped or self.frozen >= FREEZE):
+        if ready and (self.stop_requested or self.frozen >= FREEZE_SECONDS):
             return Swap(self.results)
         return None
 

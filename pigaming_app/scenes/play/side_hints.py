@@ -30,13 +30,13 @@ class SideHints:
         """A click on a hint as a press of its button; any other event unchanged."""
         if event.button is not Button.CLICK or event.at is None:
             return event
-        for hint_button, box in zip(self.prompts.buttons, boxes(self.prompts.said), strict=True):
+        for hint_button, box in zip(self.prompts.buttons, boxes(self.prompts.labels), strict=True):
             if box.collidepoint(event.at):
                 return replace(event, button=hint_button)
         return event
 
     def draw(self, screen: pygame.Surface) -> None:
-        column(self.prompts.said).draw(screen)
+        column(self.prompts.labels).draw(screen)
 
 
 def boxes(prompts: tuple[tuple[str, str], ...]) -> list[pygame.Rect]:
@@ -62,11 +62,11 @@ def column(prompts: tuple[tuple[str, str], ...]) -> LitImage:
     layer = Layer(X - ROOM / 2, TOP, ROOM, places[-1].bottom - TOP)
     for (label, text), box in zip(prompts, places, strict=True):
         for ink in (layer.canvas.glow, layer.canvas.soft, layer.canvas.crisp):
-            ink.to(box.centerx - layer.at[0], box.top - layer.at[1], 0.0, k)
+            ink.set_transform(box.centerx - layer.at[0], box.top - layer.at[1], 0.0, k)
         button(layer.canvas, -button_width(label) / 2, 30, label)
         for i, line in enumerate(wrap(text, BODY, MAX_LINE)):
             layer.canvas.body(line, 0, 60 + LINE * (i + 0.5), MIST, "c")
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -76,4 +76,4 @@ def side_note(label: str, figure: str) -> LitImage:
     layer = Layer(1920 - X - ROOM / 2, TOP, ROOM, 140)
     layer.canvas.text(label, size, 1920 - X, TOP + 24, ICE, "head", "c")
     layer.canvas.text(figure, LABEL, 1920 - X, TOP + 84, FOCUS, "head", "c")
-    return layer.done()
+    return layer.render()

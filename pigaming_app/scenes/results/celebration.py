@@ -39,7 +39,7 @@ class Celebration:
 
     def __init__(self, player: int, x: float, y: float, sparks: bool) -> None:
         self.player, self.x, self.y = player, x, y
-        self.chance = random.Random()
+        self.rng = random.Random()
         self.bursts = [0.0, 0.5, 1.1, 2.0, 3.2] if sparks else []
         self.sparks: list[Spark] = []
         self.age = 0.0
@@ -48,8 +48,8 @@ class Celebration:
         self.age += seconds
         while self.bursts and self.bursts[0] <= self.age:
             self.bursts.pop(0)
-            x, y = self.x + self.chance.uniform(-160, 160), self.y + self.chance.uniform(-20, 30)
-            self.sparks += [Spark(x, y, self.chance) for _ in range(BURST)]
+            x, y = self.x + self.rng.uniform(-160, 160), self.y + self.rng.uniform(-20, 30)
+            self.sparks += [Spark(x, y, self.rng) for _ in range(BURST)]
         self.sparks = [spark for spark in self.sparks if spark.move(seconds)]
 
     @property

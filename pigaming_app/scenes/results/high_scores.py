@@ -32,11 +32,12 @@ ROWS = 8
 WHERE_Y, LINE_Y, HEAD_Y, TOP, PITCH = 112, 234, 314, 352, 66  # px
 HEIGHT = 24 + PITCH * ROWS  # px, height of a table
 STAY = 12.0  # s without input
-DEAF = 0.4  # s during which input is ignored
+INPUT_LOCKOUT = 0.4  # s during which input is ignored
 APART, WIPE = 0.05, 0.25  # s: delay from row to row, wipe of one row
 ARROW = 20  # px from the centre of an arrow to its tip
 ROOM, WHERE_ROOM = 1360, 800  # px: maximum width of the conditions, and of game and arena
 STEPS = {Button.LEFT: -1, Button.RIGHT: 1, Button.UP: -1, Button.DOWN: 1}
+CLOSING = Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK
 
 
 class HighScores:
@@ -54,10 +55,10 @@ class HighScores:
         """The game on display."""
         return self.contest.game
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Directions and arrows select other tables; any button continues."""
         event = self.prompts.as_button(event)
         self.idle = 0.0
@@ -66,7 +67,7 @@ class HighScores:
             event = InputEvent(next(near, Button.CLICK), event.device)
         if event.button in STEPS:
             self._step(event.button)
-        elif self.age > DEAF and event.button in (Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK):
+        elif self.age > INPUT_LOCKOUT and event.button in CLOSING:
             self.context.sounds.play("back")
             return Pop()
         return None
@@ -205,6 +206,5 @@ def conditions(words: Words, contest: ScoreTable) -> str:
 @cached
 def frame(w: int) -> LitImage:
     """Outline of a table; top left at (0, 0)."""
-    return LitImage(
-        GlowCanvas(w + 8, HEIGHT + 8).to(4, 4).line(cut_box(0, 0, w, HEIGHT, 20), STEEL, THIN, True).plain(), (-4, -4)
-    )
+    canvas = GlowCanvas(w + 8, HEIGHT + 8).set_transform(4, 4)
+    return LitImage(canvas.line(cut_box(0, 0, w, HEIGHT, 20), STEEL, THIN, True).plain(), (-4, -4))

@@ -30,7 +30,7 @@ from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar
 
 TOP = 8  # places, today and of all time, that qualify
 SECONDS = 10.0  # time limit for all players together
-DEAF = 0.5  # s during which input is ignored
+INPUT_LOCKOUT = 0.5  # s during which input is ignored
 SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans in days
 
 _log = logging.getLogger(__name__)
@@ -106,21 +106,21 @@ class Initials:
         self.context, self.setup, self.claims = context, setup, sorted(qualifying, key=lambda claim: claim.seat)
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
-        self.ahead = PrewarmQueue(self._prewarm_jobs())
+        self.prewarm_queue = PrewarmQueue(self._prewarm_jobs())
 
-    def warm(self) -> None:
+    def prewarm(self) -> None:
         """Prewarm one widget of the page, to avoid one long frame."""
-        self.ahead.work(0.0)
+        self.prewarm_queue.work(0.0)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Each player's input changes only their own letters."""
         device = self._device_of(event)
-        if self.age < DEAF or device is None:
+        if self.age < INPUT_LOCKOUT or device is None:
             return None
-        if sound := self.spellings[device].on(event.button):
+        if sound := self.spellings[device].handle(event.button):
             self.context.sounds.play(sound, next(claim.seat for claim in self.claims if claim.device == device))
         return self._end() if all(spelling.done for spelling in self.spellings.values()) else None
 

@@ -70,7 +70,7 @@ def frame(seat: int, label: str, lines: tuple[tuple[str, str], ...], done: bool)
         box = cut_box(slot_x(i) - SLOT_W / 2, LETTERS_Y - SLOT_H / 2, SLOT_W, SLOT_H, 14)
         layer.glow.line(box, STEEL, THIN, True)
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())
 
 
 def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> None:
@@ -89,7 +89,7 @@ def refused(label: str) -> LitImage:
     """Text that replaces the button while rejected letters shake."""
     layer = Layer(*BAR)
     layer.canvas.body(label, MIDDLE, BAR_Y, ALARM, "c", fit_size(label, BODY, W - 48, "body"))
-    return layer.done()
+    return layer.render()
 
 
 def slot_x(slot: int) -> float:

@@ -45,7 +45,7 @@ class Plot:
         """Lower end, upper end and tick spacing of the y axis."""
         return scale(math.floor(min(0, *values, 0)), math.ceil(max(0, *values, 0)))
 
-    def to(self, seconds: float, score: float) -> Point:
+    def to_screen(self, seconds: float, score: float) -> Point:
         """Canvas position of a score at a time."""
         share = (score - self.low) / (self.high - self.low)
         return self.x + self.w * min(1.0, seconds / self.seconds), self.y + self.h * (1.0 - share)
@@ -56,13 +56,13 @@ class Plot:
         ink = layer.canvas.crisp
         faint = dim(STEEL, 0.55)
         for value, label in self.numbers():
-            a, b = self.to(0, value), self.to(self.seconds, value)
+            a, b = self.to_screen(0, value), self.to_screen(self.seconds, value)
             ink.line([a, b], STEEL if value == 0 else faint, THIN if value == 0 else HAIR)
             ink.text(label, BODY, self.x - 20, a[1], MIST, "head", "r")
         for at, label in self.marks():
-            ink.line([self.to(at, self.low), self.to(at, self.high)], faint, HAIR)
-            ink.text(label, BODY, self.to(at, 0)[0], self.foot, MIST, "head", "c")
-        return layer.done()
+            ink.line([self.to_screen(at, self.low), self.to_screen(at, self.high)], faint, HAIR)
+            ink.text(label, BODY, self.to_screen(at, 0)[0], self.foot, MIST, "head", "c")
+        return layer.render()
 
     def numbers(self) -> list[tuple[int, str]]:
         """y axis: value and label of each tick."""
@@ -70,7 +70,7 @@ class Plot:
 
     def marks(self) -> list[tuple[float, str]]:
         """x axis: value and label of each tick."""
-        return [(second, f"{second // 60}:{second % 60:02}") for second in moments(self.seconds)]
+        return [(second, f"{second // 60}:{second % 60:02}") for second in time_marks(self.seconds)]
 
     def lines(self) -> LitImage:
         """The curves."""
@@ -82,7 +82,7 @@ class Plot:
                 layer.glow.line(points, PLAYERS[curve.players[0]], 5)
         for x, y in self.marked():
             layer.glow.ring(x, y, 16, FOCUS, THIN)
-        return layer.done()
+        return layer.render()
 
     def marked(self) -> list[Point]:
         """Positions of highlighted points."""
@@ -93,28 +93,28 @@ class Plot:
         x = self.x + self.w
         layer = Layer(x, self.y, 1840 - x, self.h)
         drawn = [curve for curve in self.curves if curve.series]
-        heights = spread([self.to(0, curve.last)[1] for curve in drawn], ROOM, self.y + self.h)
+        heights = spread([self.to_screen(0, curve.last)[1] for curve in drawn], ROOM, self.y + self.h)
         for curve, y in zip(drawn, heights, strict=True):
             for i, player in enumerate(curve.players):
                 badge(layer.glow, player, x + 44 + 52 * i, y, 22)
-        return layer.done()
+        return layer.render()
 
     def heads(self, share: float) -> list[tuple[Point, tuple[int, int, int]]]:
         """Position and colour of each curve's end when `share` of the time is revealed."""
         now, middle, out = share * self.seconds, (len(self.curves) - 1) / 2, []
         for i, curve in enumerate(self.curves):
             score = next((s for t, s in reversed(curve.series) if t <= now), 0)
-            x, y = self.to(now, score)
+            x, y = self.to_screen(now, score)
             out.append(((x, y + APART * (i - middle)), mix(PLAYERS[curve.players[0]], (255, 255, 255), 0.6)))
         return out
 
     def corners(self, series: Series) -> list[Point]:
         """Polyline of a step curve on the canvas."""
-        points, score = [self.to(0, 0)], 0.0
+        points, score = [self.to_screen(0, 0)], 0.0
         for seconds, after in series:
-            points += [self.to(seconds, score), self.to(seconds, after)]
+            points += [self.to_screen(seconds, score), self.to_screen(seconds, after)]
             score = after
-        return [*points, self.to(self.seconds, score)]
+        return [*points, self.to_screen(self.seconds, score)]
 
 
 class LapPlot(Plot):
@@ -130,7 +130,7 @@ class LapPlot(Plot):
         bottom = low // step * step
         return bottom, max(-(-high // step) * step, bottom + 2 * step), step
 
-    def to(self, seconds: float, score: float) -> Point:
+    def to_screen(self, seconds: float, score: float) -> Point:
         """Canvas position of a lap time, centred in the lap's share of the axis."""
         share = (score - self.low) / (self.high - self.low)
         return self.x + self.w * min(1.0, max(0.0, (seconds - 0.5) / self.seconds)), self.y + self.h * (1.0 - share)
@@ -141,7 +141,7 @@ class LapPlot(Plot):
         if not laps:
             return []
         time, lap, i = min(laps)
-        x, y = self.to(lap, time)
+        x, y = self.to_screen(lap, time)
         return [(x, y + APART * (i - (len(self.curves) - 1) / 2))]
 
     def marks(self) -> list[tuple[float, str]]:
@@ -150,7 +150,7 @@ class LapPlot(Plot):
 
     def corners(self, series: Series) -> list[Point]:
         """Line from lap to lap; a single lap becomes a short stroke."""
-        points = [self.to(lap, time) for lap, time in series]
+        points = [self.to_screen(lap, time) for lap, time in series]
         return [(points[0][0] - 20, points[0][1]), (points[0][0] + 20, points[0][1])] if len(points) == 1 else points
 
     def heads(self, share: float) -> list[tuple[Point, tuple[int, int, int]]]:
@@ -159,7 +159,7 @@ class LapPlot(Plot):
         for curve in self.curves:
             seen = [(lap, time) for lap, time in curve.series if lap <= now]
             if seen:
-                out.append((self.to(*seen[-1]), mix(PLAYERS[curve.players[0]], (255, 255, 255), 0.6)))
+                out.append((self.to_screen(*seen[-1]), mix(PLAYERS[curve.players[0]], (255, 255, 255), 0.6)))
         return out
 
 
@@ -170,7 +170,7 @@ def scale(low: int, high: int) -> tuple[int, int, int]:
     return bottom, max(top, bottom + 2 * step), step
 
 
-def moments(seconds: float) -> list[int]:
+def time_marks(seconds: float) -> list[int]:
     """Tick times of an axis of `seconds`: at most five, none beyond its end."""
     step = next(step for step in (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 36000) if seconds / step <= 5)
     return list(range(0, int(seconds) + 1, step))

@@ -101,7 +101,7 @@ def question(text: str) -> LitImage:
     """The question; left edge at x = 0."""
     layer = Layer(0, Y - 40, text_width(text, LABEL), 80)
     layer.canvas.text(text, LABEL, 0, Y, FOCUS)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -114,4 +114,4 @@ def answer(seat: int, icon_name: str) -> LitImage:
         icon(layer.glow, icon_name, 66, Y, 20, color, weight)
     else:
         layer.glow.dashes(cut_box(44, Y - 22, 44, 44, 8), MIST, THIN, 10, 8)
-    return layer.done()
+    return layer.render()

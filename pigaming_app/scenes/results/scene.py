@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Sequence
 import pygame
 
 from pigaming_app.games.game import Outcome, Setup
-from pigaming_app.scenes.flow.access import TAKE, Access
+from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.results.high_score_tables import contest
@@ -23,7 +23,7 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.caption import caption
 
-DEAF = 2.5  # s during which input is ignored
+INPUT_LOCKOUT = 2.5  # s during which input is ignored
 LATE, LEAVE = 5.0, 0.5  # s during which BACK is ignored; s it must be held afterwards
 MESSAGE_SECONDS = 3.0  # s, display time of a message
 CLAIMS = 2.6  # s before the initials entry
@@ -37,8 +37,8 @@ SceneFactory = Callable[
 class Results:
     """Results of a match. `devices`: driver of each seat; `finished`: played to its end.
 
-    `again`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `helped`: seats that
-    changed drivers during the match; their scores do not count as records.
+    `rematch`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `ai_assisted`: seats
+    that changed drivers during the match; their scores do not count as records.
     """
 
     def __init__(
@@ -47,48 +47,48 @@ class Results:
         outcome: Outcome,
         setup: Setup,
         devices: Sequence[Device | None],
-        again: SceneFactory,
+        rematch: SceneFactory,
         finished: bool = True,
-        helped: Collection[int] = (),
+        ai_assisted: Collection[int] = (),
         game_choice: SceneFactory | None = None,
     ) -> None:
-        self.context, self.setup, self.again, self.game_choice = context, setup, again, game_choice
+        self.context, self.setup, self.rematch, self.game_choice = context, setup, rematch, game_choice
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
         self.ballot = RematchVote(context, seats, humans, devices)
         absent = [seat for seat in humans if devices[seat] is None]
         self.page = ResultsPage(context, outcome, setup, finished, absent)
-        own = [None if seat in helped else device for seat, device in enumerate(devices)]
+        own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
         self.claims = qualifying(context, outcome, setup, own) if finished else []
         self.initials = Initials(context, setup, self.claims)
         self.sounds = self.page.sounds(humans)
         self.age = self.idle = self.message_left = 0.0
         self.access = Access(context, lambda: self.ballot.devices)
-        self.leaving, self.joining = HoldTimers(context.controls, LEAVE), HoldTimers(context.controls, TAKE)
+        self.leaving, self.joining = HoldTimers(context.controls, LEAVE), HoldTimers(context.controls, TAKE_SECONDS)
         hints = [
             (Button.FIRE, "results.again"),
             *([(Button.X, "results.change")] if game_choice else []),
             (Button.Y, "results.scores"),
             (Button.BACK, "results.menu"),
         ]
-        self.prompts = context.prompts(hints, voice=lambda: self.access.voice)
+        self.prompts = context.prompts(hints, device=lambda: self.access.hint_device)
 
-    def warm(self, milliseconds: float) -> bool:
+    def prewarm(self, milliseconds: float) -> bool:
         """Prewarm the page for at most this many milliseconds; True when complete."""
-        return self.page.warm(milliseconds)
+        return self.page.prewarm(milliseconds)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """First display, or return from initials or tables."""
         self.idle = 0.0
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE votes, START begins, X opens the game selection, BACK, held, returns to the title."""
         event = self.prompts.as_button(event)
         admitted = self.access.admit(event)
         if admitted is None and event.button is not Button.FIRE:
             return None
         self.idle = 0.0
-        if self.age < DEAF or self.claims:
+        if self.age < INPUT_LOCKOUT or self.claims:
             return None
         if admitted is None or (event.button is Button.FIRE and event.device.kind != "mouse"):
             self._fire(event)
@@ -119,7 +119,7 @@ class Results:
             _, name, player = self.sounds.pop(0)
             self.context.sounds.play(name, player)
         if self.claims:
-            self.initials.warm()
+            self.initials.prewarm()
             if self.age >= CLAIMS:
                 self.claims = []
                 return Push(self.initials)
@@ -157,7 +157,7 @@ class Results:
 
     def _rematch(self, everyone: bool) -> StackOperation:
         self.context.sounds.play("accept")
-        return Swap(self.again(self.context, self.setup, self.ballot.drivers(everyone)))
+        return Swap(self.rematch(self.context, self.setup, self.ballot.drivers(everyone)))
 
 
 def hold_bar(screen: pygame.Surface, share: float) -> None:

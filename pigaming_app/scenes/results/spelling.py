@@ -42,7 +42,7 @@ class Spelling:
         """True if the last letter is selected."""
         return self.picker.slot == len(self.picker.letters) - 1
 
-    def on(self, button: Button) -> str | None:
+    def handle(self, button: Button) -> str | None:
         """Handle a button; returns the name of the sound to play."""
         match button:
             case Button.BACK | Button.LEAVE_SEAT if self.done:

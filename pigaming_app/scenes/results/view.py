@@ -56,8 +56,8 @@ class Part:
     """A widget with its reveal: wiped in from the left over `takes` seconds."""
 
     lit: LitImage
-    begins: float
-    takes: float = WIPE
+    starts: float
+    duration: float = WIPE
 
 
 class ResultsPage:
@@ -80,7 +80,7 @@ class ResultsPage:
         self.finale: Celebration | None = None
         self._rendering = self._render_parts()
 
-    def warm(self, milliseconds: float) -> bool:
+    def prewarm(self, milliseconds: float) -> bool:
         """Render widgets for at most this many milliseconds; True when all are ready."""
         if budget.behind:
             return False
@@ -109,14 +109,14 @@ class ResultsPage:
         self._finish()
         screen.blit(backdrop(), (0, 0))
         for part in self.parts:
-            share = (age - part.begins) / part.takes
+            share = (age - part.starts) / part.duration
             if share > 0.0:
                 part.lit.draw(screen, share=1 - (1 - min(1.0, share)) ** 2)
         drawn = (age - FIRST) / (self.ready_at - FIRST)
         if 0.0 < drawn < 1.0:
             for at, color in self.plot.heads(drawn):
                 dot(screen, at, color)
-            now, _ = self.plot.to(drawn * self.plot.seconds, 0)
+            now, _ = self.plot.to_screen(drawn * self.plot.seconds, 0)
             self.lines.draw(screen, share=share_of(self.lines, now))
         elif drawn >= 1.0:
             self.lines.draw(screen)
@@ -186,11 +186,11 @@ class ResultsPage:
         layer.canvas.text(text, size, x, 112, self._color())
         if self.winners:
             at = x + text_width(text, size) + 70
-            ink = GlowCanvas(160, 140).to(80, 70)
+            ink = GlowCanvas(160, 140).set_transform(80, 70)
             icon(ink, "crown", 0, 0, 40, FOCUS, LINE)
             self.crown = LitImage(ink.lit(), (round(at) - 80, 108 - 70))
             self.finale = Celebration(self.winners[0], at, 108, self.context.settings.flashes != "off")
-        return layer.done()
+        return layer.render()
 
     def _where(self) -> LitImage:
         """Game, duration, arena."""
@@ -202,7 +202,7 @@ class ResultsPage:
         self.room = RIGHT - text_width(line, size, "body") - 40  # px, right limit of the title
         layer = Layer(self.room, 60, RIGHT - self.room, 100)
         layer.canvas.body(line, RIGHT, 112, MIST, "r", size)
-        return layer.done()
+        return layer.render()
 
     def _columns(self) -> LitImage:
         """Column headings."""
@@ -220,7 +220,7 @@ class ResultsPage:
         for head, end in zip(heads, ends, strict=True):
             layer.canvas.body(head, x + end, 236, MIST, "r", size)
         layer.canvas.body(words(f"results.plot_{self.setup.game}"), plot_x, 236, MIST)
-        return layer.done()
+        return layer.render()
 
     def _team(self, rows: Sequence[Row], y: int) -> LitImage:
         """Panel with the row of one robot, or of all robots of a team."""
@@ -234,7 +234,7 @@ class ResultsPage:
         layer.canvas.text(number, fit_size(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
             self._row(layer, row, x, y + ROW / 2 + PITCH * i, color)
-        return layer.done()
+        return layer.render()
 
     def _row(self, layer: Layer, row: Row, x: int, y: float, color: Color) -> None:
         """One robot: badge, score and the statistics of the game."""
@@ -277,7 +277,7 @@ class ResultsPage:
                 layer.canvas.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
                 best = words.decimal(format_score(rows[0].score, board.table))
                 layer.canvas.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
-        return layer.done()
+        return layer.render()
 
     def _plot(self, x: int, w: int) -> Plot:
         """Plot of scores or laps."""
@@ -318,7 +318,7 @@ def line(color: Color, length: float, width: int = LINE) -> LitImage:
     """The line below a title."""
     layer = Layer(LEFT, 170, length, 12)
     layer.glow.line([(LEFT, 176), (LEFT + length, 176)], color, width)
-    return layer.done()
+    return layer.render()
 
 
 def signed(number: int) -> str:

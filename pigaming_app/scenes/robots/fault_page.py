@@ -38,17 +38,19 @@ class FaultPage:
         self.picture: pygame.Surface | None = None
         self.held = 0.0
         hints = [(Button.X, "mat.hint_simulate"), (Button.START, "pause.hint_menu")]
-        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: match.access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: match.access.hint_device)
         repair_prompts = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]
-        self.repair_prompts = self.context.prompts(repair_prompts, FOOT - 44, W - 80, voice=lambda: match.access.voice)
+        self.repair_prompts = self.context.prompts(
+            repair_prompts, FOOT - 44, W - 80, device=lambda: match.access.hint_device
+        )
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Play the alert."""
         self.context.sounds.music(False)
         self.context.sounds.play("error")
         self.held, self.picture = 0.0, None
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """X replaces the robots concerned with simulated ones; START and BACK open the menu. After disobedience, FIRE
         starts a new pairing and Y retries.
         """
@@ -75,7 +77,7 @@ class FaultPage:
 
     def update(self, seconds: float) -> StackOperation:
         """Close once the fault is gone."""
-        self.match.hold(seconds)
+        self.match.advance_paused(seconds)
         safety = self.match.plant.safety
         if held := self.match.access.update(seconds):
             return Swap(Pause(self.match, held.device))
@@ -105,7 +107,7 @@ class FaultPage:
         self.prompts.draw(screen)
         if self.match.plant.safety.lasting:
             self.repair_prompts.draw(screen)
-        self.match.shine(screen)
+        self.match.draw_overlay(screen)
 
     # ---- inside
 
@@ -121,7 +123,7 @@ class FaultPage:
         self.match.plant.safety.release()
         for fault in self.faults:
             for seat in [*self.match.real] if fault.robot is None else [fault.robot]:
-                self.match.swap(seat, False)
+                self.match.set_real(seat, False)
         self.context.sounds.play("accept")
 
     def _paint(self, layer: Layer) -> None:
@@ -137,7 +139,7 @@ class FaultPage:
         if not self.match.plant.safety.lasting:
             ending = words("mat.goes_on")
             layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
-        fire = words.key_name(self.context.controls.label(self.match.access.voice, Button.FIRE))
+        fire = words.key_name(self.context.controls.label(self.match.access.hint_device, Button.FIRE))
         y = write_lines(layer, fault_sentence(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         cause = cause_of(self.match.plant.rig, first.name)
         if cause:

@@ -67,27 +67,27 @@ class FleetPage:
         ]
         self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Open camera and radio."""
         self.check.begin()
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Stop the robots; release camera and radio."""
         self.check.end()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Up and down select, left and right change, FIRE runs; while robots move, any input stops them."""
         event = self.navigation.prompts.as_button(self._to_sheet(event))
         if self.check.busy and event.button not in (Button.POINT, Button.LOST, Button.FOUND):
             self.check.stop()
-            self.navigation.say(self.context.words("fleet.stopped"))
+            self.navigation.show_message(self.context.words("fleet.stopped"))
             return None
-        if turn := self.navigation.on(event):
+        if turn := self.navigation.handle(event):
             return turn
         name = self.focus.name
         if by := dials.step_of(event, self.focus, self._value(name)):
             self._change(name, by, False)
-        elif self.focus.chosen(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
+        elif self.focus.activated(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
             self._run(name)
         return None
 
@@ -100,14 +100,14 @@ class FleetPage:
             self.reopen_in -= seconds
             if self.reopen_in <= 0.0:
                 self.check.end()
-                self.entered()
+                self.on_enter()
         pairing = self.check.pairing is not None
         self.flood.update(seconds, self.check.looking)
         if self.check.update(seconds):
             if pairing:
                 self._report_pairing()
             else:
-                self.navigation.say(words("fleet.measured" if self.check.latencies else "fleet.nobody"))
+                self.navigation.show_message(words("fleet.measured" if self.check.latencies else "fleet.nobody"))
             self.context.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
@@ -139,7 +139,7 @@ class FleetPage:
     def _blocks(self) -> list[pygame.Rect]:
         """Blocks of the page: rows, robots, description, prompts and faults."""
         low = self.focus.spots[-1].rect.bottom
-        ends = places(self.navigation.prompts.said, self.navigation.prompts.room)
+        ends = places(self.navigation.prompts.labels, self.navigation.prompts.room)
         left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
         boxes = [
             pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
@@ -250,7 +250,7 @@ class FleetPage:
             settings.save(folders().config)
         except NotSaved as error:
             log.warning("%s", error)
-            self.navigation.say(self.context.words("app.unsaved"))
+            self.navigation.show_message(self.context.words("app.unsaved"))
 
     def _run(self, name: str) -> None:
         """Run a row's action, or step its value."""
@@ -260,16 +260,16 @@ class FleetPage:
         begun = self.check.pair() if name == "pair" else self.check.measure()
         self.context.sounds.play("accept" if begun else "error")
         if not begun:
-            self.navigation.say(self.context.words("fleet.nobody"))
+            self.navigation.show_message(self.context.words("fleet.nobody"))
 
     def _report_pairing(self) -> None:
         """Report the result of the pairing."""
         words, finding = self.context.words, worst_finding(self.check.findings)
         if finding is None:
-            self.navigation.say(words("fleet.paired"))
+            self.navigation.show_message(words("fleet.paired"))
         else:
             marker = 0 if finding.marker is None else finding.marker + 1
-            self.navigation.say(words(f"fleet.case_{finding.case}", radio=finding.channel + 1, marker=marker))
+            self.navigation.show_message(words(f"fleet.case_{finding.case}", radio=finding.channel + 1, marker=marker))
         try:
             self.context.settings.save(folders().config)
         except NotSaved as error:

@@ -25,8 +25,8 @@ class InterruptedMatch(PausedMatch, Protocol):
     def real(self) -> set[int]:
         """Seats with real robots, including those still driving to their start positions."""
 
-    def swap(self, seat: int, real: bool) -> None:
+    def set_real(self, seat: int, real: bool) -> None:
         """Hand a seat over to its simulated or its real robot."""
 
-    def paired(self, channels: Sequence[int], turned: Collection[int]) -> None:
+    def apply_pairing(self, channels: Sequence[int], turned: Collection[int]) -> None:
         """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""

@@ -91,7 +91,7 @@ def disc(r: int, color: Color) -> pygame.Surface:
 def ring(player: int) -> Sprite:
     """Opaque ring in the player's colour."""
     half = RING + 24
-    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
+    ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
     ink.solid(regular_polygon(64, RING + 3)).ring(0, 0, RING, PLAYERS[player], LINE)
     return trim(ink.sprite(0.9), half, half)
 
@@ -113,7 +113,7 @@ def _pointer(player: int) -> pygame.Surface:
 @cached
 def tag(player: int) -> Sprite:
     """Badge of a player on black."""
-    ink = GlowCanvas(96, 96).to(48, 48)
+    ink = GlowCanvas(96, 96).set_transform(48, 48)
     ink.solid(regular_polygon(40, 32))
     badge(ink, player, 0, -4 if player == 1 else 0, 24)
     return trim(ink.sprite(0.5), 48, 48)

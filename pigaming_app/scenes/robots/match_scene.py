@@ -18,7 +18,7 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperatio
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
-from pigaming_app.scenes.play.scene import LEAD, NOTICE, MatchScene, rematch_setup
+from pigaming_app.scenes.play.scene import LEAD_SECONDS, NOTICE_SECONDS, MatchScene, rematch_setup
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
@@ -64,7 +64,7 @@ class RealMatch(MatchScene):
         assert isinstance(plant, MixedPlant)
         self.plant = plant
         self.discs = MarkerDiscs(rig)
-        self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.voice)
+        self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.hint_device)
         self.released = False  # rig released
         self.waiting = FixedTimestep()  # clock while the match waits
         self.logged: set[tuple[str, int | None]] = set()
@@ -75,20 +75,20 @@ class RealMatch(MatchScene):
         """Seats with real robots, including those still driving to their start positions."""
         return self.plant.real | self.plant.arriving
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         if self.gathering is None:
-            super().entered()
+            super().on_enter()
         else:
             self.context.sounds.music(True)
             self.begun = True
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         """Stop the robots; release camera and radio, unless the next match already uses them."""
         if not self.released:
             self.released = True
             self.session.close()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """As in every match; STOP stops all robots. While robots take their places, START begins from the current
         positions, X replaces missing robots with simulated ones, BACK leaves.
         """
@@ -97,17 +97,17 @@ class RealMatch(MatchScene):
             self.plant.watch()
             return Push(FaultPage(self, event.device))
         if self.gathering is None:
-            return super().on(event)
+            return super().handle(event)
         admitted = self.access.admit(self.gathering.prompts.as_button(event))
         if admitted is None:
             return None
         event = admitted
-        if event.button is Button.START and self.gathering.clock > self.gathering.DEAF:
+        if event.button is Button.START and self.gathering.clock > self.gathering.INPUT_LOCKOUT:
             self.plant.start_from_here()
             self._begin()
         elif event.button is Button.X:
             for seat in self._missing():
-                self.swap(seat, False)
+                self.set_real(seat, False)
             self.context.sounds.play("accept")
         elif event.button is Button.BACK:
             self.context.sounds.play("back")
@@ -116,14 +116,14 @@ class RealMatch(MatchScene):
 
     def update(self, seconds: float) -> StackOperation:
         """Advance the match, unless a robot in it has a fault."""
-        if self.repeated or self.stopped:
+        if self.restart_requested or self.stop_requested:
             return super().update(seconds)
         seconds = self.session.advance(seconds)
         if self.gathering is not None:
             return self._take_places(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
             return Push(FaultPage(self))
-        if self.count.locked or self.match.over:
+        if self.countdown.locked or self.match.over:
             self._stand_still(seconds)
         turn = super().update(seconds)
         self._report_faults()
@@ -138,63 +138,63 @@ class RealMatch(MatchScene):
             if self.gathering.flood.full:
                 draw_corners(screen)
                 return
-        self.shine(screen)
+        self.draw_overlay(screen)
 
     # ---- interface for the pages above
 
     @property
-    def extras(self) -> Mapping[str, Callable[[Access], Scene]]:
+    def extra_items(self) -> Mapping[str, Callable[[Access], Scene]]:
         """Adds the robot swap page to the pause menu."""
         return {"robots": lambda access: SwapPage(self, access)}
 
     @property
-    def stuck(self) -> bool:
+    def blocked(self) -> bool:
         """True if a robot has a fault."""
         return self.plant.safety.pauses
 
-    def hold(self, seconds: float) -> None:
+    def advance_paused(self, seconds: float) -> None:
         """Advance below a page: all robots stand still, faults are updated."""
         self._stand_still(self.session.advance(seconds))
 
-    def shine(self, screen: pygame.Surface) -> None:
+    def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw the corner markers and the discs on top of everything."""
         if self.real:
             draw_corners(screen)
         self.discs.draw(screen, self.real)
 
-    def paired(self, channels: Sequence[int], turned: Collection[int]) -> None:
+    def apply_pairing(self, channels: Sequence[int], turned: Collection[int]) -> None:
         """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""
         self.plant.rig.channels = channels
         self.context.settings.radios = [channel + 1 for channel in channels]
         for robot in turned:
             self.plant.clear_fault(robot)
 
-    def swap(self, seat: int, real: bool) -> None:
+    def set_real(self, seat: int, real: bool) -> None:
         """Hand a seat over to its simulated or its real robot, which first drives to its position."""
         if real == (seat in self.real):
             return
         self.plant.swap(seat, real)
         if self.plant.arriving:
-            self.gathering = TakePlaces(self.context, self.plant, lambda: self.access.voice)
+            self.gathering = TakePlaces(self.context, self.plant, lambda: self.access.hint_device)
         self._mark_real()
 
-    def again(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
+    def rematch(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """A rematch with a new seed and the same robots."""
-        self.left()
+        self.on_leave()
         return self.match_of(rematch_setup(setup, devices), devices, self.real)
 
     # ---- inside
 
     def _take_places(self, gathering: TakePlaces, seconds: float) -> StackOperation:
         """Drive the robots to their start positions."""
-        if lost := self.lost:
+        if lost := self.unplugged_seats:
             return Push(Reconnect(self, lost[0]))
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()
         gathering.update(seconds)
         self.signs.work(0.0)
-        self.runner.warm(4.0)
+        self.runner.prewarm(4.0)
         for _ in range(self.waiting.due(seconds)):
             if self.plant.take_places():
                 self._begin()
@@ -213,7 +213,7 @@ class RealMatch(MatchScene):
     def _begin(self) -> None:
         """Start the match from the robots' current positions."""
         self.gathering = None
-        self.count = Countdown(lead=LEAD)
+        self.countdown = Countdown(lead=LEAD_SECONDS)
         self.idle = 0.0
         self.context.sounds.play("ready", 0)
         self._mark_real()
@@ -241,7 +241,7 @@ class RealMatch(MatchScene):
             log.warning("%s", " ".join(sentences))
             if now[key].name in REPORTED_ONLY:
                 sentence = fault_sentence(now[key], self.context.words, "")
-                self.notice, self.noticed = caption(sentence, ALARM, player=now[key].robot), 2 * NOTICE
+                self.notice, self.noticed = caption(sentence, ALARM, player=now[key].robot), 2 * NOTICE_SECONDS
         self.logged = set(now)
 
     def _reportable(self, fault: Fault) -> bool:

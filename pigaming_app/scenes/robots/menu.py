@@ -38,15 +38,15 @@ class RobotsMenu:
         hints = [(Button.FIRE, "robots.hint_ok"), (Button.BACK, "robots.hint_back")]
         self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Up and down select, FIRE opens."""
         event = self.navigation.prompts.as_button(event)
-        if turn := self.navigation.on(event):
+        if turn := self.navigation.handle(event):
             return turn
-        chosen = self.focus.chosen(event)
+        chosen = self.focus.activated(event)
         return self._run(chosen) if chosen else None
 
     def update(self, seconds: float) -> StackOperation:
@@ -96,19 +96,19 @@ class RobotsMenu:
         path, words = folders().data / SHEET, self.context.words
         try:
             write_atomic(path, sheet(notes=all_languages("sheet.print", "sheet.cut")))
-            self.navigation.say(words("robots.written", path=path))
+            self.navigation.show_message(words("robots.written", path=path))
         except OpenCVMissing as missing:
             log.warning("%s", english().long_sentence(missing.message))
-            self.navigation.say(words.sentence(missing.message))
+            self.navigation.show_message(words.sentence(missing.message))
         except NotSaved as error:
             log.warning("%s", error)
-            self.navigation.say(words("app.unsaved"))
+            self.navigation.show_message(words("app.unsaved"))
 
 
 @cached
 def sketch(name: str) -> LitImage:
     """Icon of a row, centred on (0, 0)."""
-    ink = GlowCanvas(480, 340).to(240, 170)
+    ink = GlowCanvas(480, 340).set_transform(240, 170)
     if name == "robots":
         for x, y, player in ((-120, -70, 0), (120, -70, 1), (-120, 80, 2), (120, 80, 3)):
             ink.ring(x, y, 46, PLAYERS[player], LINE).disc(x, y, 34, GREY)

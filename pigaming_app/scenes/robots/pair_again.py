@@ -37,10 +37,10 @@ class PairAgain:
             [(Button.FIRE, "mat.hint_retry"), (Button.BACK, "mat.hint_done")], PROMPTS_Y, 1560
         )
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE repeats a finished pairing and aborts a running one; BACK, START and STOP abort at any time."""
         event = (self.after if self.sentence else self.stop).as_button(event)
         if event.button is Button.FIRE and self.sentence:
@@ -80,7 +80,7 @@ class PairAgain:
         for i, line in enumerate(paragraph(self.sentence, 1300, 3, ALARM, "c") if self.sentence else ()):
             line.draw(screen, 960, SAID_Y + 60 * i)
         self.flood.draw(screen, "")
-        self.match.shine(screen)
+        self.match.draw_overlay(screen)
 
     @property
     def missing(self) -> list[int]:
@@ -91,7 +91,7 @@ class PairAgain:
     def _apply(self, pairing: Pairing) -> StackOperation:
         """Apply the result; close if there is no fault."""
         turned = [finding.marker for finding in pairing.findings if finding.case in GOOD and finding.marker is not None]
-        self.match.paired(pairing.channels, turned)
+        self.match.apply_pairing(pairing.channels, turned)
         fault = worst_finding([finding for finding in pairing.findings if finding.case not in GOOD])
         if fault is None:
             self.context.sounds.play("accept")

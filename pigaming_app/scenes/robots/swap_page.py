@@ -24,12 +24,12 @@ class SwapPage:
         self.focus = Focus(menu_spots([str(seat) for seat in self.seats]))
         self.picture: pygame.Surface | None = None
         hints = [(Button.FIRE, "mat.hint_change"), (Button.BACK, "mat.hint_done")]
-        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, voice=lambda: access.voice)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: access.hint_device)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Nothing to do."""
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE, LEFT and RIGHT toggle the focused robot; BACK and START apply."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:
@@ -37,12 +37,12 @@ class SwapPage:
         event = admitted
         if event.button in (Button.BACK, Button.START):
             for seat, real in self.wanted.items():
-                self.match.swap(seat, real)
+                self.match.set_real(seat, real)
             self.context.sounds.play("back")
             return Pop()
-        if self.focus.on(event):
+        if self.focus.handle(event):
             self.context.sounds.play("move")
-        chosen = self.focus.name if event.button in (Button.LEFT, Button.RIGHT) else self.focus.chosen(event)
+        chosen = self.focus.name if event.button in (Button.LEFT, Button.RIGHT) else self.focus.activated(event)
         if chosen:
             self.wanted[int(chosen)] = not self.wanted[int(chosen)]
             self.context.sounds.play("move")
@@ -50,7 +50,7 @@ class SwapPage:
 
     def update(self, seconds: float) -> StackOperation:
         """Keep all robots still."""
-        self.match.hold(seconds)
+        self.match.advance_paused(seconds)
         self.access.update(seconds)
         self.focus.update(seconds)
         return None
@@ -66,7 +66,7 @@ class SwapPage:
             size = fit_size(label, LABEL, spot.rect.w - 150)
             word(label, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
         self.prompts.draw(screen)
-        self.match.shine(screen)
+        self.match.draw_overlay(screen)
 
     def _paint(self, layer: Layer) -> None:
         sheet_title(layer, None, self.context.words("mat.which"), ICE)

@@ -53,15 +53,15 @@ MISSING = 1.5  # s before a missing robot is reported
 class TakePlaces:
     """Display while the robots of a plant drive to their start positions."""
 
-    DEAF = 0.6  # s during which a start is ignored, because the previous press may be hammered
+    INPUT_LOCKOUT = 0.6  # s during which a start is ignored, because the previous press may be hammered
 
-    def __init__(self, context: Context, plant: MixedPlant, voice: Callable[[], Device]) -> None:
+    def __init__(self, context: Context, plant: MixedPlant, device: Callable[[], Device]) -> None:
         self.context, self.plant = context, plant
         self.clock = 0.0
         self.flood = FloodLight()
         self.prompts = context.prompts(
             [(Button.START, "mat.hint_begin"), (Button.X, "mat.hint_missing"), (Button.BACK, "mat.hint_leave")],
-            HINTS_Y, 1560, voice=voice,
+            HINTS_Y, 1560, device=device,
         )  # fmt: skip
 
     def update(self, seconds: float) -> None:
@@ -78,7 +78,7 @@ class TakePlaces:
         """Draw outlines, paths and captions; the discs are drawn on top by the caller."""
         words, places = self.context.words, self.plant.places
         if self.flood.full:
-            hints = "   ·   ".join(f"{label}: {action}" for label, action in self.prompts.said)
+            hints = "   ·   ".join(f"{label}: {action}" for label, action in self.prompts.labels)
             faults = [fault_sentence(fault, words, "") for fault in self._faults()]
             self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
             return
@@ -149,14 +149,14 @@ def frame() -> LitImage:
     """Outline of the arena, dim."""
     layer = Layer(LEFT, TOP, WIDTH, HEIGHT)
     layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
-    return layer.done()
+    return layer.render()
 
 
 @cached
 def outline(player: int, there: bool) -> LitImage:
     """Target outline, centred on (0, 0): dashed, solid once the robot is there."""
     half = RING + 24
-    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
+    ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
     if there:
         ink.ring(0, 0, RING, PLAYERS[player], LINE)
     else:

@@ -40,12 +40,12 @@ class UnavailablePage:
         self.picture: pygame.Surface | None = None
         self.access = Access(context, lambda: self.devices)
         hints = [(Button.FIRE, "mat.hint_simulated"), (Button.X, "mat.hint_again"), (Button.BACK, "mat.hint_leave")]
-        self.prompts = context.prompts(hints, PROMPTS, W - 80, voice=lambda: self.access.voice)
+        self.prompts = context.prompts(hints, PROMPTS, W - 80, device=lambda: self.access.hint_device)
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         self.context.sounds.play("error")
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """FIRE plays with simulated robots, X retries, BACK leaves."""
         admitted = self.access.admit(self.prompts.as_button(event))
         if admitted is None:

@@ -43,11 +43,11 @@ class Attract:
         self.show: Scene | None = None
         self._next()
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Stop the music."""
         self.context.sounds.music(False)
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Any input returns to the title without further effect; F4 shows the thoughts of the AIs."""
         if event.button is Button.BRAIN and isinstance(self.show, DemoMatch):
             self.show.runner.brain.next()
@@ -73,7 +73,7 @@ class Attract:
 
     def _next(self) -> None:
         self.show = next(show for show in (make() for make in self.shows) if show)
-        self.show.entered()
+        self.show.on_enter()
 
     def _match(self, game: str) -> Scene:
         return DemoMatch(self.context, game)
@@ -105,18 +105,18 @@ class DemoMatch:
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
         setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.default.name, rules.default.default_goal)
         self.runner = MatchRunner(context, seated(setup), loud=False)
-        self.warm = False
+        self.prewarmed = False
         self.over = 0.0
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         return None
 
     def update(self, seconds: float) -> StackOperation:
         """Play; end a moment after the match."""
-        self.warm = self.warm or self.runner.warm(3.0)
+        self.prewarmed = self.prewarmed or self.runner.prewarm(3.0)
         self.runner.advance(seconds)
         self.over += seconds * self.runner.match.over
         return Home() if self.over > END_SECONDS else None
@@ -131,10 +131,10 @@ class TimedPage:
     def __init__(self, page: Scene, paint: Callable[[pygame.Surface], None]) -> None:
         self.page, self.paint, self.age = page, paint, 0.0
 
-    def entered(self) -> None:
-        self.page.entered()
+    def on_enter(self) -> None:
+        self.page.on_enter()
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         return None
 
     def update(self, seconds: float) -> StackOperation:

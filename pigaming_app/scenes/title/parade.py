@@ -60,7 +60,7 @@ def line(player: int) -> Steps[LitImage]:
     layer = Layer(0, min(ys), 1920, max(ys) - min(ys))
     layer.glow.line(path, PLAYERS[player], LINE)
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())
 
 
 @cached

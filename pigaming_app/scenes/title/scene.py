@@ -52,21 +52,21 @@ class Title:
         self.game = next(iter(games()))  # the game whose tile was focused last
         self.lab: Scene | None = None
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         """Release the sprites of matches and start the music."""
         surfaces.release_matches()
         self.context.idle = 0.0
         self.context.sounds.music(True)
-        self.focus.place(self._spots())
+        self.focus.set_spots(self._spots())
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         """Directions and the mouse move the focus; FIRE, START or a click activate; Y changes the language."""
         if event.button is Button.Y:
             self._set_language(self.context.words.other)
-        elif self.focus.on(event):
+        elif self.focus.handle(event):
             self.context.sounds.play("move")
         self.game = self.focus.name if self.focus.name in games() else self.game
-        chosen = self.focus.chosen(event)
+        chosen = self.focus.activated(event)
         return self._open(chosen) if chosen else None
 
     def update(self, seconds: float) -> StackOperation:
@@ -137,7 +137,7 @@ class Title:
             self.context.words.switch(language)
             self.context.settings.language = language
             self.context.sounds.play("accept")
-        self.focus.place(self._spots())
+        self.focus.set_spots(self._spots())
 
     def _spots(self) -> list[FocusSpot]:
         spots = [FocusSpot(game, tile_rect(i)) for i, game in enumerate(games())]
@@ -197,7 +197,7 @@ def ground() -> Steps[pygame.Surface]:
     """The static part: floor dots, the name, and black behind the tiles."""
     layer = Layer(LEFT, 54, 1210, 260)
     logo(layer.glow, *LOGO)
-    name = yield from layer.lighting()
+    name = yield from layer.render_steps()
     out = backdrop().copy()
     name.draw(out)
     return black_out(out, *map(tile_rect, range(len(games()))))

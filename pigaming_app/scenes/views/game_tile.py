@@ -55,7 +55,7 @@ def tile(game: str, name: str, line: str, hot: bool) -> Steps[LitImage]:
     layer.canvas.text(name, fit_size(name, LABEL, w - 64), 32, 326, color)
     layer.canvas.body(line, 32, 380, ICE if hot else MIST, "l", fit_size(line, BODY, w - 64, "body"))
     picture = _picture(game)
-    lit = yield from layer.lighting()
+    lit = yield from layer.render_steps()
     picture.draw(lit.image, -lit.at[0], -lit.at[1])
     return lit
 
@@ -66,7 +66,7 @@ def _picture(game: str) -> Steps[LitImage]:
     layer = Layer(MARGIN, MARGIN, 560, 284)  # no offset: robots are placed directly on the sheet
     vignette(game, layer.glow, MARGIN, MARGIN)
     yield
-    lit = yield from layer.lighting()
+    lit = yield from layer.render_steps()
     return LitImage(lit.image, (-MARGIN, -MARGIN))
 
 
@@ -79,14 +79,14 @@ def vignette(game: str, ink: GlowCanvas, x: float, y: float) -> GlowCanvas:
 
 
 def _shot(ink: GlowCanvas, player: int, x: float, y: float, angle: float) -> None:
-    ink.to(x, y, angle)
+    ink.set_transform(x, y, angle)
     for i in range(6):
         ink.line([(-44 + 6 * i, 0), (0, 0)], dim(PLAYERS[player], 0.15 + 0.15 * i), 3 + i)
-    ink.disc(1, 0, 5, WHITE).to(0, 0)
+    ink.disc(1, 0, 5, WHITE).set_transform(0, 0)
 
 
 def _tanks(ink: GlowCanvas, x: float, y: float) -> None:
-    draw_wall(ink.to(x + 290, y + 128, 1.2), 170, 30, 3, 12)
+    draw_wall(ink.set_transform(x + 290, y + 128, 1.2), 170, 30, 3, 12)
     robot(ink, 0, x + 118, y + 184, -0.42, 1.15)
     robot(ink, 1, x + 454, y + 84, 2.75, 1.15)
     _shot(ink, 0, x + 234, y + 132, -0.42)
@@ -133,7 +133,7 @@ def _race(ink: GlowCanvas, x: float, y: float) -> None:
         for side in (-26, 26):
             for i in range(4):
                 streak = [(-108 + 18 * i, side), (-46, side)]
-                ink.to(x + cx, y + cy, a).line(streak, dim(PLAYERS[player], 0.16 * (i + 1)), THIN)
+                ink.set_transform(x + cx, y + cy, a).line(streak, dim(PLAYERS[player], 0.16 * (i + 1)), THIN)
         robot(ink, player, x + cx, y + cy, a, 0.85)
 
 

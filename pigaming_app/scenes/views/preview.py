@@ -46,7 +46,7 @@ def walls(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
         ink.fill([(x + py, y - px) for px, py in shape_points(player, r)], PLAYERS[player])
         ink.line([(x + 1.5 * r * c, y + 1.5 * r * s), (x + 2.3 * r * c, y + 2.3 * r * s)], PLAYERS[player], HAIR + 1)
     yield
-    return (yield from ink.lighting(0.6))
+    return (yield from ink.lit_steps(0.6))
 
 
 def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
@@ -54,26 +54,32 @@ def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     left, top, k = fitted(w, h)
     below = pygame.transform.smoothscale(earth(arena.plan), (round(k * WIDTH), round(k * HEIGHT)))
     yield
-    glow, crisp = GlowCanvas(w, h, 3).to(left, top, 0.0, k), GlowCanvas(w, h, 3).to(left, top, 0.0, k)
+    glow, crisp = (
+        GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
+        GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
+    )
     yield from draw_track(glow, crisp, arena.plan)
-    light = yield from glow.lighting(GLOW)
+    light = yield from glow.lit_steps(GLOW)
     out = pygame.Surface((w, h))
     out.blit(below, (round(left), round(top)))
     out.blit(light, (0, 0), special_flags=ADD)
-    yield from crisp.onto(out)
+    yield from crisp.downscale_onto(out)
     return out
 
 
 def floor(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     """Preview of a factory floor: warehouses, machines, the aisle, start positions by team."""
     left, top, k = fitted(w, h)
-    glow, crisp = GlowCanvas(w, h, 3).to(left, top, 0.0, k), GlowCanvas(w, h, 3).to(left, top, 0.0, k)
+    glow, crisp = (
+        GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
+        GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
+    )
     yield from draw_floor((glow, crisp), arena.plan)
     glow.line(cut_box(0, 0, WIDTH, HEIGHT, 28), MIST, THIN / k, True)
     for i, start in enumerate(arena.starts):
         glow.ring(start.x, start.y, 36, TEAMS[i % 2], 8)
-    out = yield from glow.lighting(GLOW)
-    yield from crisp.onto(out)
+    out = yield from glow.lit_steps(GLOW)
+    yield from crisp.downscale_onto(out)
     return out
 
 

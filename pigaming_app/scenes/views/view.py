@@ -51,9 +51,9 @@ class MatchView:
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.particles = Particles()
         self.treads = [TreadMarks(i) for i in range(len(state.robots))]
-        self.before = self.now = _poses(state)
+        self.previous_poses = self.current_poses = _poses(state)
         self.jobs = PrewarmQueue([lambda: background.surface])
-        self.jobs.then(driving(self.seats))
+        self.jobs.append(driving(self.seats))
 
     def enable_persistence(self, folder: Path) -> None:
         """Called for matches with people: persistent data, such as a best lap, is saved in this data folder."""
@@ -68,26 +68,26 @@ class MatchView:
 
     def pose(self, seat: int, blend: float) -> Pose:
         """Canvas pose of a robot, interpolated by `blend` between two ticks, turning the short way."""
-        old, new = self.before[seat], self.now[seat]
+        old, new = self.previous_poses[seat], self.current_poses[seat]
         turn = (new[2] - old[2] + math.pi) % math.tau - math.pi
         return old[0] + (new[0] - old[0]) * blend, old[1] + (new[1] - old[1]) * blend, old[2] + turn * blend
 
-    def warm(self, milliseconds: float) -> bool:
+    def prewarm(self, milliseconds: float) -> bool:
         """Prewarm sprites for at most this many milliseconds; True when complete."""
         return self.jobs.work(milliseconds)
 
     # ---- for subclasses
 
-    def ahead(self, jobs: Iterator[Job]) -> None:
+    def add_prewarm_jobs(self, jobs: Iterator[Job]) -> None:
         """Append prewarm jobs after those of driving robots."""
-        self.jobs.then(jobs)
+        self.jobs.append(jobs)
 
-    def follow(self, state: Any) -> None:
+    def record_poses(self, state: Any) -> None:
         """Record the robot poses after this tick."""
-        self.before, self.now = self.now, _poses(state)
-        for i, (new, old) in enumerate(zip(self.now, self.before, strict=True)):
+        self.previous_poses, self.current_poses = self.current_poses, _poses(state)
+        for i, (new, old) in enumerate(zip(self.current_poses, self.previous_poses, strict=True)):
             if abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP:
-                self.before = [*self.before[:i], new, *self.before[i + 1 :]]
+                self.previous_poses = [*self.previous_poses[:i], new, *self.previous_poses[i + 1 :]]
 
     def reach(self, seat: int, usual: int) -> int:
         """Radius in px of a ring around a robot, enlarged for a real one, which stands in a wide disc."""

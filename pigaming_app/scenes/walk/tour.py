@@ -23,13 +23,13 @@ class TourWalker(Protocol):
     @property
     def top(self) -> Any: ...
 
-    def on(self, class_name: str) -> bool: ...
+    def shows(self, class_name: str) -> bool: ...
 
-    def at(self, screen: str) -> None: ...
+    def set_screen(self, screen: str) -> None: ...
 
     def wait(self, seconds: float) -> None: ...
 
-    def until(self, condition: Any) -> None: ...
+    def wait_until(self, condition: Any) -> None: ...
 
     def press(self, *keys: str, pause: float = 0.1) -> None: ...
 
@@ -50,11 +50,11 @@ def tour(walker: TourWalker) -> None:
 def home(walker: TourWalker) -> None:
     """Return to the title."""
     for _ in range(12):
-        if walker.on("Title"):
+        if walker.shows("Title"):
             break
         walker.press("escape", pause=0.8)
-    walker.at("title")
-    walker.until(lambda: walker.on("Title"))
+    walker.set_screen("title")
+    walker.wait_until(lambda: walker.shows("Title"))
     walker.wait(0.5)
 
 
@@ -75,7 +75,7 @@ def choose(walker: TourWalker, name: str) -> None:
 
 def lessons(walker: TourWalker) -> None:
     """The how-to page of each game."""
-    walker.at("how to play")
+    walker.set_screen("how to play")
     choose(walker, "howto")
     for _ in games():
         walker.wait(5.0)
@@ -85,19 +85,19 @@ def lessons(walker: TourWalker) -> None:
 
 def options(walker: TourWalker) -> None:
     """The options, row by row, and the pages below them."""
-    walker.at("options")
+    walker.set_screen("options")
     choose(walker, "options")
     walker.wait(0.5)
     for name in [*walker.top.rows]:
         if name in ("padtest", "robots"):
-            walker.at(f"options: {name}")
+            walker.set_screen(f"options: {name}")
             walker.press("space", pause=1.0)
             if name == "robots":
                 robots(walker)
             walker.press("escape")
         elif name not in ("display", "fullscreen"):  # the language is changed and changed back
             walker.press(*("d", "a") if walker.context.words.language == LANGUAGES[0] else ("a", "d"))
-        walker.at("options")
+        walker.set_screen("options")
         walker.press("s")
     home(walker)
 
@@ -105,14 +105,14 @@ def options(walker: TourWalker) -> None:
 def robots(walker: TourWalker) -> None:
     """The pages of real robots, as far as possible without any."""
     for spot in [*walker.top.focus.spots]:
-        walker.at(f"robots: {spot.name}")
+        walker.set_screen(f"robots: {spot.name}")
         walker.press("space", pause=1.5)
-        if not walker.on("RobotsMenu"):
+        if not walker.shows("RobotsMenu"):
             walker.press("d", "s", "space", pause=0.3)
         for _ in range(6):
-            if not walker.on("RobotsMenu"):
+            if not walker.shows("RobotsMenu"):
                 walker.press("escape", pause=0.5)
-        walker.at("options: robots")
+        walker.set_screen("options: robots")
         walker.press("s")
 
 
@@ -124,7 +124,7 @@ def play(walker: TourWalker, game: str, every_arena: bool) -> None:
     match(walker, game)
     results(walker, game)
     for _ in range(1, arenas if every_arena else 1):
-        walker.at(f"{game}: setup")
+        walker.set_screen(f"{game}: setup")
         walker.wait(0.5)
         walker.press("d", pause=0.5)
         begin(walker, game)
@@ -135,11 +135,11 @@ def play(walker: TourWalker, game: str, every_arena: bool) -> None:
 
 def join(walker: TourWalker, game: str) -> None:
     """Take a seat in the lobby of a game."""
-    walker.at(f"{game}: lobby")
-    walker.until(lambda: walker.on("Title"))
+    walker.set_screen(f"{game}: lobby")
+    walker.wait_until(lambda: walker.shows("Title"))
     walker.wait(0.5)
     choose(walker, game)
-    walker.until(lambda: walker.on("Lobby"))
+    walker.wait_until(lambda: walker.shows("Lobby"))
     walker.wait(0.5)
     walker.press("space")
 
@@ -156,8 +156,8 @@ def lobby(walker: TourWalker, game: str) -> None:
 
 def setup(walker: TourWalker, game: str) -> None:
     """Every arena, some other options, and back to the first arena."""
-    walker.at(f"{game}: setup")
-    walker.until(lambda: walker.on("MatchSetupPage"))
+    walker.set_screen(f"{game}: setup")
+    walker.wait_until(lambda: walker.shows("MatchSetupPage"))
     walker.wait(0.3)
     for _ in walker.top.arenas:
         walker.press("d", pause=0.4)
@@ -167,109 +167,109 @@ def setup(walker: TourWalker, game: str) -> None:
 
 def begin(walker: TourWalker, game: str) -> None:
     """Start the match."""
-    walker.at(f"{game}: match")
+    walker.set_screen(f"{game}: match")
     walker.press("return")
-    walker.until(lambda: walker.on("MatchScene"))
+    walker.wait_until(lambda: walker.shows("MatchScene"))
 
 
 def match(walker: TourWalker, game: str) -> None:
     """A match with overlay and pause, up to its end, which is brought forward."""
     begin(walker, game)
     walker.wait(6.0)
-    walker.at(f"{game}: match with F4")
+    walker.set_screen(f"{game}: match with F4")
     for _ in range(BRAINS):
         walker.press("f4", pause=1.0)
-    walker.at(f"{game}: pause")
+    walker.set_screen(f"{game}: pause")
     walker.press("return", pause=0.5)
     walker.press("s", "s")
-    walker.at(f"{game}: pause, controls")
+    walker.set_screen(f"{game}: pause, controls")
     walker.press("space", pause=0.5)
     walker.press("escape", pause=0.3)
-    walker.at(f"{game}: match")
+    walker.set_screen(f"{game}: match")
     walker.press("escape", pause=5.0)
     state = walker.top.match.state
     state.robots[0].score = 3
     state.rules.ticks = min(state.rules.ticks, state.tick + 2 * HZ)
-    walker.until(lambda: walker.on("Results") or walker.on("Initials"))
+    walker.wait_until(lambda: walker.shows("Results") or walker.shows("Initials"))
 
 
 def results(walker: TourWalker, game: str) -> None:
     """The results, initials if asked for, high scores, and a rematch that is ended at once."""
-    walker.at(f"{game}: results")
+    walker.set_screen(f"{game}: results")
     walker.wait(4.0)
-    if walker.on("Initials"):
-        walker.at(f"{game}: initials")
+    if walker.shows("Initials"):
+        walker.set_screen(f"{game}: initials")
         walker.press("w", "space", "s", "space", "space", "return", pause=0.3)
         walker.wait(2.0)
-        if walker.on("HighScores"):
+        if walker.shows("HighScores"):
             walker.press("escape", pause=0.5)
-    walker.at(f"{game}: best scores")
-    walker.app.stack.turn(Push(HighScores(walker.context, contest(walker.top.setup))))
+    walker.set_screen(f"{game}: best scores")
+    walker.app.stack.apply(Push(HighScores(walker.context, contest(walker.top.setup))))
     walker.wait(3.0)
     walker.press("d", "s", "escape", pause=0.5)
-    walker.at(f"{game}: rematch")
-    walker.until(lambda: walker.on("Results"))
+    walker.set_screen(f"{game}: rematch")
+    walker.wait_until(lambda: walker.shows("Results"))
     walker.wait(6.0)
     walker.press("return")
-    walker.until(lambda: walker.on("MatchScene"))
+    walker.wait_until(lambda: walker.shows("MatchScene"))
     walker.wait(2.0)
     leave(walker, game)
 
 
 def leave(walker: TourWalker, game: str) -> None:
     """End a match by hand, choose the same game again and go on to its setup."""
-    walker.at(f"{game}: pause")
+    walker.set_screen(f"{game}: pause")
     walker.press("return", pause=0.5)
     walker.press("w", pause=0.3)
-    walker.at(f"{game}: results")
+    walker.set_screen(f"{game}: results")
     for _ in range(4):
-        if walker.on("Pause"):
+        if walker.shows("Pause"):
             walker.press("space", pause=0.5)
-    walker.until(lambda: walker.on("Results"))
+    walker.wait_until(lambda: walker.shows("Results"))
     walker.wait(5.0)
-    walker.at("change of game")
+    walker.set_screen("change of game")
     walker.press("x", pause=0.5)
-    walker.until(lambda: walker.on("GameChoice"))
+    walker.wait_until(lambda: walker.shows("GameChoice"))
     while walker.top.focus.name != game:
         walker.press("d")
-    walker.at(f"{game}: lobby")
+    walker.set_screen(f"{game}: lobby")
     walker.press("space", pause=0.5)
-    walker.until(lambda: walker.on("Lobby"))
+    walker.wait_until(lambda: walker.shows("Lobby"))
     walker.press("space")
-    walker.at(f"{game}: setup")
-    walker.until(lambda: walker.on("MatchSetupPage"))
+    walker.set_screen(f"{game}: setup")
+    walker.wait_until(lambda: walker.shows("MatchSetupPage"))
 
 
 def lab(walker: TourWalker) -> None:
     """The Lab, its menu and subpages, and a challenge match."""
-    walker.at("Lab")
+    walker.set_screen("Lab")
     choose(walker, "lab")
     walker.wait(3.0)
     walker.press("tab", "tab", "d", "s", "space", "d", "d", "space")
     walker.wait(3.0)
     for item, name in enumerate(("save", "open", "compare")):
-        walker.at("Lab: menu")
+        walker.set_screen("Lab: menu")
         walker.press("return", pause=0.5)
         walker.press(*["s"] * item)
-        walker.at(f"Lab: {name}")
+        walker.set_screen(f"Lab: {name}")
         walker.press("space", pause=2.0)
         walker.press("w", "d", *(["return"] if name == "save" else []))
         for _ in range(8):
-            if not walker.on("Lab"):
+            if not walker.shows("Lab"):
                 walker.press("escape", pause=0.3)
-        walker.at("Lab")
+        walker.set_screen("Lab")
         walker.wait(0.5)
-    walker.at("Lab: match")
+    walker.set_screen("Lab: match")
     walker.press("x")
-    walker.until(lambda: walker.on("Challenge"))
+    walker.wait_until(lambda: walker.shows("Challenge"))
     walker.wait(5.0)
     state = walker.top.inner.match.state
     state.rules.ticks = state.tick + HZ
-    walker.until(lambda: walker.on("ChallengeResult"))
+    walker.wait_until(lambda: walker.shows("ChallengeResult"))
     walker.wait(2.0)
     walker.press("escape", pause=1.0)
-    walker.at("Lab")
-    walker.until(lambda: walker.on("Lab"))
+    walker.set_screen("Lab")
+    walker.wait_until(lambda: walker.shows("Lab"))
     walker.wait(1.0)
     home(walker)
 
@@ -277,15 +277,15 @@ def lab(walker: TourWalker) -> None:
 def attract(walker: TourWalker) -> None:
     """One round of shows for every game."""
     walker.context.settings.attract_seconds = 5.0
-    walker.at("attract mode")
-    walker.until(lambda: walker.on("Attract"))
+    walker.set_screen("attract mode")
+    walker.wait_until(lambda: walker.shows("Attract"))
     for _ in range(3 * len(games())):
         show = walker.top.show
         walker.wait(4.0)
         if hasattr(show, "runner"):
             state = show.runner.match.state
             state.rules.ticks = min(state.rules.ticks, state.tick + HZ)
-        walker.until(partial(other_show, walker, show))
+        walker.wait_until(partial(other_show, walker, show))
     home(walker)
 
 

@@ -38,11 +38,11 @@ class Walker:
         """The current scene."""
         return self.app.stack.top
 
-    def on(self, class_name: str) -> bool:
+    def shows(self, class_name: str) -> bool:
         """True if the current scene is of this class."""
         return type(self.top).__name__ == class_name
 
-    def at(self, screen: str) -> None:
+    def set_screen(self, screen: str) -> None:
         """Attribute the following frames to a screen."""
         self.screen = f"{screen} ({self.context.words.language})"
 
@@ -60,7 +60,7 @@ class Walker:
         for _ in range(round(seconds * FPS)):
             self.frame()
 
-    def until(self, condition: Callable[[], bool]) -> None:
+    def wait_until(self, condition: Callable[[], bool]) -> None:
         """Run frames until `condition()`. Raises ScreenMissing."""
         for _ in range(round(TIMEOUT * FPS)):
             if condition():

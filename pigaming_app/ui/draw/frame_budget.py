@@ -81,7 +81,7 @@ class PrewarmQueue:
         self._jobs = iter(jobs)
         self._next: Job | None = next(self._jobs, None)
 
-    def then(self, jobs: Iterable[Job]) -> None:
+    def append(self, jobs: Iterable[Job]) -> None:
         """Append jobs."""
         self._jobs = chain(self._jobs, jobs)
         self._next = self._next or next(self._jobs, None)

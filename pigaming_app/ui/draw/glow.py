@@ -44,14 +44,14 @@ class GlowCanvas:
         self.covers: list[list[tuple[float, float]]] = []
         self.knockout: pygame.Surface | None = None
         self.tiles: set[tuple[int, int]] = set()
-        self.to(0, 0)
+        self.set_transform(0, 0)
 
     @cached_property
     def sheet(self) -> pygame.Surface:
         """The supersampled surface, allocated on the first drawing call."""
         return pygame.Surface((self.w * self.ss, self.h * self.ss))
 
-    def to(self, x: float, y: float, angle: float = 0.0, scale: float = 1.0) -> Self:
+    def set_transform(self, x: float, y: float, angle: float = 0.0, scale: float = 1.0) -> Self:
         """Set the origin to (x, y), the rotation to `angle` rad and the scale to `scale`."""
         self.x, self.y, self.k = x, y, scale * self.ss
         self.c, self.s = math.cos(angle) * self.k, math.sin(angle) * self.k
@@ -174,7 +174,7 @@ class GlowCanvas:
             out.blit(pygame.transform.smoothscale(large, box.size), box, special_flags=flags)
             yield
 
-    def onto(self, out: pygame.Surface) -> Steps[None]:
+    def downscale_onto(self, out: pygame.Surface) -> Steps[None]:
         """Add the drawing, without glow, to a surface of w x h px."""
         if self.tiles:
             yield from self._downscale(self.sheet, out, ADD)
@@ -195,7 +195,7 @@ class GlowCanvas:
         if self.knockout:
             yield from self._downscale(self.knockout, out, MULT)
 
-    def lighting(self, glow: float = 1.0, halos: Halos = NEAR) -> Steps[pygame.Surface]:
+    def lit_steps(self, glow: float = 1.0, halos: Halos = NEAR) -> Steps[pygame.Surface]:
         """The drawing with its glow. Blurs are added only where the drawing is dark, so that no hue clips."""
         out = yield from self.downscale_steps()
         yield from add_glow(out, [(out, halos, glow)])
@@ -203,12 +203,12 @@ class GlowCanvas:
         return out
 
     def lit(self, glow: float = 1.0, halos: Halos = NEAR) -> pygame.Surface:
-        """Like `lighting`, uninterrupted."""
-        return run_to_end(self.lighting(glow, halos))
+        """Like `lit_steps`, uninterrupted."""
+        return run_to_end(self.lit_steps(glow, halos))
 
     def sprite_steps(self, glow: float = 1.0) -> Steps[pygame.Surface]:
         """A premultiplied sprite: black where `solid` was drawn, light elsewhere. One blit occludes and glows."""
-        light = yield from self.lighting(glow)
+        light = yield from self.lit_steps(glow)
         out = pygame.Surface((self.w, self.h), pygame.SRCALPHA)
         if self.covers:
             mask = pygame.Surface(self.sheet.get_size(), pygame.SRCALPHA)
@@ -275,7 +275,7 @@ class LayeredCanvas:
         """Draw body text."""
         self.crisp.text(text, size, x, y, color, "body", align)
 
-    def lighting(self) -> Steps[pygame.Surface]:
+    def render_steps(self) -> Steps[pygame.Surface]:
         """Render the page."""
         lines = yield from self.glow.downscale_steps()
         out = lines.copy()
@@ -288,9 +288,9 @@ class LayeredCanvas:
         yield from add_glow(out, sources)
         yield from self.glow.apply_knockout(out)
         yield from self.soft.apply_knockout(out)
-        yield from self.crisp.onto(out)
+        yield from self.crisp.downscale_onto(out)
         return out
 
-    def done(self) -> pygame.Surface:
-        """Like `lighting`, uninterrupted."""
-        return run_to_end(self.lighting())
+    def render(self) -> pygame.Surface:
+        """Like `render_steps`, uninterrupted."""
+        return run_to_end(self.render_steps())

@@ -41,21 +41,21 @@ class Layer:
         self.at = round(x) - MARGIN, round(y) - MARGIN
         self.canvas = LayeredCanvas(round(w) + 2 * MARGIN, round(h) + 2 * MARGIN)
         for canvas in (self.canvas.glow, self.canvas.soft, self.canvas.crisp):
-            canvas.to(-self.at[0], -self.at[1])
+            canvas.set_transform(-self.at[0], -self.at[1])
 
     @property
     def glow(self) -> GlowCanvas:
         """The glowing sub-canvas."""
         return self.canvas.glow
 
-    def lighting(self) -> Steps[LitImage]:
+    def render_steps(self) -> Steps[LitImage]:
         """Render the layer: about 0.1 µs per pixel, too slow for a steady frame."""
-        image = yield from self.canvas.lighting()
+        image = yield from self.canvas.render_steps()
         return LitImage(image, self.at)
 
-    def done(self) -> LitImage:
-        """Like `lighting`, uninterrupted."""
-        return run_to_end(self.lighting())
+    def render(self) -> LitImage:
+        """Like `render_steps`, uninterrupted."""
+        return run_to_end(self.render_steps())
 
 
 def span(first: int, columns: int) -> tuple[int, int]:

@@ -39,7 +39,7 @@ def step(angle: float, steps: int) -> int:
 
 def master(half: int, arm: float = 0.0) -> GlowCanvas:
     """A double-size canvas for a rotating sprite: `half` px to each side of a point `arm` px ahead of the anchor."""
-    return GlowCanvas(4 * half, 4 * half, 2).to(2 * (half - arm), 2 * half, 0, 2)
+    return GlowCanvas(4 * half, 4 * half, 2).set_transform(2 * (half - arm), 2 * half, 0, 2)
 
 
 def turned(image: pygame.Surface, turn: int, steps: int, arm: float = 0.0, zoom: float = 0.5) -> Sprite:

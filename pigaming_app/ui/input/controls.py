@@ -27,11 +27,11 @@ _PLAIN = (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP, pygame.JOYAXISMOTION, pygame
 class Controls:
     """All input devices. `last`: the most recently used pad or key cluster, whose labels the hints show.
 
-    `at` maps window coordinates to canvas coordinates.
+    `to_canvas` maps window coordinates to canvas coordinates.
     """
 
-    def __init__(self, at: Callable[[tuple[float, float]], tuple[float, float]] = lambda mouse: mouse) -> None:
-        self._at = at
+    def __init__(self, to_canvas: Callable[[tuple[float, float]], tuple[float, float]] = lambda mouse: mouse) -> None:
+        self._to_canvas = to_canvas
         self._pads = pads.Pads()
         self._keyboard = keyboard.Keyboard()
         self._repeat = AutoRepeat()
@@ -121,17 +121,17 @@ class Controls:
         elif event.type in _MAPPED or event.type in _PLAIN:
             yield from self._translate_pad(event)
         elif event.type == pygame.JOYDEVICEADDED:
-            yield from (InputEvent(Button.FOUND, Device("pad", number)) for number in self._pads.look())
+            yield from (InputEvent(Button.FOUND, Device("pad", number)) for number in self._pads.scan())
         elif event.type == pygame.JOYDEVICEREMOVED:
             if self._pads.forget(event.instance_id):
                 yield self._lost(Device("pad", event.instance_id))
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._release_keys()
         elif event.type == pygame.MOUSEMOTION:
-            yield InputEvent(Button.POINT, _MOUSE, at=self._at(event.pos))
+            yield InputEvent(Button.POINT, _MOUSE, at=self._to_canvas(event.pos))
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             self._track(_MOUSE, ButtonChange(Button.CLICK, True))
-            yield InputEvent(Button.CLICK, _MOUSE, at=self._at(event.pos))
+            yield InputEvent(Button.CLICK, _MOUSE, at=self._to_canvas(event.pos))
         elif event.type == pygame.MOUSEBUTTONUP and event.button == pygame.BUTTON_LEFT:
             self._track(_MOUSE, ButtonChange(Button.CLICK, False))
 

@@ -190,9 +190,9 @@ class Pads:
             pygame.joystick.init()
         except pygame.error:
             return  # no joystick service: keys and mouse still work
-        self.look()
+        self.scan()
 
-    def look(self) -> list[int]:
+    def scan(self) -> list[int]:
         """Open all new pads; returns their instance ids."""
         opened = []
         for index in range(pygame.joystick.get_count()):

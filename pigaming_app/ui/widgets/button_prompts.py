@@ -30,7 +30,7 @@ HIGH = 34  # px from the middle of the row to the edge of the clickable area
 class ButtonPrompts:
     """A row of (button, text key), centred at y px of the canvas, at most `room` px wide.
 
-    `solid`: draw the row on a black plate. `voice`: the device whose buttons are shown, if not the one used last.
+    `solid`: draw the row on a black plate. `device`: the device whose buttons are shown, if not the one used last.
     """
 
     def __init__(
@@ -41,13 +41,13 @@ class ButtonPrompts:
         y: int = 980,
         room: int = ROOM,
         solid: bool = False,
-        voice: Callable[[], Device] | None = None,
+        device: Callable[[], Device] | None = None,
     ) -> None:
         self.words, self.controls = words, controls
-        self.items, self.y, self.room, self.solid, self.voice = tuple(items), y, room, solid, voice
+        self.items, self.y, self.room, self.solid, self.device = tuple(items), y, room, solid, device
 
     @property
-    def said(self) -> tuple[tuple[str, str], ...]:
+    def labels(self) -> tuple[tuple[str, str], ...]:
         """The current (label, text) pairs; buttons the device lacks are left out."""
         words = self.words
         return tuple(
@@ -63,22 +63,22 @@ class ButtonPrompts:
         """A click on a prompt as a press of its button; any other event unchanged."""
         if event.button is not Button.CLICK or event.at is None or abs(event.at[1] - self.y) > HIGH:
             return event
-        for action, (left, right) in zip(self.buttons, places(self.said, self.room), strict=True):
+        for action, (left, right) in zip(self.buttons, places(self.labels, self.room), strict=True):
             if left <= event.at[0] <= right:
                 return replace(event, button=action)
         return event
 
     def draw(self, screen: pygame.Surface) -> None:
         if self.solid:
-            ends = places(self.said, self.room)
+            ends = places(self.labels, self.room)
             outline = cut_box(ends[0][0] - 40, self.y - 46, ends[-1][1] - ends[0][0] + 80, 92)
             pygame.draw.polygon(screen, BLACK, outline)
             pygame.draw.polygon(screen, STEEL, outline, THIN)
-        row(self.said, self.y, self.room).draw(screen)
+        row(self.labels, self.y, self.room).draw(screen)
 
     def _label(self, button: Button) -> str:
         """The button's label; "<>" for RIGHT, which stands for left and right."""
-        return "<>" if button is Button.RIGHT else self.controls.label(self.voice() if self.voice else None, button)
+        return "<>" if button is Button.RIGHT else self.controls.label(self.device() if self.device else None, button)
 
 
 def places(prompts: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
@@ -100,4 +100,4 @@ def row(prompts: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
     layer = Layer(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
     for (label, text), (left, _) in zip(prompts, ends, strict=True):
         layer.canvas.body(text, left + button(layer.canvas, left, y, label) + 18, y, MIST)
-    return layer.done()
+    return layer.render()

@@ -45,7 +45,7 @@ RING_STEPS = 12  # images of a ring that fills
 def hold_ring(player: int, step: int) -> Caption:
     """A player's badge in a ring filled to `step` of RING_STEPS: progress of a held button."""
     r = 46
-    ink = GlowCanvas(2 * r + 2 * MARGIN, 2 * r + 2 * MARGIN).to(r + MARGIN, r + MARGIN)
+    ink = GlowCanvas(2 * r + 2 * MARGIN, 2 * r + 2 * MARGIN).set_transform(r + MARGIN, r + MARGIN)
     ink.solid([(1.2 * r * math.cos(i * math.tau / 32), 1.2 * r * math.sin(i * math.tau / 32)) for i in range(32)])
     ink.ring(0, 0, r - 2, STEEL, THIN)
     if step:
@@ -68,7 +68,7 @@ def caption(
     high = round(size * 1.7)
     lead = (0 if player is None else round(size * 1.35)) + (0 if sign is None else round(size * 1.35))
     wide = round(text_width(text, size, face)) + lead + 2 * round(size * 0.6)
-    ink = GlowCanvas(wide + 2 * MARGIN, high + 2 * MARGIN).to(MARGIN, MARGIN)
+    ink = GlowCanvas(wide + 2 * MARGIN, high + 2 * MARGIN).set_transform(MARGIN, MARGIN)
     outline = cut_box(0, 0, wide, high, 14)
     ink.solid(outline).line(outline, color, THIN, True)
     x, y = round(size * 0.6), high / 2

@@ -40,4 +40,4 @@ def _sheet(color: Color, paint: Callable[[Layer], None], cache_key: Hashable) ->
     yield
     paint(layer)
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())

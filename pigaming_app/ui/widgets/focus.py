@@ -54,31 +54,31 @@ class Focus:
     def rect(self, name: str) -> pygame.Rect:
         return self.spots[self._index(name)].rect
 
-    def on(self, event: InputEvent) -> bool:
+    def handle(self, event: InputEvent) -> bool:
         """Move the focus by an event; true if it changed."""
         if event.button in DIRECTIONS:
-            return self.go(self._next(event))
-        return event.button in (Button.POINT, Button.CLICK) and self.go(self.under(event) or self.name)
+            return self.move_to(self._next(event))
+        return event.button in (Button.POINT, Button.CLICK) and self.move_to(self.spot_at(event) or self.name)
 
-    def chosen(self, event: InputEvent) -> str | None:
+    def activated(self, event: InputEvent) -> str | None:
         """The spot activated by an event: by FIRE and START the focused one, by a click the one it hits."""
         if event.button in (Button.FIRE, Button.START):
             return self.name
-        return self.under(event) if event.button is Button.CLICK else None
+        return self.spot_at(event) if event.button is Button.CLICK else None
 
-    def under(self, event: InputEvent) -> str | None:
+    def spot_at(self, event: InputEvent) -> str | None:
         """The spot under the mouse."""
         at = event.at
         return next((spot.name for spot in self.spots if at and spot.rect.collidepoint(at)), None)
 
-    def go(self, name: str) -> bool:
+    def move_to(self, name: str) -> bool:
         """Focus a spot; true if it changed."""
         if name == self.name:
             return False
         self._from, self.index, self._age = self.box, self._index(name), 0.0
         return True
 
-    def place(self, spots: Sequence[FocusSpot]) -> None:
+    def set_spots(self, spots: Sequence[FocusSpot]) -> None:
         """Replace the spots; the focus stays on its spot if that still exists."""
         name, self.spots = self.name, list(spots)
         self.index = self._index(name)
@@ -122,7 +122,7 @@ class Focus:
 def corner(across: int, down: int, small: bool, color: Color) -> LitImage:
     """A focus corner at (0, 0); `across` and `down` are 1 or -1, towards the inside of the spot."""
     arm, c, width = (12, 12, LINE) if small else (48, 20, BOLD)
-    ink = GlowCanvas(2 * REACH, 2 * REACH).to(REACH, REACH)
+    ink = GlowCanvas(2 * REACH, 2 * REACH).set_transform(REACH, REACH)
     points = [(0, down * (c + arm)), (0, down * c), (across * c, 0), (across * (c + arm), 0)]
     return LitImage(ink.neon(points, color, width).lit(1.0), (-REACH, -REACH))
 

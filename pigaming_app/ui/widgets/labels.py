@@ -59,7 +59,7 @@ def heading(title: str, right: str = "", color: Color = ICE) -> Steps[LitImage]:
         layer.canvas.body(right, RIGHT, 112, MIST, "r", fit_size(right, BODY, room, "body"))
     layer.glow.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], color, LINE)
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())
 
 
 @cached
@@ -69,7 +69,7 @@ def frame(w: int, h: int) -> Steps[LitImage]:
     layer = Layer(0, 0, w, h)
     panel(layer.glow, 0, 0, w, h)
     yield
-    return (yield from layer.lighting())
+    return (yield from layer.render_steps())
 
 
 @cached
@@ -79,7 +79,7 @@ def sign(name: str, r: int, color: Color, w: float, level: int = LEVELS) -> LitI
         return dimmed(sign(name, r, color, w), level / LEVELS)
     layer = Layer(-r, -r, 2 * r, 2 * r)
     icon(layer.glow, name, 0, 0, r, color, w)
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -97,7 +97,7 @@ def call_to_action(sentence: str, label: str, size: int, level: int = LEVELS) ->
     if placeholder:
         button(layer.canvas, x + ends[0] + 18, 0, label, FOCUS)
     layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, FOCUS)
-    return layer.done()
+    return layer.render()
 
 
 def call_to_action_width(sentence: str, label: str, size: int) -> float:
@@ -118,7 +118,7 @@ def chip(word: str, w: int, state: str = "off", high: int = 64) -> LitImage:
     layer.glow.line(cut_box(0, 0, w, high, 12), edge, THIN, True)
     color = {"off": MIST, "ready": FOCUS}.get(state, ICE)
     layer.canvas.crisp.text(word, fit_size(word, BODY, w - 24), w / 2, high / 2, color, "head", "c")
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -126,7 +126,7 @@ def button_label(label: str) -> LitImage:
     """A button with its label, left edge at x = 0."""
     layer = Layer(0, -32, button_width(label), 64)
     button(layer.canvas, 0, 0, label)
-    return layer.done()
+    return layer.render()
 
 
 def black_out(screen: pygame.Surface, *boxes: pygame.Rect) -> pygame.Surface:

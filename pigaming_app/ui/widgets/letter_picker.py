@@ -81,4 +81,4 @@ def cursor(w: int, h: int, arm: int, corner: int, width: float, arrows: tuple[fl
     brackets(layer.glow, -w / 2, -h / 2, w, h, FOCUS, arm, corner, width)
     for side, name in ((-1, "up"), (1, "down")):
         icon(layer.glow, name, 0, side * away, r, FOCUS, LINE)
-    return layer.done()
+    return layer.render()

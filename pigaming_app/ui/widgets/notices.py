@@ -21,7 +21,7 @@ class Notices:
         self.waiting: deque[str] = deque()
         self.age = 0.0
 
-    def say(self, sentence: str) -> None:
+    def add(self, sentence: str) -> None:
         """Queue a sentence, unless it is queued already."""
         if sentence not in self.waiting:
             self.waiting.append(sentence)

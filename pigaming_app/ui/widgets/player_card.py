@@ -37,7 +37,7 @@ def ready_bar(player: int, sentence: str) -> LitImage:
     size = fit_size(sentence, LABEL, W - 150)
     icon(layer.glow, "check", MIDDLE - text_width(sentence, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
     layer.canvas.text(sentence, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
-    return layer.done()
+    return layer.render()
 
 
 @cached
@@ -51,4 +51,4 @@ def ask_bar(label: str, sentence: str, level: int) -> LitImage:
     layer = Layer(*BAR)
     layer.canvas.body(sentence, x, BAR_Y, ICE, "l", size)
     button(layer.canvas, x + text_width(sentence, size, "body") + 18, BAR_Y, label, FOCUS)
-    return layer.done()
+    return layer.render()

@@ -71,7 +71,7 @@ def step_of(event: InputEvent, focus: Focus, value: SettingValue) -> int:
     """The step of the focused row by an event: 1, -1 or 0; for a click on a toggle, the offset to the option hit."""
     if event.button in (Button.LEFT, Button.RIGHT):
         return 1 if event.button is Button.RIGHT else -1
-    if event.button is Button.CLICK and event.at and focus.under(event) == focus.name and value.kind != "deed":
+    if event.button is Button.CLICK and event.at and focus.spot_at(event) == focus.name and value.kind != "deed":
         across = event.at[0] - focus.spot.rect.x
         if value.kind == "toggle":
             hit = value_at(value.kind, value.options, value.chosen, across)
@@ -113,7 +113,7 @@ def value(kind: str, options: tuple[str, ...], chosen: int, focused: bool) -> Li
         w = chips(options)[0][1]
         layer.glow.line(cut_box(AT, -27, w, 54, 12), FOCUS if focused else STEEL, THIN, True)
         layer.canvas.crisp.text(options[0], BODY, AT + w / 2, 0, ICE if focused else MIST, "head", "c")
-    return layer.done()
+    return layer.render()
 
 
 def _meter(layer: Layer, chosen: int, focused: bool) -> None:

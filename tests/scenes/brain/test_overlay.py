@@ -78,7 +78,7 @@ def test_the_overlay_closes_when_a_person_takes_the_seat(arcade: Arcade) -> None
     arcade.open(match)
     f4(arcade)
     assert match.runner.brain.seat == 0, "an AI drives for somebody"
-    match.hand(0, KEYS[0])
+    match.assign_seat(0, KEYS[0])
     arcade.frame(draw=True)
     assert match.runner.brain.seat is None
     f4(arcade)
@@ -91,7 +91,7 @@ def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
     arcade.wait(4.5)
     arcade.press(Button.START)
     page = arcade.shown(Pause)
-    assert any("F4" in label for label, _ in page.prompts.said)
+    assert any("F4" in label for label, _ in page.prompts.labels)
     f4(arcade)
     assert arcade.shown(MatchScene) is match
     assert match.runner.brain.seat == 1
@@ -116,7 +116,7 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
         pad.tap("start" if not plain else 9)
         arcade.wait(0.2)
         page = arcade.shown(Pause)
-        assert (label, "AI thoughts") in page.prompts.said
+        assert (label, "AI thoughts") in page.prompts.labels
         pad.tap("y" if not plain else 3)
         arcade.wait(0.2)
         assert arcade.shown(MatchScene) is match
@@ -132,7 +132,7 @@ def test_f4_does_not_end_attract_mode(arcade: Arcade) -> None:
         assert show.show.runner.brain.seat == seat
         assert arcade.stack.top is show
     show._next()
-    assert isinstance(show.on(press(Button.BRAIN)), Home), "over a page it counts like any other key"
+    assert isinstance(show.handle(press(Button.BRAIN)), Home), "over a page it counts like any other key"
 
 
 def press(button: Button):
@@ -188,8 +188,8 @@ def test_no_light_of_it_lies_on_a_robot(arcade: Arcade) -> None:
         stage.advance(1 / 60)
     for robot, (x, y) in zip(state.robots, ((800, 450), (880, 450), (800, 540), (1100, 450)), strict=True):
         robot.x, robot.y = float(x), float(y)
-    stage.view.follow(state)
-    stage.view.follow(state)
+    stage.view.record_poses(state)
+    stage.view.record_poses(state)
     overlay.next()
     screen = pygame.Surface((1920, 1080))
     for _ in range(30):

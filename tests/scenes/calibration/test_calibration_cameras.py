@@ -174,7 +174,7 @@ def test_lengths_change_faster_while_held_and_are_saved(controls: Controls, tmp_
     arcade.press(Button.RIGHT, Device("pad", 0))
     assert first.measures.width == before + 1
     for _ in range(60):
-        arcade.stack.top.on(page.InputEvent(Button.RIGHT, Device("pad", 0), repeat=True))
+        arcade.stack.top.handle(page.InputEvent(Button.RIGHT, Device("pad", 0), repeat=True))
     assert first.measures.width > before + 1000
     arcade.go("lid")
     for _ in range(3):

@@ -53,7 +53,7 @@ def test_a_corner_moves_by_ten_or_by_one_and_the_picture_with_it(arcade: Arcade)
     assert window.get_at((10, 5))[:3] == (0, 0, 0)
     assert window.get_at((24, 15))[:3] == (255, 255, 255)
     assert window.get_at((1919, 0))[:3] == (255, 255, 255)
-    assert canvas.at((20, 11)) == pytest.approx((0.0, 0.0), abs=0.01)
+    assert canvas.to_canvas((20, 11)) == pytest.approx((0.0, 0.0), abs=0.01)
     arcade.shown(CornerPinPage)
 
 

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
-from pigaming_app.scenes.flow.access import ESCAPE, OWNED, TAKE
+from pigaming_app.scenes.flow.access import ESCAPE_SECONDS, OWNER_SECONDS, TAKE_SECONDS
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
@@ -17,7 +17,7 @@ from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import HUMAN
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.idle_seats import ANSWER_LIMIT, IDLE_LIMIT
-from pigaming_app.scenes.play.pause import SURE, Pause
+from pigaming_app.scenes.play.pause import CONFIRM_SECONDS, Pause
 from pigaming_app.scenes.play.reconnect import StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import LATE, LEAVE, Results
@@ -99,10 +99,10 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
     assert [(place.kind, place.device, place.strength, place.ready) for place in page.seats.places] == before
     assert not page.seats.teams
     tap(arcade, guest, "start")
-    assert page.seats.of(device) == 2
+    assert page.seats.seat_of(device) == 2
     assert arcade.shown(Lobby) is page, "START of a free pad joins and does not begin"
     tap(arcade, guest, "b")
-    assert page.seats.of(device) is None
+    assert page.seats.seat_of(device) is None
     tap(arcade, guest, "b")
     assert arcade.shown(Lobby) is page
 
@@ -142,7 +142,7 @@ def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Ar
     arcade.press(Button.FIRE, first)
     key(arcade, pygame.KSCAN_ESCAPE, 0.3)
     arcade.shown(Lobby)
-    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE + 0.2)
+    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE_SECONDS + 0.2)
     assert arcade.stack.top is arcade.title
 
 
@@ -175,7 +175,7 @@ def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arc
 def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
     page = Lobby(arcade.context, "pitanks")
     page.seats.join(KEYS[0])
-    page.seats.add()
+    page.seats.add_ai()
     scene = MatchSetupPage(arcade.context, "pitanks", page.seats)
     arcade.open(scene)
     arcade.wait(1.0)
@@ -208,13 +208,13 @@ def test_an_operator_holds_escape_to_pause_pads_and_to_take_a_pause_over(arcade:
     match = running(arcade, "human easy off off", [first])
     key(arcade, pygame.KSCAN_ESCAPE, 0.4)
     assert arcade.stack.top is match
-    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE + 0.2)
+    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE_SECONDS + 0.2)
     assert arcade.shown(Pause).access.owner.kind == "keys"
     key(arcade, pygame.KSCAN_ESCAPE)
     assert arcade.stack.top is match
     tap(arcade, pad, "start")
     assert arcade.shown(Pause).access.owner == first
-    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE + 0.2)
+    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE_SECONDS + 0.2)
     assert arcade.shown(Pause).access.owner.kind == "keys"
 
 
@@ -242,7 +242,7 @@ def test_a_pause_belongs_to_its_owner_for_twenty_seconds(arcade: Arcade) -> None
     arcade.press(Button.FIRE, KEYS[1])
     arcade.press(Button.BACK, KEYS[0])
     arcade.shown(DeviceTable)
-    arcade.wait(OWNED + 0.2)
+    arcade.wait(OWNER_SECONDS + 0.2)
     arcade.press(Button.BACK, KEYS[3])
     arcade.shown(DeviceTable)
     arcade.press(Button.BACK, KEYS[0])
@@ -288,16 +288,16 @@ def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None
         arcade.press(Button.DOWN)
     assert page.focus.name == name
     arcade.press(Button.FIRE)
-    arcade.wait(SURE + 0.2, draw=True)
+    arcade.wait(CONFIRM_SECONDS + 0.2, draw=True)
     arcade.press(Button.FIRE)
     arcade.press(Button.UP)
     arcade.press(Button.DOWN)
     arcade.press(Button.FIRE)
     assert arcade.shown(Pause) is page, "time and another item take the question back"
-    assert not match.repeated
-    assert not match.stopped
+    assert not match.restart_requested
+    assert not match.stop_requested
     arcade.press(Button.FIRE)
-    assert match.repeated or match.stopped
+    assert match.restart_requested or match.stop_requested
 
 
 # ---- taps
@@ -409,14 +409,14 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
     guest, device = plug(arcade, pads)
     match = running(arcade, "human easy easy off", [first])
     tap(arcade, guest, "a", "a", "a")
-    arcade.wait(TAKE + 0.2, draw=True)
+    arcade.wait(TAKE_SECONDS + 0.2, draw=True)
     assert match.devices == [first, None, None, None]
     guest.press("a")
-    arcade.wait(TAKE + 0.2, draw=True)
+    arcade.wait(TAKE_SECONDS + 0.2, draw=True)
     guest.release("a")
     assert match.devices == [first, None, device, None]
     assert isinstance(match.match.brains[2], HumanPlayer)
-    assert 2 in match.helped, "what the AI scored is no record of the newcomer"
+    assert 2 in match.ai_assisted, "what the AI scored is no record of the newcomer"
     tap(arcade, guest, "start")
     arcade.shown(Pause)
     match.restart()
@@ -467,7 +467,7 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
     assert arcade.shown(Results) is results
     assert not results.ballot.votes
     guest.press("a")
-    arcade.wait(TAKE + 0.2, draw=True)
+    arcade.wait(TAKE_SECONDS + 0.2, draw=True)
     guest.release("a")
     assert results.ballot.votes == {1}
     arcade.press(Button.FIRE, first)
@@ -553,5 +553,5 @@ def test_thousands_of_presses_by_everybody_on_every_screen(arcade: Arcade) -> No
             if chance.random() < 0.01:
                 top.stop()
         if i % 4 == 0:
-            arcade.stack.turn(arcade.stack.top.update(chance.choice((0.02, 0.05, 0.4))))
+            arcade.stack.apply(arcade.stack.top.update(chance.choice((0.02, 0.05, 0.4))))
     assert {"Lobby", "MatchSetupPage", "MatchScene", "Pause"} <= seen

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import Options, opened
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
@@ -41,7 +42,7 @@ def prepared(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
 
 def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tuple[str, str]]) -> None:
     preloader, after = Preloader(), list[int]()
-    preloader.then = lambda: after.append(len(prepared))
+    preloader.on_done = lambda: after.append(len(prepared))
     assert preloader.ready("race", "classic"), "without the thread nothing is waited for"
     preloader.start()
     preloader.start()
@@ -49,6 +50,14 @@ def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tu
     assert prepared == arena_jobs.every_arena()
     assert after == [len(prepared)]
     assert all(preloader.ready(*one) for one in prepared)
+
+
+def test_the_engine_is_hashed_before_the_first_robot_is_saved(prepared: list[tuple[str, str]]) -> None:
+    engine_hash.cache_clear()
+    preloader = Preloader()
+    preloader.start()
+    until(lambda: not preloader.busy)
+    assert engine_hash.cache_info().currsize == 1
 
 
 def test_a_failing_preload_does_not_block_matches(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -66,7 +75,7 @@ def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, ho
     arcade = Arcade(controls)  # type: ignore[arg-type]
     seats = Seats("normal")
     seats.join(KEYS[0])
-    seats.fill()
+    seats.add_opponents()
     page = MatchSetupPage(arcade.context, "pitanks", seats)
     arcade.open(page)
     arcade.wait(1.0)
@@ -120,7 +129,7 @@ def test_nothing_is_prepared_where_no_title_is_shown(home: Path, simulated: bool
         seats.join(KEYS[0])
         return MatchSetupPage(context, "pitanks", seats)  # type: ignore[arg-type]
 
-    options = Options(headless=True, step=1 / 60) if simulated else Options(headless=True, first=first)
+    options = Options(headless=True, step=1 / 60) if simulated else Options(headless=True, first_scene=first)
     with opened(options) as app:
         for _ in range(30):
             app.compose(1 / 60)

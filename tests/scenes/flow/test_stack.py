@@ -12,7 +12,7 @@ class Camera(Floor):
     def __init__(self, name: str, told: list[str]) -> None:
         self.name, self.told = name, told
 
-    def left(self) -> None:
+    def on_leave(self) -> None:
         self.told.append(self.name)
 
 
@@ -20,18 +20,18 @@ class Camera(Floor):
 def test_removed_scenes_are_closed(turn: StackOperation) -> None:
     told: list[str] = []
     stack = Stack(Floor())
-    stack.turn(Push(Camera("one", told)))
+    stack.apply(Push(Camera("one", told)))
     assert told == []
-    stack.turn(turn)
+    stack.apply(turn)
     assert told == ["one"]
 
 
 def test_covered_scenes_stay_open_and_all_close_topmost_first() -> None:
     told: list[str] = []
     stack = Stack(Floor())
-    stack.turn(Push(Camera("low", told)))
-    stack.turn(Push(Camera("high", told)))
-    stack.turn(None)
+    stack.apply(Push(Camera("low", told)))
+    stack.apply(Push(Camera("high", told)))
+    stack.apply(None)
     assert told == []
     stack.clear()
     assert told == ["high", "low"]

@@ -64,7 +64,7 @@ def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcad
     for _ in range(2):
         title = arcade.shown(Title)
         title.lab = title.lab or Lab(arcade.context, fast=False)
-        title.focus.go("lab")
+        title.focus.move_to("lab")
         arcade.press(Button.FIRE)
         assert lab(arcade) is title.lab
         arcade.wait(0.5)
@@ -82,8 +82,8 @@ def lab_of(arcade: Arcade) -> Lab:
 def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, home: Path) -> None:
     fresh = Lab(Arcade(controls).context, fast=False)
     assert fresh.trainer.training.experiences == 0
-    assert fresh.trainer.moment.knowing == 0.0
-    fresh.entered()
+    assert fresh.trainer.snapshot.knowing == 0.0
+    fresh.on_enter()
     fresh.update(0.0)
     assert list(fresh.shown.signs) == ["unknown"] * PETALS
     assert fresh.shown.levels == [0] * PETALS
@@ -126,7 +126,7 @@ def test_painting_changes_nothing_of_what_is_learned(arcade: Arcade) -> None:
 
 def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
     here = lab(arcade)
-    here.focus.go("still")
+    here.focus.move_to("still")
     arcade.press(Button.FIRE)
     for _ in range(3):
         arcade.press(Button.LEFT)
@@ -143,7 +143,7 @@ def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
 
 
 def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
-    lab(arcade).focus.go("hit")
+    lab(arcade).focus.move_to("hit")
     arcade.press(Button.FIRE)
     arcade.press(Button.X)
     arcade.shown(Challenge)
@@ -151,7 +151,7 @@ def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
 
 @pytest.mark.parametrize(("button", "end"), [(Button.RIGHT, 10.0), (Button.LEFT, -10.0)])
 def test_a_knob_stops_at_its_ends(arcade: Arcade, button: Button, end: float) -> None:
-    lab(arcade).focus.go("miss")
+    lab(arcade).focus.move_to("miss")
     arcade.press(Button.FIRE)
     for _ in range(25):
         arcade.press(button)
@@ -238,14 +238,14 @@ def test_once_more_and_an_early_end(arcade: Arcade) -> None:
     assert second is not first
     arcade.wait(0.2)
     arcade.press(Button.START)
-    arcade.shown(Pause).focus.go("restart")
+    arcade.shown(Pause).focus.move_to("restart")
     arcade.press(Button.FIRE)
     arcade.press(Button.FIRE)
     arcade.wait(0.1)
     third = arcade.shown(Challenge)
     assert third is not second
     arcade.press(Button.START)
-    arcade.shown(Pause).focus.go("end")
+    arcade.shown(Pause).focus.move_to("end")
     arcade.press(Button.FIRE)
     arcade.press(Button.FIRE)
     arcade.wait(0.1)
@@ -255,7 +255,7 @@ def test_once_more_and_an_early_end(arcade: Arcade) -> None:
 def test_forgetting_everything_takes_two_presses(arcade: Arcade) -> None:
     here = lab(arcade)
     arcade.press(Button.START)
-    arcade.shown(LabMenu).focus.go("anew")
+    arcade.shown(LabMenu).focus.move_to("anew")
     arcade.press(Button.FIRE)
     arcade.shown(LabMenu)
     assert here.trainer.training.experiences > 0
@@ -271,7 +271,7 @@ def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monk
     learn(arcade, 1)
     here = lab(arcade)
     arcade.press(Button.START)
-    arcade.shown(LabMenu).focus.go("compare")
+    arcade.shown(LabMenu).focus.move_to("compare")
     arcade.press(Button.FIRE)
     table = arcade.shown(ComparePage)
     assert [player.own for player in table.players] == [True, True, False]
@@ -328,7 +328,7 @@ def test_labels_fit_their_boxes(language: str, controls: Controls, home: Path) -
     arcade = Arcade(controls, language)
     there = Lab(arcade.context, fast=False)
     for row in (there.prompts, there.turning):
-        ends = places(row.said, ROOM)
+        ends = places(row.labels, ROOM)
         assert SAFE.left - 16 <= ends[0][0]
         assert ends[-1][1] <= SAFE.right + 16
     with VirtualPad() as pad:
@@ -336,7 +336,7 @@ def test_labels_fit_their_boxes(language: str, controls: Controls, home: Path) -
         arcade.wait(0.1)
         pad.tap("b")
         arcade.wait(0.1)
-        assert places(there.prompts.said, ROOM)[-1][1] <= SAFE.right
+        assert places(there.prompts.labels, ROOM)[-1][1] <= SAFE.right
     for name in KNOB_NAMES:
         lines = page.wrap_balanced(words(f"lab.{name}"), 2)
         assert len(lines) <= 2

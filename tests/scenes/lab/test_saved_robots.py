@@ -33,7 +33,7 @@ def lab(arcade: Arcade) -> Lab:
 
 def menu(arcade: Arcade, item: str) -> None:
     arcade.press(Button.START)
-    arcade.shown(LabMenu).focus.go(item)
+    arcade.shown(LabMenu).focus.move_to(item)
     arcade.press(Button.FIRE)
     arcade.wait(0.5)
 

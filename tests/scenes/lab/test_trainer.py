@@ -73,8 +73,8 @@ def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(t
     feed(trainer, lambda: trainer.training.matches >= 12 and len(trainer.progress.measures) >= 2)
     assert {0, 10} <= set(trainer.checkpoints())
     assert trainer.checkpoints()[10].matches == 10
-    number = trainer.moment.number
-    feed(trainer, lambda: trainer.moment.number > number + 3)
+    number = trainer.snapshot.number
+    feed(trainer, lambda: trainer.snapshot.number > number + 3)
     trainer.close()
     assert trainer.join(10.0)
     assert threads() == []

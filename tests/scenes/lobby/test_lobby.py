@@ -164,7 +164,7 @@ def test_a_mouse_alone_can_have_ais_play(arcade: Arcade) -> None:
     arcade.click(*card_rect(2).center)
     assert kinds(arcade) == "A..."
     arcade.click(*card_rect(2).center)
-    arcade.stack.turn(arcade.stack.top.on(InputEvent(Button.START, Device("mouse"))))
+    arcade.stack.apply(arcade.stack.top.handle(InputEvent(Button.START, Device("mouse"))))
     assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["hard", "off", "hard", "off"]
 
 

@@ -27,7 +27,7 @@ def test_a_seat_that_was_left_is_the_next_to_be_taken() -> None:
 def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
     seats = Seats()
     seats.join(ANA)
-    assert [seats.add() for _ in range(4)] == [1, 2, 3, None]
+    assert [seats.add_ai() for _ in range(4)] == [1, 2, 3, None]
     assert seats.join(BEN) == 3
     assert seats.join(CARLA) == 2
     assert seats.join(DAVID) == 1
@@ -38,9 +38,9 @@ def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
 def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
     seats = Seats(teams=True)
     seats.join(ANA)
-    assert seats.fill() == [1]
+    assert seats.add_opponents() == [1]
     assert seats.places[0].team != seats.places[1].team
-    assert seats.fill() == []
+    assert seats.add_opponents() == []
     assert not seats.one_team
 
 
@@ -59,19 +59,19 @@ def test_a_new_player_joins_the_smaller_team() -> None:
 @pytest.mark.parametrize(("steps", "strength"), [(1, "hard"), (2, "hard"), (-1, "easy"), (-2, "easy")])
 def test_all_ais_become_stronger_or_weaker_up_to_an_end(steps: int, strength: str) -> None:
     seats = Seats()
-    seats.add()
-    seats.add()
+    seats.add_ai()
+    seats.add_ai()
     for _ in range(abs(steps)):
         seats.change_strength(1 if steps > 0 else -1)
     assert {seats.places[i].strength for i in seats.of_kind(AI)} == {strength}
-    seats.add()
+    seats.add_ai()
     assert seats.places[2].strength == strength
 
 
 def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
     seats = Seats()
-    seats.add()
-    seats.add()
+    seats.add_ai()
+    seats.add_ai()
     seats.change_strength(1, 0)
     seats.change_strength(1, 0)
     assert [seats.places[i].strength for i in (0, 1)] == ["easy", "normal"]
@@ -81,8 +81,8 @@ def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
 def test_sending_the_ais_away_leaves_the_people() -> None:
     seats = Seats()
     seats.join(ANA)
-    seats.add()
-    seats.clear()
+    seats.add_ai()
+    seats.remove_ais()
     assert (seats.of_kind(HUMAN), seats.of_kind(AI), seats.of_kind(EMPTY)) == ([0], [], [1, 2, 3])
 
 
@@ -94,10 +94,10 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
     seats = Seats(team_mode=PAIRS)
     assert [seats.join(ANA), seats.join(BEN)] == [0, 1]
     assert team_of(seats) == [0, 1]
-    assert not seats.fill(), "one against one is a match too"
+    assert not seats.add_opponents(), "one against one is a match too"
     seats.change_team(1)
     assert seats.one_team
-    assert seats.fill() == [2, 3], "a pair gets two opponents"
+    assert seats.add_opponents() == [2, 3], "a pair gets two opponents"
     assert team_of(seats) == [0, 0, 1, 1]
     assert [seat.team for seat in seats.seats()] == [0, 0, 1, 1]
 
@@ -105,7 +105,7 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
 def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
     seats = Seats(team_mode=PAIRS)
     seats.join(ANA)
-    assert seats.fill() == [1, 2, 3]
+    assert seats.add_opponents() == [1, 2, 3]
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
@@ -113,8 +113,8 @@ def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
     seats = Seats(team_mode=PAIRS)
     for device in (ANA, BEN):
         seats.join(device)
-    seats.add()
-    seats.add()
+    seats.add_ai()
+    seats.add_ai()
     assert team_of(seats) == [0, 1, 0, 1]
     seats.change_team(1)
     assert team_of(seats) == [0, 0, 1, 1], "Ben changed sides, the AI left"
@@ -123,14 +123,14 @@ def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
 def test_in_a_race_everyone_drives_alone_against_three() -> None:
     seats = Seats(team_mode=ALONE, teams=True)
     seats.join(ANA)
-    assert seats.fill() == [1, 2, 3]
+    assert seats.add_opponents() == [1, 2, 3]
     assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]
     assert not seats.one_team
 
 
 def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
     seats = Seats(rivals=("easy", "normal", "hard", "q1", "q2"))
-    seats.add()
+    seats.add_ai()
     for wanted in ("hard", "q1", "q2", "q2"):
         seats.change_strength(1)
         assert seats.seats()[0] == Seat(wanted, 0)

@@ -10,7 +10,7 @@ from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
 from pigaming_app.scenes.play.countdown import CENTRE, clear_of
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
-from pigaming_app.scenes.play.reconnect import WAIT, Reconnect, StillThere
+from pigaming_app.scenes.play.reconnect import TIMEOUT, Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.ui.input.controls import Controls
@@ -194,7 +194,7 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     two.unplug()
     arcade.until(lambda: isinstance(arcade.stack.top, Reconnect))
     waited = arcade.until(lambda: arcade.stack.top is match)
-    assert waited == pytest.approx(WAIT, abs=0.2)
+    assert waited == pytest.approx(TIMEOUT, abs=0.2)
     arcade.wait(2.0)
     assert isinstance(match.match.brains[1], BrainPlayer)
     back, device = plug(arcade, pads)

@@ -104,16 +104,16 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
     arena = pygame.Rect(160, 136, 1600, 908)
     with measuring(monkeypatch) as screen:
         if paused:
-            scene.on(InputEvent(Button.FIRE, Device("keys")))
+            scene.handle(InputEvent(Button.FIRE, Device("keys")))
         monkeypatch.setattr(scene.runner, "draw", lambda canvas: canvas.fill("black"))
-        monkeypatch.setattr(scene.runner, "captions", lambda *_: None)
+        monkeypatch.setattr(scene.runner, "draw_captions", lambda *_: None)
         scene.draw(screen)
         assert len(screen.texts) >= 8, "it is measured"
         assert faults(screen, pygame.Rect(4, 16, 1912, 1048)) == []
         lit = pygame.mask.from_threshold(screen, "black", (12, 12, 12, 255))
         lit.invert()
         assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
-    for button, box in zip(scene.prompts.buttons, boxes(scene.prompts.said), strict=True):
+    for button, box in zip(scene.prompts.buttons, boxes(scene.prompts.labels), strict=True):
         assert scene.hints.as_button(InputEvent(Button.CLICK, Device("mouse"), at=box.center)).button is button
 
 
@@ -139,11 +139,11 @@ def test_a_replay_of_another_engine_plays_with_a_notice(
 def test_the_prompts_of_a_replay_match_its_state(arcade: Arcade, recorded: tuple[Path, str]) -> None:
     scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arcade.open(scene)
-    assert [text for _, text in scene.prompts.said] == ["Pause", "Speed", "From the start", "Back"]
+    assert [text for _, text in scene.prompts.labels] == ["Pause", "Speed", "From the start", "Back"]
     arcade.press(Button.FIRE)
     arcade.shown(ReplayScene)
-    assert scene.prompts.said[0][1] == "Play"
+    assert scene.prompts.labels[0][1] == "Play"
     arcade.press(Button.FIRE)
     arcade.until(lambda: scene.ended)
     arcade.shown(ReplayScene)
-    assert [text for _, text in scene.prompts.said] == ["From the start", "Back"]
+    assert [text for _, text in scene.prompts.labels] == ["From the start", "Back"]

@@ -7,7 +7,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.results.high_score_tables import contests
-from pigaming_app.scenes.results.high_scores import DEAF, STAY, HighScores, conditions
+from pigaming_app.scenes.results.high_scores import INPUT_LOCKOUT, STAY, HighScores, conditions
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.draw import text_width
 from pigaming_app.ui.i18n import Words
@@ -33,7 +33,7 @@ def opened(arcade: Arcade, at: ScoreTable, *filled: ScoreTable) -> HighScores:
         arcade.context.scores.add(table, "ABC", 9_000)
     best = HighScores(arcade.context, replace(at, feat="", timed=False))
     arcade.open(best)
-    arcade.wait(DEAF + 0.1, draw=True)
+    arcade.wait(INPUT_LOCKOUT + 0.1, draw=True)
     return best
 
 

@@ -13,7 +13,7 @@ from pigaming_app.scenes.lobby.scene import game_choice
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.initials import SECONDS, Initials
-from pigaming_app.scenes.results.plot import Curve, LapPlot, moments, scale, spread, team_curve
+from pigaming_app.scenes.results.plot import Curve, LapPlot, scale, spread, team_curve, time_marks
 from pigaming_app.scenes.results.rematch_vote import PATIENCE
 from pigaming_app.scenes.results.scene import IDLE, Results
 from pigaming_app.storage.scores import Scores, ScoreTable
@@ -54,7 +54,7 @@ def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, t
         ended,
         match,
         devices,
-        MatchScene(arcade.context, match, devices).again,
+        MatchScene(arcade.context, match, devices).rematch,
         finished,
         game_choice=game_choice,
     )
@@ -256,7 +256,7 @@ def test_eight_better_ones_long_ago_leave_todays_table(arcade: Arcade) -> None:
 def test_a_seat_for_which_an_ai_drove_claims_nothing(arcade: Arcade) -> None:
     match = setup("human human off off", 1.0)
     ended = outcome({0: 4, 1: 9}, (1,))
-    again = MatchScene(arcade.context, match, KEYS[:2]).again
+    again = MatchScene(arcade.context, match, KEYS[:2]).rematch
     results = Results(arcade.context, ended, match, [KEYS[0], KEYS[1], None, None], again, True, {1}, game_choice)
     assert [claim.seat for claim in results.claims] == [0]
 
@@ -266,7 +266,7 @@ def test_enter_counts_for_nobody_while_two_players_share_a_keyboard(arcade: Arca
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.wait(1.0)
     arcade.press(Button.UP, KEYS[1])
-    arcade.stack.top.on(InputEvent(Button.START, KEYS[1], among=(KEYS[1], KEYS[0], KEYS[2], KEYS[3])))
+    arcade.stack.top.handle(InputEvent(Button.START, KEYS[1], among=(KEYS[1], KEYS[0], KEYS[2], KEYS[3])))
     assert not any(spelling.done for spelling in arcade.shown(Initials).spellings.values())
 
 
@@ -302,9 +302,9 @@ def test_axes_hold_every_score_and_zero() -> None:
 
 
 def test_ticks_of_the_time_axis() -> None:
-    assert moments(180.0) == [0, 60, 120, 180]
-    assert moments(60.0) == [0, 15, 30, 45, 60]
-    assert moments(6.0) == [0, 2, 4, 6]
+    assert time_marks(180.0) == [0, 60, 120, 180]
+    assert time_marks(60.0) == [0, 15, 30, 45, 60]
+    assert time_marks(6.0) == [0, 2, 4, 6]
 
 
 def test_badges_do_not_overlap_and_stay_on_the_page() -> None:
@@ -333,7 +333,7 @@ def race(arcade: Arcade, lap: int, whole: int) -> Results:
         ended,
         match,
         devices,
-        MatchScene(arcade.context, match, devices).again,
+        MatchScene(arcade.context, match, devices).rematch,
         True,
         game_choice=game_choice,
     )
@@ -375,8 +375,8 @@ def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None
     assert plot.low <= 9.87 < plot.low + plot.step, "the axis begins just below the best lap, not at 0"
     assert plot.high >= 12.5
     [(x, y)] = plot.marked()
-    assert x == pytest.approx(plot.to(1.0, 9.87)[0])
-    assert y == pytest.approx(plot.to(1.0, 9.87)[1], abs=5.0)
+    assert x == pytest.approx(plot.to_screen(1.0, 9.87)[0])
+    assert y == pytest.approx(plot.to_screen(1.0, 9.87)[1], abs=5.0)
     assert [label for _, label in plot.marks()] == ["1", "2", "3"]
     assert len(plot.corners(curves[1].series)) == 2, "a single lap is a visible stroke"
     assert len(plot.heads(0.1)) == 0

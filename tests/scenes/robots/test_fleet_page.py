@@ -81,7 +81,7 @@ def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSessio
     box = page.focus.spots[0].rect
     rows = page.aside.placed[0]
     at = [rows.at[i] + (box.center[i] - rows.home.topleft[i]) * rows.scale for i in (0, 1)]
-    page.on(InputEvent(Button.POINT, Device("mouse"), at=(at[0], at[1])))
+    page.handle(InputEvent(Button.POINT, Device("mouse"), at=(at[0], at[1])))
     assert page.focus.name == "pair", "clicks follow the moved block"
 
 

@@ -58,7 +58,7 @@ class Failing(RealMatch):
             raise RuntimeError("on purpose")
         return turn
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         return None
 
 
@@ -80,7 +80,7 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
             partial(match_of, context),
         )
 
-    code = run(Options(first=first, alone=alone, headless=True, step=0.02, frames=400, emulate=2))
+    code = run(Options(first_scene=first, without_title=alone, headless=True, step=0.02, frames=400, emulator_seed=2))
     assert code == int(alone)
     mat = contexts[0].session
     assert isinstance(mat, EmulatedSession)

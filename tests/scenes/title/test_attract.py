@@ -58,7 +58,12 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
     chosen = {"language": language}
     whole = 3 * len(games()) + 1
     options = Options(
-        first=first, headless=True, step=FASTEST, frames=8000, over=lambda: len(shown) == whole, chosen=chosen
+        first_scene=first,
+        headless=True,
+        step=FASTEST,
+        frames=8000,
+        should_close=lambda: len(shown) == whole,
+        changed_settings=chosen,
     )
     assert run(options) == 0
     assert "a scene failed" not in (home / "data" / "pigaming.log").read_text()

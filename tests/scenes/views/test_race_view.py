@@ -370,9 +370,9 @@ def test_without_flashes_nothing_lights_up(flashes):
 def test_sprites_are_made_in_slices(screen):
     view = seen(BusyRace(2))
     slices = 1
-    while not view.warm(30.0):
+    while not view.prewarm(30.0):
         slices += 1
-    assert view.warm(0.0)
+    assert view.prewarm(0.0)
     assert slices < 400
 
 
@@ -466,7 +466,7 @@ def test_a_ghost_of_another_engine_that_no_robot_could_drive_is_dropped_with_a_w
     view = seen(scene)
     view.enable_persistence(tmp_path)
     assert view.recorder.ghost is None
-    assert view.recorder.trouble == "old"
+    assert view.recorder.drop_reason == "old"
     assert "no robot can drive this lap" in caplog.text
     word = pygame.Rect(400, 1040, 1120, 40)
     notice = shown(screen, view, scene.state, word)
@@ -567,7 +567,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
     view.watch(state)
     racer.passed, racer.splits[1], state.tick = 2, 90.0, 192  # line 2 follows line 1 after 2 s, 100 ticks
     view.watch(state)
-    assert view.recorder.golden[1] == (pytest.approx(-10.0), 192)
+    assert view.recorder.ghost_deltas[1] == (pytest.approx(-10.0), 192)
     assert [note.text for note in view.notes.notes] == ["−0.20"]
     assert (signed(-15.5), signed(15.5), signed(0.1)) == ("−0.31", "+0.31", "+0.00")
 

@@ -213,9 +213,9 @@ def test_the_clock_turns_alarm_in_the_last_ten_seconds(screen):
 def test_sprites_are_made_in_slices(screen):
     view = seen(BusyPiTanks((0, 1, -1, -1)))
     slices = 1
-    while not view.warm(30.0):
+    while not view.prewarm(30.0):
         slices += 1
-    assert view.warm(0.0)
+    assert view.prewarm(0.0)
     assert slices < 400
 
 

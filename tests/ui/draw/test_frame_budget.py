@@ -156,7 +156,7 @@ def test_work_ahead_ends_in_time_and_takes_up_an_interrupted_job_again(watch: Wa
     while not ahead.work(1000 * PIECE):
         pass
     assert made == [0, 1, 2, 3]
-    ahead.then([partial(piece, 4)])
+    ahead.append([partial(piece, 4)])
     assert ahead.work(1000 * PIECE)
     assert made[-1] == 4
 
@@ -189,10 +189,10 @@ class Slow:
         self.made, self.piece = pieces(watch)
         self.heard: list[Button] = []
 
-    def entered(self) -> None:
+    def on_enter(self) -> None:
         pass
 
-    def on(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> StackOperation:
         self.heard.append(event.button)
         return None
 
@@ -220,7 +220,7 @@ def test_the_last_picture_stays_until_the_next_one_is_whole(app: App, watch: Wat
     shown: list[tuple[int, ...]] = []
     app.context.canvas.watchers.append(lambda window: shown.append(tuple(window.get_at((600, 600)))[:3]))
     page = Slow(watch)
-    app.stack.turn(Push(page))
+    app.stack.apply(Push(page))
     frames = 0
     while not shown:
         began = watch.now
@@ -234,7 +234,7 @@ def test_the_last_picture_stays_until_the_next_one_is_whole(app: App, watch: Wat
 
 def test_a_tap_while_a_picture_is_incomplete_counts(app: App, watch: Watch) -> None:
     page = Slow(watch)
-    app.stack.turn(Push(page))
+    app.stack.apply(Push(page))
     assert not app.compose(1 / 60)
     for kind in (pygame.KEYDOWN, pygame.KEYUP):
         pygame.event.post(pygame.Event(kind, key=pygame.K_SPACE, scancode=pygame.KSCAN_SPACE, mod=0, unicode=""))
@@ -246,11 +246,11 @@ def test_a_picture_that_never_gets_ready_is_completed_after_a_while(
     app: App, watch: Watch, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(arcade, "MAX_UNFINISHED", 3)
-    app.stack.turn(Push(Slow(watch)))
+    app.stack.apply(Push(Slow(watch)))
     assert [app.compose(1 / 60) for _ in range(4)] == [False, False, False, True]
 
 
 def test_in_simulated_time_every_frame_has_its_picture(app: App, watch: Watch) -> None:
     app.options = replace(app.options, step=1 / 60)
-    app.stack.turn(Push(Slow(watch)))
+    app.stack.apply(Push(Slow(watch)))
     assert app.compose(1 / 60)

@@ -45,7 +45,7 @@ def test_a_page_lights_only_what_was_drawn_and_shows_every_sheet():
     page.glow.disc(100, 100, 20, BLUE)
     page.text("M", LABEL, 400, 100, align="c")
     page.crisp.disc(700, 100, 20, WHITE)
-    image = page.done()
+    image = page.render()
 
     assert image.get_at((100, 100))[:3] == BLUE
     assert image.get_at((700, 100))[:3] == (255, 255, 255)
@@ -91,7 +91,7 @@ def test_players_differ_in_shape_and_colour():
 def test_hints_stand_in_the_middle():
     page = LayeredCanvas()
     hints(page, [("A", "OK"), ("<>", "Change"), ("START", "Go")])
-    row = page.done().subsurface((0, 940, 1920, 80))
+    row = page.render().subsurface((0, 940, 1920, 80))
     lit = [x for x in range(0, 1920, 2) if any(row.get_at((x, y)).g > 90 for y in range(0, 80, 4))]
 
     assert abs((lit[0] + lit[-1]) / 2 - 960) < 8

@@ -66,7 +66,7 @@ def test_the_keys_of_all_count_for_the_cluster_used_last(controls: Controls) -> 
 
 def test_the_mouse_points_and_clicks_on_the_canvas() -> None:
     pygame.display.init()
-    controls = Controls(at=lambda mouse: (mouse[0] * 2.0, mouse[1] * 2.0))
+    controls = Controls(to_canvas=lambda mouse: (mouse[0] * 2.0, mouse[1] * 2.0))
     motion = pygame.Event(pygame.MOUSEMOTION, pos=(10, 20), rel=(1, 1), buttons=(0, 0, 0))
     buttons = [pygame.Event(pygame.MOUSEBUTTONDOWN, pos=(30, 40), button=button) for button in (1, 2, 4)]
     assert controls.presses([motion, *buttons]) == [

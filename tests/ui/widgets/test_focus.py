@@ -21,7 +21,7 @@ def focus(controls: object) -> Focus:
 
 def go(focus: Focus, *acts: Button, repeat: bool = False) -> str:
     for button in acts:
-        focus.on(InputEvent(button, PAD, repeat))
+        focus.handle(InputEvent(button, PAD, repeat))
     return focus.name
 
 
@@ -40,24 +40,26 @@ def test_past_the_last_comes_the_first_but_not_while_a_key_is_held(focus: Focus)
 
 def test_a_press_into_nothing_changes_nothing(controls: object) -> None:
     alone = Focus([FocusSpot("only", pygame.Rect(0, 0, 10, 10))])
-    assert not any(alone.on(InputEvent(button, PAD)) for button in (Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT))
+    assert not any(
+        alone.handle(InputEvent(button, PAD)) for button in (Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT)
+    )
     assert alone.name == "only"
 
 
 def test_the_mouse_focuses_what_it_points_at_and_a_click_chooses_it(focus: Focus) -> None:
-    assert focus.on(InputEvent(Button.POINT, MOUSE, at=(320.0, 620.0)))
+    assert focus.handle(InputEvent(Button.POINT, MOUSE, at=(320.0, 620.0)))
     assert focus.name == "options"
     click = InputEvent(Button.CLICK, MOUSE, at=(320.0, 620.0))
-    assert focus.chosen(click) == "options"
+    assert focus.activated(click) == "options"
     beside = InputEvent(Button.CLICK, MOUSE, at=(10.0, 10.0))
-    assert not focus.on(beside)
-    assert focus.chosen(beside) is None
+    assert not focus.handle(beside)
+    assert focus.activated(beside) is None
 
 
 def test_fire_and_start_choose_what_is_in_focus_and_back_does_not(focus: Focus) -> None:
-    assert focus.chosen(InputEvent(Button.FIRE, PAD)) == "tanks"
-    assert focus.chosen(InputEvent(Button.START, PAD)) == "tanks"
-    assert focus.chosen(InputEvent(Button.BACK, PAD)) is None
+    assert focus.activated(InputEvent(Button.FIRE, PAD)) == "tanks"
+    assert focus.activated(InputEvent(Button.START, PAD)) == "tanks"
+    assert focus.activated(InputEvent(Button.BACK, PAD)) is None
 
 
 def test_the_corners_are_there_after_120_ms_and_most_of_the_way_after_half_of_that(focus: Focus) -> None:
@@ -72,7 +74,7 @@ def test_the_corners_are_there_after_120_ms_and_most_of_the_way_after_half_of_th
 
 def test_replaced_spots_keep_the_focus_if_it_still_exists(focus: Focus) -> None:
     go(focus, Button.RIGHT)
-    focus.place([FocusSpot("race", pygame.Rect(0, 0, 100, 100)), FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
+    focus.set_spots([FocusSpot("race", pygame.Rect(0, 0, 100, 100)), FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
     assert focus.name == "race"
-    focus.place([FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
+    focus.set_spots([FocusSpot("how", pygame.Rect(0, 200, 100, 100))])
     assert focus.name == "how"

@@ -65,7 +65,7 @@ def frame_times(game: str, frames: int) -> list[float]:
     screen = pygame.display.set_mode((1920, 1080))
     scene = BUSY[game]()
     view = VIEWS[game](scene.arena, scene.state, ["human", "human", "easy", "hard"], busy.AllEffects(), Words("en"))
-    while not view.warm(1000.0):
+    while not view.prewarm(1000.0):
         pass
     times, owed = [], 0.0
     for frame in range(frames + FIRST):

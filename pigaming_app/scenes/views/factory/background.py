@@ -25,7 +25,7 @@ def bare(floor: Floor) -> Steps[pygame.Surface]:
     """Static canvas of a floor."""
     page = LayeredCanvas()
     for ink in (page.glow, page.crisp):
-        ink.to(LEFT, TOP)
+        ink.set_transform(LEFT, TOP)
     for x in range(50, int(WIDTH), 50):
         for y in range(50, int(HEIGHT), 50):
             page.crisp.disc(x, y, 1.6, (26, 37, 54))
@@ -35,7 +35,7 @@ def bare(floor: Floor) -> Steps[pygame.Surface]:
         _draw_storage((page.glow, page.crisp), floor.slots[first : first + SHELVES])
     page.glow.line(cut_box(-3, -3, WIDTH + 6, HEIGHT + 6, 28), WALL, THIN, True)
     yield
-    return (yield from page.lighting())
+    return (yield from page.render_steps())
 
 
 def draw_floor(canvases: Inks, floor: Floor) -> Steps[None]:

@@ -101,7 +101,7 @@ def panel_bits(
 @cached
 def frame(team: int) -> pygame.Surface:
     """Outline and emblem of a panel."""
-    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     ink.fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.05)).line(cut_box(0, 0, W, H), COLORS[team], LINE, True)
     emblem(ink, team, EMBLEM if team == 0 else W - EMBLEM, H / 2, 34)
     return ink.lit(0.6)
@@ -131,6 +131,10 @@ def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
 @cached
 def pulse(team: int) -> tuple[Sprite, ...]:
     """Fade-out of a panel flash after a delivery, relative to its top left."""
-    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE).fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.24))
+    ink = (
+        GlowCanvas(W + 2 * EDGE, H + 2 * EDGE)
+        .set_transform(EDGE, EDGE)
+        .fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.24))
+    )
     whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))

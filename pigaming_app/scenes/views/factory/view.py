@@ -56,14 +56,14 @@ class FactoryView(MatchView):
         self.guide = NextStepGuide(players)
         self.pops = CratePops()
         self.people = self.people_before = _people(state)
-        self.ahead(self.hud.jobs())
-        self.ahead(jobs(self.seats))
+        self.add_prewarm_jobs(self.hud.jobs())
+        self.add_prewarm_jobs(jobs(self.seats))
 
     def watch(self, state: Factory) -> list[SoundCue]:
-        self.follow(state)
+        self.record_poses(state)
         self.people_before, self.people = self.people, _people(state)
         self.guide.look(state)
-        return react(self.detector.look(state), state, self.particles, self.pops, self.options)
+        return react(self.detector.detect(state), state, self.particles, self.pops, self.options)
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
         self.particles.advance(seconds)

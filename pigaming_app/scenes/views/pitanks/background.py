@@ -72,7 +72,7 @@ def bare(starts: Starts) -> Steps[pygame.Surface]:
     glow.neon(cut_box(LEFT - 3, TOP - 3, WIDTH + 6, HEIGHT + 6, 28), WALL, LINE, True)
     crisp.line(cut_box(LEFT + 14, TOP + 14, WIDTH - 28, HEIGHT - 28, 24), (38, 53, 78), 2, True)
     yield
-    return (yield from canvas.lighting())
+    return (yield from canvas.render_steps())
 
 
 def _grid(canvas: LayeredCanvas) -> None:

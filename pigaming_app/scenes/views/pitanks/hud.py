@@ -180,7 +180,7 @@ def panel_bits(
 @cached
 def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Surface:
     """Outline and badge of a panel, with the leader's crown and the AI mark."""
-    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
     outline = cut_box(0, 0, w, H)
     if leads:
         ink.fill(outline, dim(color, 0.14))
@@ -198,7 +198,7 @@ def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Sur
 @cached
 def pulse(player: int, w: int) -> tuple[Sprite, ...]:
     """Fade-out of a panel flash after a change of points, relative to its top left."""
-    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[player]
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
     ink.fill(cut_box(0, 0, w, H), dim(color, 0.24))
     whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
@@ -207,7 +207,7 @@ def pulse(player: int, w: int) -> tuple[Sprite, ...]:
 @cached
 def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
     """Cells of a turbo bar, all lit or all dark."""
-    ink = GlowCanvas(w - 32 + 2 * EDGE, 10 + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(w - 32 + 2 * EDGE, 10 + 2 * EDGE).set_transform(EDGE, EDGE)
     for i in range(int((w - 32) / CELL + 0.01)):
         x = i * CELL
         cell = [(x + 3, 0), (x + 16, 0), (x + 13, 10), (x, 10)]
@@ -218,7 +218,7 @@ def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
 @cached
 def sum_frame(leads: bool, second: bool) -> pygame.Surface:
     """Box of a team's total, with its team bars: one, or two for the second team."""
-    ink = GlowCanvas(SUM_W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(SUM_W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     if leads:
         ink.fill(cut_box(0, 0, SUM_W, H), dim(ICE, 0.10))
     ink.line(cut_box(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
@@ -233,7 +233,7 @@ def sum_frame(leads: bool, second: bool) -> pygame.Surface:
 @cached
 def link() -> pygame.Surface:
     """Two short bars between linked panels."""
-    ink = GlowCanvas(12 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(12 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     for y in (30, 62):
         ink.line([(-6, y), (18, y)], MIST, LINE)
     return ink.plain()

@@ -41,19 +41,19 @@ class PiTanksView(MatchView):
         self.flashed = [-1.0] * len(state.robots)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
         self.flying = [0] * len(state.bullets)
-        self.ahead(self.hud.jobs(state))
-        self.ahead(jobs(state, self.seats))
+        self.add_prewarm_jobs(self.hud.jobs(state))
+        self.add_prewarm_jobs(jobs(state, self.seats))
         self.marked = [slot.seat for event in self.hud.sums for slot in event.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
 
     def watch(self, state: PiTanks) -> list[SoundCue]:
-        self.follow(state)
+        self.record_poses(state)
         for i, bullet in enumerate(state.bullets):
             was = self.detector.shots[i]
             fresh = not was.alive
             self.shots[i] = (bullet.x - bullet.vx * DT, bullet.y - bullet.vy * DT) if fresh else (was.x, was.y)
             self.flying[i] = bullet.alive
-        events = self.detector.look(state)
+        events = self.detector.detect(state)
         for event in events:
             if event.kind == "fire" and event.player is not None:
                 self.flashed[event.player] = self.particles.clock

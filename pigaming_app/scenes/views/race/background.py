@@ -28,16 +28,16 @@ class RaceBackground(Background):
 def bare(track: TrackPlan) -> Steps[pygame.Surface]:
     """Static canvas without HUD."""
     below = earth(track)
-    glow, crisp = GlowCanvas(1920, 1080).to(LEFT, TOP), GlowCanvas(1920, 1080).to(LEFT, TOP)
+    glow, crisp = GlowCanvas(1920, 1080).set_transform(LEFT, TOP), GlowCanvas(1920, 1080).set_transform(LEFT, TOP)
     yield from draw_track(glow, crisp, track)
     for x, y, sx, sy in ((0, 0, 1, 1), (WIDTH, 0, -1, 1), (0, HEIGHT, 1, -1), (WIDTH, HEIGHT, -1, -1)):
         crisp.line([(x, y + CORNER * sy), (x, y), (x + CORNER * sx, y)], STEEL, 4)
-    light = yield from glow.lighting(GLOW, WIDE)
+    light = yield from glow.lit_steps(GLOW, WIDE)
     out = pygame.Surface((1920, 1080))
     out.blit(below, (LEFT, TOP))
     yield
     out.blit(light, (0, 0), special_flags=ADD)
-    yield from crisp.onto(out)
+    yield from crisp.downscale_onto(out)
     return out
 
 

@@ -51,7 +51,7 @@ class Announcements:
     def __init__(self) -> None:
         self.notes: list[Announcement] = []
 
-    def say(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
+    def add(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
         """Start an announcement over a robot."""
         self.notes.append(Announcement(now, seat, sprite, text, color))
 
@@ -101,15 +101,15 @@ class RaceEffects:
     def __init__(self, particles: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
         self.particles, self.notes, self.options, self.words = particles, notes, options, words
 
-    def show(self, event: RaceEvent, state: Race, golden: Delta | None) -> None:
-        """Show one event; `golden`: the racer's difference to the best lap ever."""
+    def show(self, event: RaceEvent, state: Race, ghost_delta: Delta | None) -> None:
+        """Show one event; `ghost_delta`: the racer's time relative to the best lap ever."""
         particles, robot, racer = self.particles, state.robots[event.seat], state.racers[event.seat]
         x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[event.seat]
         match event.kind:
             case "line":
                 particles.burst(x, y, PLAYERS[int(event.number)], 10, 40, 50)
                 if int(event.number) != event.seat:
-                    self._difference(event.seat, racer.delta if racer.delta_at == state.tick - 1 else None, golden)
+                    self._difference(event.seat, racer.delta if racer.delta_at == state.tick - 1 else None, ghost_delta)
             case "lap" if not racer.finished:
                 self._say(event.seat, decimal(self.words, f"{event.number:.2f}"), ICE)
             case "best":
@@ -143,14 +143,14 @@ class RaceEffects:
         if self.options.flashes != "off":
             self.particles.shock(x, y, FOCUS)
 
-    def _difference(self, seat: int, delta: float | None, golden: Delta | None) -> None:
+    def _difference(self, seat: int, delta: float | None, ghost_delta: Delta | None) -> None:
         if delta is not None:
             self._say(seat, decimal(self.words, signed(delta)), GAIN if delta <= 0.0 else LOSS)
-        elif golden:
-            self._say(seat, decimal(self.words, signed(golden[0])), FOCUS)
+        elif ghost_delta:
+            self._say(seat, decimal(self.words, signed(ghost_delta[0])), FOCUS)
 
     def _say(self, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
-        self.notes.say(self.particles.clock, seat, text, color, sprite)
+        self.notes.add(self.particles.clock, seat, text, color, sprite)
 
 
 def spray(particles: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:

@@ -18,14 +18,14 @@ Delta = tuple[float, int]  # ticks, and the tick of measurement
 
 
 class GhostRecorder:
-    """The ghost of one track during a race. `trouble`: reason why the saved one was dropped, or ""."""
+    """The ghost of one track during a race. `drop_reason`: why the saved one was dropped, or ""."""
 
     def __init__(self, folder: Path, arena: Arena, players: Sequence[str]) -> None:
         self.folder, self.arena, self.players = folder, arena, players
-        self.ghost, self.trouble = ghosts.load_ghost(folder, arena)
-        self.notes: list[list[tuple[int, Pose]]] = [[] for _ in players]  # tick and pose, for each seat's current lap
-        self.golden: dict[int, Delta] = {}
-        self.writing: Thread | None = None
+        self.ghost, self.drop_reason = ghosts.load_ghost(folder, arena)
+        self.samples: list[list[tuple[int, Pose]]] = [[] for _ in players]  # tick and pose, for each seat's current lap
+        self.ghost_deltas: dict[int, Delta] = {}
+        self.writer: Thread | None = None
 
     def watch(self, state: Race, events: Sequence[RaceEvent]) -> list[int]:
         """Record people's laps and compare them with the ghost; returns the seats with a new best lap ever."""
@@ -35,8 +35,8 @@ class GhostRecorder:
             if state.racers[seat].passed % LINES == 1:
                 if self._best_ever(state, seat):
                     new.append(seat)
-                del self.notes[seat][:-2]  # keep the two samples on either side of the line
-        for seat, notes in enumerate(self.notes):
+                del self.samples[seat][:-2]  # keep the two samples on either side of the line
+        for seat, notes in enumerate(self.samples):
             robot = state.robots[seat]
             if not self._person(seat):
                 notes.clear()
@@ -63,11 +63,11 @@ class GhostRecorder:
         later = (racer.passed - 1) % LINES
         if self.ghost and racer.passed > 1:
             ticks = racer.splits[later] if later else racer.last_lap
-            self.golden[seat] = ticks - self.ghost.since(seat, later or LINES) / DT, state.tick
+            self.ghost_deltas[seat] = ticks - self.ghost.since(seat, later or LINES) / DT, state.tick
 
     def _best_ever(self, state: Race, seat: int) -> bool:
         """Replace the ghost if the lap just completed is the best ever."""
-        racer, notes = state.racers[seat], self.notes[seat]
+        racer, notes = state.racers[seat], self.samples[seat]
         began = racer.lap_began - racer.last_lap
         whole = len(notes) > 1 and racer.last_lap == racer.best_lap > 0.0 and notes[0][0] <= began
         if not whole or (self.ghost and racer.last_lap * DT >= self.ghost.seconds):
@@ -75,7 +75,7 @@ class GhostRecorder:
         crossed = [split * DT for split in racer.best_splits]
         track = [((tick - began) * DT, pose) for tick, pose in notes]
         self.ghost = ghosts.ghost_of(seat, racer.last_lap * DT, crossed, track)
-        if self.writing:
-            self.writing.join()
-        self.writing = ghosts.save_ghost(self.folder, self.arena, self.ghost)
+        if self.writer:
+            self.writer.join()
+        self.writer = ghosts.save_ghost(self.folder, self.arena, self.ghost)
         return True

@@ -113,7 +113,7 @@ def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], 
 @cached
 def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
     """Outline and badge of a card; red during a warning, bold after the finish."""
-    ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
     outline, edge = cut_box(0, 0, W, H), ALARM if alarm else color
     if alarm or done:
         ink.fill(outline, dim(edge, 0.16))
@@ -130,7 +130,7 @@ def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
 @cached
 def pulse(seat: int) -> tuple[Sprite, ...]:
     """Fade-out of a card flash, relative to its top left."""
-    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     whole = Sprite(ink.fill(cut_box(0, 0, W, H), dim(PLAYERS[seat], 0.3)).lit(0.8), -EDGE, -EDGE)
     return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
@@ -146,7 +146,7 @@ def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
 @cached
 def turbo(seat: int, full: bool) -> pygame.Surface:
     """Cells of a turbo bar, all lit or all dark."""
-    ink, color = GlowCanvas(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    ink, color = GlowCanvas(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
     for i in range(CELLS):
         x = i * CELL
         ink.fill([(x + 3, -4), (x + 15, -4), (x + 13, 3), (x, 3)], color if full else dim(color, 0.2))
@@ -156,7 +156,7 @@ def turbo(seat: int, full: bool) -> pygame.Surface:
 @cached
 def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
     """Lap bar along the bottom of a card, one segment per lap, all lit or all dark."""
-    ink, color = GlowCanvas(FOOT + 2 * EDGE, 6 + 2 * EDGE).to(EDGE, EDGE), PLAYERS[seat]
+    ink, color = GlowCanvas(FOOT + 2 * EDGE, 6 + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
     piece = FOOT / laps
     for i in range(laps):
         corners = [(i * piece, 0), ((i + 1) * piece - 5, 0), ((i + 1) * piece - 5, 6), (i * piece, 6)]
@@ -168,14 +168,14 @@ def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
 def mover(up: bool) -> pygame.Surface:
     """Arrowhead for a gained or lost place."""
     side = -1 if up else 1
-    ink = GlowCanvas(2 * EDGE + 2, 2 * EDGE + 2).to(EDGE, EDGE)
+    ink = GlowCanvas(2 * EDGE + 2, 2 * EDGE + 2).set_transform(EDGE, EDGE)
     return ink.fill([(-13, -side * 9), (13, -side * 9), (0, side * 11)], GAIN if up else LOSS).lit(0.9)
 
 
 @cached
 def leader(done: bool) -> pygame.Surface:
     """Crown of the leader or, at the end, a flag."""
-    ink = GlowCanvas(60 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(60 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     if done:
         flag(ink, 30, ROW, 21, FOCUS)
     else:
@@ -186,7 +186,7 @@ def leader(done: bool) -> pygame.Surface:
 @cached
 def missed_mark(line: int) -> pygame.Surface:
     """Warning: badge of the missed line."""
-    ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     badge(ink, line, 36, 44, 30)
     ink.line([(92, 22), (92, 50)], WHITE, 12)
     return ink.disc(92, 69, 8, WHITE).lit(0.7)
@@ -195,7 +195,7 @@ def missed_mark(line: int) -> pygame.Surface:
 @cached
 def wrong_mark() -> pygame.Surface:
     """Warning: wrong way."""
-    ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).to(EDGE, EDGE)
+    ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     return u_turn(ink, 56, 46, 0.85).lit(0.7)
 
 

@@ -40,7 +40,7 @@ DARK_RED = (36, 6, 8)
 @cached
 def wrong_way(below: bool) -> Sprite:
     """Wrong-way sign: a red disc with a bent arrow pointing at the robot above or `below` it."""
-    ink, up = GlowCanvas(184, 184).to(92, 92), -1 if below else 1
+    ink, up = GlowCanvas(184, 184).set_transform(92, 92), -1 if below else 1
     ink.solid(regular_polygon(48, 54)).solid([(-18, 44 * up), (18, 44 * up), (0, 72 * up)])
     ink.fill([(-16, 42 * up), (16, 42 * up), (0, 68 * up)], ALARM)
     ink.disc(0, 0, 51, ALARM).disc(0, 0, 44, DARK_RED)
@@ -53,7 +53,7 @@ def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
     width = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
     height = 84 + 46 * len(words)
     half_w, half_h = round(width / 2) + 30, height // 2 + 50
-    ink, up = GlowCanvas(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
+    ink, up = GlowCanvas(2 * half_w, 2 * half_h).set_transform(half_w, half_h), -1 if below else 1
     ink.fill([(-17, (height / 2 - 4) * up), (17, (height / 2 - 4) * up), (0, (height / 2 + 24) * up)], ALARM)
     box = cut_box(-width / 2, -height / 2, width, height, 18)
     ink.solid(box).fill(box, DARK_RED).line(box, ALARM, LINE, True)
@@ -73,7 +73,7 @@ def place(seat: int, number: int, ending: str, below: bool) -> Sprite:
     text = f"{number}{ending}"
     width = max(112, round(text_width(text, SUB, "hero")) + 40) // 16 * 16 + 16
     half_w, half_h = width // 2 + 30, 100
-    ink, up = GlowCanvas(2 * half_w, 2 * half_h).to(half_w, half_h), -1 if below else 1
+    ink, up = GlowCanvas(2 * half_w, 2 * half_h).set_transform(half_w, half_h), -1 if below else 1
     box = [(-width / 2, -54), (width / 2, -54), (width / 2, 54), (-width / 2, 54)]
     ink.fill([(-14, 54 * up), (14, 54 * up), (0, 76 * up)], color)
     ink.solid(box).line(box, color, THIN, True)
@@ -103,7 +103,7 @@ def notice(text: str, color: Color, sign: str = "") -> Sprite:
 @cached
 def gold_star() -> Sprite:
     """Star before a best time."""
-    return trim(GlowCanvas(112, 112).to(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
+    return trim(GlowCanvas(112, 112).set_transform(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
 
 
 @cached
@@ -146,14 +146,14 @@ def _tip(seat: int) -> pygame.Surface:
 @cached
 def clods(size: int) -> tuple[Sprite, ...]:
     """Fading clod of mud: the last frame is the brightest."""
-    whole = trim(GlowCanvas(48, 48).to(24, 24).disc(0, 0, size, MUD).lit(0.4), 24, 24)
+    whole = trim(GlowCanvas(48, 48).set_transform(24, 24).disc(0, 0, size, MUD).lit(0.4), 24, 24)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole
 
 
 @cached
 def splash(which: int) -> Sprite:
     """Splash of mud under a robot, one of three shapes."""
-    rng, ink, color = random.Random(which), GlowCanvas(160, 160).to(80, 80), dim(MUD, 0.62)
+    rng, ink, color = random.Random(which), GlowCanvas(160, 160).set_transform(80, 80), dim(MUD, 0.62)
     for _ in range(17):
         a, r = rng.random() * math.tau, rng.uniform(38, 56)
         ink.line([(20 * math.cos(a), 20 * math.sin(a)), (r * math.cos(a), r * math.sin(a))], color, rng.uniform(7, 15))
@@ -163,6 +163,6 @@ def splash(which: int) -> Sprite:
 @cached
 def confetti(color: Color, turn: int) -> tuple[Sprite, ...]:
     """Fading chequered confetti at one of four angles: the last frame is the brightest."""
-    ink = GlowCanvas(56, 56).to(28, 28, turn * math.pi / 8)
+    ink = GlowCanvas(56, 56).set_transform(28, 28, turn * math.pi / 8)
     whole = trim(ink.fill([(-6, -6), (6, -6), (6, 6), (-6, 6)], color).lit(0.6), 28, 28)
     return *(faded(whole, level / LEVELS) for level in range(1, LEVELS)), whole

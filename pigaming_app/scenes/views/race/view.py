@@ -52,21 +52,21 @@ class RaceView(MatchView):
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
         self.void = void_words(words)
         self.void_at = [-VOID_LASTS] * len(state.robots)
-        self.ahead(self.cards.jobs(state))
-        self.ahead(jobs(self.seats, words))
+        self.add_prewarm_jobs(self.cards.jobs(state))
+        self.add_prewarm_jobs(jobs(self.seats, words))
 
     def enable_persistence(self, folder: Path) -> None:
         """Load the track's ghost, and save people's best laps."""
         self.recorder = GhostRecorder(folder, self.arena, self.players)
 
     def watch(self, state: Race) -> list[SoundCue]:
-        self.follow(state)
+        self.record_poses(state)
         self.cards.follow(state)
-        events = self.detector.look(state)
+        events = self.detector.detect(state)
         records = self.recorder.watch(state, events) if self.recorder else []
-        golden = self.recorder.golden if self.recorder else {}
+        ghost_deltas = self.recorder.ghost_deltas if self.recorder else {}
         for event in events:
-            fresh = golden.get(event.seat)
+            fresh = ghost_deltas.get(event.seat)
             self.event_effects.show(event, state, fresh if fresh and fresh[1] == state.tick else None)
             self._note(event, state)
         for seat in records:
@@ -177,8 +177,8 @@ class RaceView(MatchView):
 
     def _draw_notice(self, screen: pygame.Surface) -> None:
         """Briefly show that the ghost was dropped."""
-        if self.recorder and self.recorder.trouble and self.words and self.particles.clock < TROUBLE_LASTS:
-            caption(self.words(f"race.ghost_{self.recorder.trouble}"), FOCUS).draw(screen, 960, 1034)
+        if self.recorder and self.recorder.drop_reason and self.words and self.particles.clock < TROUBLE_LASTS:
+            caption(self.words(f"race.ghost_{self.recorder.drop_reason}"), FOCUS).draw(screen, 960, 1034)
 
 
 def _between(a: tuple[float, float], b: tuple[float, float], share: float) -> tuple[float, float]:

@@ -29,7 +29,7 @@ def beam(player: int, turn: int) -> Sprite:
 
 
 def _beam(player: int) -> pygame.Surface:
-    ink = GlowCanvas(248, 248).to(124 - BEAM_ARM, 124)
+    ink = GlowCanvas(248, 248).set_transform(124 - BEAM_ARM, 124)
     for i in range(14, 0, -1):
         half, reach = 0.30 * (0.5 + i / 28), 40 + 10 * i
         shape = [(30, -6), (reach, -reach * half), (reach + 10, 0), (reach, reach * half), (30, 6)]
@@ -139,7 +139,7 @@ def wave(color: Color, stage: int) -> Sprite:
 def _wave(stage: int) -> Sprite:
     t, half = (stage + 1) / WAVE_STEPS, 172
     r = 30 + 110 * (1 - (1 - t) ** 2)
-    ink = GlowCanvas(2 * half, 2 * half).to(half, half, 0.5 * t)
+    ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half, 0.5 * t)
     for i in range(8):
         a = i * math.tau / 8
         ink.arc(0, 0, r, a, a + 0.5 - 0.25 * t, dim(WHITE, (1 - t) ** 0.8), 1 + 9 * (1 - t))

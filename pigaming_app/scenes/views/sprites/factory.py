@@ -97,7 +97,7 @@ def draw_crate(ink: GlowCanvas, team: int, state: int, x: float, y: float, size:
 def crate(team: int, state: int, tenths: int = 10) -> Sprite:
     """Opaque crate of a team in a state, scaled to `tenths` / 10."""
     size = CRATE * tenths / 10
-    ink = GlowCanvas(120, 120, 3).to(60, 60)
+    ink = GlowCanvas(120, 120, 3).set_transform(60, 60)
     draw_crate(ink, team, state, 0, 0, size)
     return trim(ink.sprite(0.6), 60, 60)
 
@@ -172,7 +172,7 @@ def _person(stride: int, working: bool) -> pygame.Surface:
 @cached
 def progress(state: int, part: int) -> Sprite:
     """Progress ring of a machine, `part` of COUNTS, in the colour of its product."""
-    ink = GlowCanvas(150, 150).to(75, 75)
+    ink = GlowCanvas(150, 150).set_transform(75, 75)
     if part:
         ink.arc(0, 0, 44, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, STATES[state], 10)
     return trim(ink.lit(0.9), 75, 75)
@@ -181,7 +181,7 @@ def progress(state: int, part: int) -> Sprite:
 @cached
 def busy(team: int, kind: int) -> Sprite:
     """Machine of a kind in use: it shows the team's outline."""
-    ink, body = GlowCanvas(230, 230).to(115, 115), cut_box(-66, -66, 132, 132, 20)
+    ink, body = GlowCanvas(230, 230).set_transform(115, 115), cut_box(-66, -66, 132, 132, 20)
     ink.solid(cut_box(-69, -69, 138, 138, 21)).fill(body, dim(TEAMS[team], 0.10)).line(body, TEAMS[team], 8, True)
     ink.ring(0, 0, 44, dim(TEAMS[team], 0.26), 10)
     ink.text("A" if kind == A else "B", 62, 0, 0, WHITE, "hero", "c")
@@ -192,7 +192,7 @@ def busy(team: int, kind: int) -> Sprite:
 def frozen(part: int, r: int = 54) -> Sprite:
     """Timer ring of a frozen robot, radius `r` px, `part` of COUNTS left."""
     half = r + 31
-    ink = GlowCanvas(2 * half, 2 * half).to(half, half)
+    ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
     ink.ring(0, 0, r, dim(ALARM, 0.3), 8)
     if part:
         ink.arc(0, 0, r, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, ALARM, 8)
@@ -202,7 +202,7 @@ def frozen(part: int, r: int = 54) -> Sprite:
 @cached
 def awaited(seconds: int) -> Sprite:
     """Marker and countdown for the next pallet."""
-    ink = GlowCanvas(110, 110, 3).to(55, 55)
+    ink = GlowCanvas(110, 110, 3).set_transform(55, 55)
     ink.dashes(regular_polygon(40, 27), dim(STATES[RAW], 0.85), THIN, 8, 8)
     ink.text(str(seconds), 40, 0, 0, WHITE, "hero", "c")
     return trim(ink.lit(0.5), 55, 55)
@@ -211,7 +211,7 @@ def awaited(seconds: int) -> Sprite:
 @cached
 def exclaim() -> Sprite:
     """Exclamation mark."""
-    ink = GlowCanvas(120, 130, 3).to(60, 60)
+    ink = GlowCanvas(120, 130, 3).set_transform(60, 60)
     ink.solid(cut_box(-30, -30, 60, 56, 10)).fill([(-10, 24), (10, 24), (-12, 44)], ALARM)
     ink.line(cut_box(-30, -30, 60, 56, 10), ALARM, 5, True).line([(0, -18), (0, 2)], WHITE, 8).disc(0, 15, 5, WHITE)
     return trim(ink.sprite(0.7), 60, 60)
@@ -220,7 +220,7 @@ def exclaim() -> Sprite:
 @cached
 def cross() -> Sprite:
     """Refusal cross."""
-    ink = GlowCanvas(110, 110, 3).to(55, 55)
+    ink = GlowCanvas(110, 110, 3).set_transform(55, 55)
     ink.solid(regular_polygon(32, 30)).ring(0, 0, 27, ALARM, 5)
     for side in (-1, 1):
         ink.line([(-11, -11 * side), (11, 11 * side)], ALARM, 8)
@@ -230,7 +230,7 @@ def cross() -> Sprite:
 @cached
 def digit(number: int) -> Sprite:
     """Large countdown digit over a frozen robot."""
-    ink = GlowCanvas(130, 140, 3).to(65, 70)
+    ink = GlowCanvas(130, 140, 3).set_transform(65, 70)
     ink.solid(regular_polygon(8, 40, math.pi / 8)).text(str(number), 76, 0, 0, WHITE, "hero", "c")
     return trim(ink.sprite(0.6), 65, 70)
 
@@ -239,7 +239,7 @@ def digit(number: int) -> Sprite:
 def target(color: Color, small: bool) -> Sprite:
     """Corners around a targeted slot."""
     half, reach, width = (38, 12, 4) if small else (44, 22, 7)
-    ink = GlowCanvas(150, 150, 3).to(75, 75)
+    ink = GlowCanvas(150, 150, 3).set_transform(75, 75)
     for sx in (-1, 1):
         for sy in (-1, 1):
             corner = [(sx * half, sy * (half - reach)), (sx * half, sy * half), (sx * (half - reach), sy * half)]
@@ -270,6 +270,6 @@ def _dash(color: Color) -> pygame.Surface:
 @cached
 def count(number: int, team: int) -> Sprite:
     """Number of further pallets beside a warehouse."""
-    ink = GlowCanvas(160, 80, 3).to(80, 40)
+    ink = GlowCanvas(160, 80, 3).set_transform(80, 40)
     ink.text(f"+{number}", 40, 0, 0, TEAMS[team], "hero", "c")
     return trim(ink.lit(0.5), 80, 40)

@@ -30,7 +30,7 @@ POPUP_LEVELS = 6
 @cached
 def pickup(name: str) -> Sprite:
     """A power on the floor."""
-    ink = GlowCanvas(152, 152, 3).to(76, 76)
+    ink = GlowCanvas(152, 152, 3).set_transform(76, 76)
     frame = regular_polygon(6, 42, math.pi / 6)
     ink.solid(frame).neon(frame, FOCUS, THIN, True)
     icon(ink, name, 0, 0, 23, mix(FOCUS, WHITE, 0.5), 5)
@@ -40,7 +40,7 @@ def pickup(name: str) -> Sprite:
 @cached
 def mine(player: int, bright: bool) -> Sprite:
     """Mine in its owner's colour with the player number; an armed mine blinks with `bright`."""
-    ink = GlowCanvas(120, 120, 3).to(60, 60)
+    ink = GlowCanvas(120, 120, 3).set_transform(60, 60)
     ink.solid(regular_polygon(24, 25))
     icon(ink, "mine", 0, 0, 27, PLAYERS[player], 4)
     ink.disc(0, 0, 12, ALARM if bright else dim(ALARM, 0.45))

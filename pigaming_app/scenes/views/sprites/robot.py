@@ -52,11 +52,11 @@ def draw_tank(ink: GlowCanvas, player: int) -> GlowCanvas:
 
 def robot(ink: GlowCanvas, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> GlowCanvas:
     """Draw the robot of seat 0..3 at (x, y), heading `angle` rad, with its number upright."""
-    draw_tank(ink.to(x, y, angle, scale), player)
+    draw_tank(ink.set_transform(x, y, angle, scale), player)
     back, size = _back(player), _number_size(player)
-    ink.to(x, y, 0, scale)
+    ink.set_transform(x, y, 0, scale)
     ink.text(str(player + 1), size, -back * math.cos(angle), -back * math.sin(angle), BLACK, "hero", "c")
-    return ink.to(0, 0)
+    return ink.set_transform(0, 0)
 
 
 @cached
@@ -74,7 +74,7 @@ def tank(player: int, turn: int) -> Sprite:
 @cached
 def ghost(player: int) -> Sprite:
     """Off phase of a blinking robot: a dim ring and its number."""
-    ink = GlowCanvas(112, 112).to(56, 56)
+    ink = GlowCanvas(112, 112).set_transform(56, 56)
     ink.solid(regular_polygon(64, 36)).ring(0, 0, 34, dim(PLAYERS[player], 0.55), THIN)
     ink.text(str(player + 1), 34, 0, 0, dim(PLAYERS[player], 0.8), "hero", "c")
     return trim(ink.sprite(0.6), 56, 56)

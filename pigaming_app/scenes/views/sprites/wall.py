@@ -34,7 +34,7 @@ def wall(length: float, thick: float, angle: float, health: int, seed: int, whol
     """Wall at `angle` rad. Premultiplied alpha."""
     c, s = abs(math.cos(angle)), abs(math.sin(angle))
     w, h = int((length * c + thick * s) / 2 + 40), int((length * s + thick * c) / 2 + 40)
-    ink = draw_wall(GlowCanvas(2 * w, 2 * h, 3).to(w, h, angle), length, thick, health, seed, whole)
+    ink = draw_wall(GlowCanvas(2 * w, 2 * h, 3).set_transform(w, h, angle), length, thick, health, seed, whole)
     return trim(ink.sprite(0.8), w, h)
 
 
