@@ -63,7 +63,7 @@ def _one_calibration(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]
 
     def once(arena: Any) -> Any:
         pace = arena.camera.pace
-        file = folder / f"ground-{arena.camera.painter._seed}-{pace.fps}-{pace.delay}-{arena._unrest}.pickle"
+        file = folder / f"ground-{arena.camera.painter._seed}-{pace.fps}-{pace.delay}-{arena._exposure_jitter}.pickle"
         if not file.exists():
             unfinished = file.with_suffix(f".{worker or 'new'}")
             unfinished.write_bytes(pickle.dumps(calibrated(arena)))

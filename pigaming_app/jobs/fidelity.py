@@ -8,7 +8,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, unfit
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import mat_settings, path, shared, whole
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
@@ -52,7 +52,7 @@ def record(arguments: Namespace) -> dict[str, Any]:
     from pigaming_app.hardware.recordings import RecordingWriter
     from pigaming_app.storage.safe_files import require_writable
 
-    if arguments.emulate is None and (problem := unfit(Settings.load(folders().config)[0])):
+    if arguments.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
         raise Refusal(english().long_sentence(problem))
     require("hardware")
     require_writable(arguments.file)

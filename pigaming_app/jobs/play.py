@@ -151,12 +151,12 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
 
 def _check_radio(chosen: dict[str, Any]) -> None:
     """Raises Refusal for robots without a deadman, whether the command line or the settings name them."""
-    from pigaming_app.hardware.session.robot_session import unfit
+    from pigaming_app.hardware.session.robot_session import settings_problem
     from pigaming_app.ui.i18n import english
 
     settings, _ = Settings.load(folders().config)
     settings.radio = chosen.get("radio", settings.radio)
-    if reason := unfit(settings):
+    if reason := settings_problem(settings):
         raise Refusal(f"--radio: {english().long_sentence(reason)}")
 
 

@@ -70,9 +70,9 @@ def look(arguments: Namespace) -> dict[str, Any]:
 
 def _radio_status(session: RobotSession) -> dict[str, Any]:
     """The status by radio alone."""
-    link = session.listen()
+    link = session.open_link()
     time.sleep(LISTEN)
-    return {"radio": _sentence(session.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
+    return {"radio": _sentence(session.fault), "robots": [_robot(link, i, i, None) for i in range(4)]}
 
 
 def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
@@ -82,7 +82,7 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
         session.tick()
         rig.pump()
     seen = rig.sense()
-    status["radio"], status["eyes"] = _sentence(rig.link.trouble), _sentence(rig.camera.trouble)
+    status["radio"], status["eyes"] = _sentence(rig.link.fault), _sentence(rig.camera.fault)
     status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     movable = [i for i in range(4) if status["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:

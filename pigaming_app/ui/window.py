@@ -41,7 +41,7 @@ class Warp(Protocol):
     def draw(self, picture: Any, window: Any) -> None:
         """Draw the canvas over the whole window; both are pixels, (height, width, 4)."""
 
-    def back(self, at: tuple[float, float]) -> tuple[float, float]:
+    def to_canvas(self, at: tuple[float, float]) -> tuple[float, float]:
         """The canvas position, px, shown at a window position."""
 
 
@@ -155,7 +155,7 @@ class Canvas:
         if not area.w or not area.h:
             return (-1.0, -1.0)
         if self._warp is not None and self._warp.size == area.size:
-            return self._warp.back((mouse[0] - area.x, mouse[1] - area.y))
+            return self._warp.to_canvas((mouse[0] - area.x, mouse[1] - area.y))
         return ((mouse[0] - area.x) * SIZE[0] / area.w, (mouse[1] - area.y) * SIZE[1] / area.h)
 
     def pin(self, pin: Pin | None) -> None:

@@ -69,7 +69,7 @@ class PerspectiveWarp:
         drawn = self._cv.warpPerspective(picture, self._pixels, self.size, flags=self._cv.INTER_NEAREST)
         np.copyto(window, drawn)
 
-    def back(self, at: tuple[float, float]) -> tuple[float, float]:
+    def to_canvas(self, at: tuple[float, float]) -> tuple[float, float]:
         """The canvas point under a window point, px: the inverse of the warp."""
         there = np.linalg.inv(self._matrix).astype(np.float64)
         x, y = project(there, np.array([at], dtype=np.float64))[0].tolist()

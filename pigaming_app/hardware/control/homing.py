@@ -44,7 +44,7 @@ class HomingProgress(NamedTuple):
     pose: Pose  # the goal
     distance: float  # px
     turn: float  # rad, absolute heading error
-    there: bool
+    arrived: bool
     moving: bool  # under way; else it has arrived, or waits for others to pass
 
 
@@ -67,7 +67,7 @@ class Homing:
     @property
     def done(self) -> bool:
         """True if all robots had arrived in the last tick."""
-        return len(self.places) == len(self.goals) and all(place.there for place in self.places)
+        return len(self.places) == len(self.goals) and all(place.arrived for place in self.places)
 
     def twists(self, poses: Mapping[int, Pose]) -> dict[int, Twist]:
         """One tick: the twist of each robot of `goals`, px/s and rad/s. `poses`: all robots on the mat."""
@@ -93,13 +93,13 @@ class Homing:
             return HomingProgress(robot, goal, 1e9, pi, False, False)
         off, turn = distance(goal[:2], pose[:2]), abs(turn_to(goal[2] - pose[2]))
         slack = 2.0 if robot in self._home else 1.0
-        there = off < AT * slack and turn < FACING * slack
-        if there:
+        arrived = off < AT * slack and turn < FACING * slack
+        if arrived:
             self._forget(robot)
             self._home.add(robot)
         else:
             self._home.discard(robot)
-        return HomingProgress(robot, goal, off, turn, there, robot in self._paths)
+        return HomingProgress(robot, goal, off, turn, arrived, robot in self._paths)
 
     def _forget(self, robot: int) -> None:
         self._paths.pop(robot, None)

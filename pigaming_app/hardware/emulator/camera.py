@@ -40,7 +40,7 @@ class EmulatedCamera:
         self.painter, self.pace, self.clock = painter, pace, clock
         self.due = clock()  # s, when the next exposure ends
         self.frozen = self.stuck = self.gone = False
-        self.more_drops = 0.0
+        self.extra_drops = 0.0
         self.exposed = self.delivered = 0
         self._taken: float | None = None  # s, when the picture in processing was read
         self._random = Random(f"camera {seed}")
@@ -53,7 +53,7 @@ class EmulatedCamera:
         pace, random = self.pace, self._random
         self.exposed += 1
         self.due += 1.0 / pace.fps
-        lost = random.random() < pace.drops + self.more_drops
+        lost = random.random() < pace.drops + self.extra_drops
         arrives = middle + max(0.5 * pace.delay, random.gauss(pace.delay, pace.jitter))
         if self._in_transit:
             arrives = max(arrives, self._in_transit[-1].arrives)

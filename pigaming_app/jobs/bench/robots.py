@@ -112,7 +112,7 @@ def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.variants[0], goal)
-    bed = Testbed(job.seed, job.fps, LOST, RadioChannel(loss=LOST, doubled=LOST / 2, broken=LOST / 4), ground)
+    bed = Testbed(job.seed, job.fps, LOST, RadioChannel(loss=LOST, duplicates=LOST / 2, broken=LOST / 4), ground)
     match = Match(setup, lambda world: RealPlant(world, bed.rig))
     for seat in range(ROBOTS):
         seed = ROBOTS * job.seed + seat
@@ -162,7 +162,7 @@ def _stops(stopped: dict[float, Future[dict[str, StopResult]]], note: Callable[[
     for fps, future in stopped.items():
         for name, run in _result(future, f"emergencies at {fps:.0f} fps").items():
             note(f"{name} at {fps:.0f} fps: motors stood after {1e3 * run.seconds:.0f} ms")
-            if not run.said:
+            if not run.reported:
                 raise Unproven(f"{name}: the game did not say what had happened")
             stops[f"{name} {fps}"] = run.seconds
     return stops

@@ -46,8 +46,8 @@ def test_a_window_of_another_size_shows_the_same_larger() -> None:
 
 def test_the_mouse_points_at_what_is_seen_under_it() -> None:
     warp = PerspectiveWarp(ASKEW, (960, 540))
-    assert warp.back((20.0, 10.0)) == pytest.approx((0.0, 0.0), abs=1e-6)
-    assert warp.back((950.0, 530.0)) == pytest.approx((1920.0, 1080.0), abs=1e-6)
+    assert warp.to_canvas((20.0, 10.0)) == pytest.approx((0.0, 0.0), abs=1e-6)
+    assert warp.to_canvas((950.0, 530.0)) == pytest.approx((1920.0, 1080.0), abs=1e-6)
 
 
 @pytest.mark.parametrize(

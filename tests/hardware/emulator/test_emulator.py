@@ -147,7 +147,7 @@ def test_the_quick_picture_is_the_whole_one_around_the_robots():
 
 def test_the_same_seed_is_the_same_run():
     def run(seed):
-        arena = EmulatedArena(seed, FrameTiming(drops=0.1), refresh=10, unrest=0.2)
+        arena = EmulatedArena(seed, FrameTiming(drops=0.1), refresh=10, exposure_jitter=0.2)
         for robot in arena.robots:
             robot.left, robot.right = 0.4, 0.3
         frames = [frame for frame in (newest(arena, 0.05) for _ in range(10)) if frame]

@@ -129,8 +129,8 @@ def test_the_result_is_a_file_that_the_simulator_reads():
 def test_a_recorded_run_comes_back_as_it_was(tmp_path):
     recorder = RecordingWriter(tmp_path / "run.jsonl", 1.3)
     for i in range(60):
-        recorder.sent(0.02 * i, [WheelCommand(0.1, 0.2), None, None, None])
-        recorder.seen(0.02 * i + 0.05, 0.02 * i, [Fix(0, 100.0 + i, 200.0, 6.2 + 0.01 * i, 0.02 * i)])
+        recorder.record_commands(0.02 * i, [WheelCommand(0.1, 0.2), None, None, None])
+        recorder.record_fixes(0.02 * i + 0.05, 0.02 * i, [Fix(0, 100.0 + i, 200.0, 6.2 + 0.01 * i, 0.02 * i)])
     recorder.close()
     run = load(tmp_path / "run.jsonl")
     assert run.mm == 1.3
@@ -146,7 +146,7 @@ def test_a_recording_that_breaks_off_leaves_the_one_before(tmp_path):
     path.write_text("the one before")
     for end in (RecordingWriter.discard, RecordingWriter.close):
         recorder = RecordingWriter(path, 1.3)
-        recorder.sent(0.0, [None] * 4)
+        recorder.record_commands(0.0, [None] * 4)
         assert path.read_text() == "the one before"
         end(recorder)
         assert [one.name for one in tmp_path.iterdir()] == ["run.jsonl"]
@@ -182,8 +182,8 @@ def test_a_run_that_broke_off_in_the_middle_of_a_line_is_still_good(tmp_path):
     file = tmp_path / "run.jsonl"
     recorder = RecordingWriter(file, 1.3)
     for i in range(60):
-        recorder.sent(0.02 * i, [None] * 4)
-        recorder.seen(0.02 * i, 0.02 * i, [Fix(1, 5.0, 5.0, 0.0, 0.02 * i)])
+        recorder.record_commands(0.02 * i, [None] * 4)
+        recorder.record_fixes(0.02 * i, 0.02 * i, [Fix(1, 5.0, 5.0, 0.0, 0.02 * i)])
     recorder.close()
     file.write_text(file.read_text() + json.dumps({"kind": "seen"})[:9])
     assert list(load(file).courses) == [1]

@@ -316,7 +316,7 @@ def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedSess
     until(arcade, Results)
     mat.arena.advance(0.3)
     assert mat.arena.clock() - max(mat.arena.ran) > 0.2
-    assert mat.trouble is None
+    assert mat.fault is None
 
 
 @pytest.mark.parametrize("again", one_in(2, [False, True]))
