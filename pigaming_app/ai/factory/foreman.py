@@ -44,9 +44,9 @@ class ForemanMind:
     waiting: int  # allocations in a row without a job
     anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since then
+    stuck_ticks: int  # ticks since then
     sought: int  # target to which `least` and `late` refer
-    least: float  # shortest remaining route so far, px
+    closest: float  # shortest remaining route so far, px
     late: int  # ticks since then
     shunned: int  # slot that could not be reached
     shun: int  # ticks left of shunning it
@@ -80,7 +80,7 @@ def act(obs: Any, mind: Any, action: Any) -> None:
         choose_job(obs, mind)
     mind.resting -= PERIOD
     if obs.frozen or mind.resting > 0:
-        mind.held_up = 0
+        mind.stuck_ticks = 0
         set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.freeing > 0:

@@ -41,7 +41,7 @@ class Progress:
         self.measures: list[Measure] = []
         self.plan: list[Direction | None] = [None] * PETALS
         self.checkpoints: dict[int, Checkpoint] = {}
-        self.moment = TrainingState(training.look(), 0, training.matches, knowing(training))
+        self.moment = TrainingState(training.snapshot(), 0, training.matches, knowing(training))
         self._exam: Evaluation | None = None
         self._exam_start = -1.0  # matches at the start of the last evaluation
         self._exam_time = self._last_frame = self._last_direction = perf_counter()
@@ -77,7 +77,9 @@ class Progress:
         if now - self._last_frame >= PICTURE[fast]:
             self._last_frame = now
             training = self.training
-            self.moment = TrainingState(training.look(), self.moment.number + 1, training.matches, knowing(training))
+            self.moment = TrainingState(
+                training.snapshot(), self.moment.number + 1, training.matches, knowing(training)
+            )
         if now - self._last_direction >= PETAL:
             self._last_direction = now
             self.plan[self._sector] = direction(self.training.table, self._sector, self.training.recipe.cold)

@@ -147,7 +147,7 @@ class Lobby:
             for waiting in self.seats.waiting:
                 self.seats.places[waiting].ready = True
             return
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if seat is not None:
             self.seats.places[seat].ready = True
             self.context.sounds.play("ready", seat)
@@ -178,7 +178,7 @@ class Lobby:
     def _back(self, device: Device) -> StackOperation:
         """BACK: revoke readiness, then leave the seat, then return to the title."""
         self.context.sounds.play("back")
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if seat is None:
             return Pop()
         if self.seats.places[seat].ready:
@@ -189,7 +189,7 @@ class Lobby:
         return None
 
     def _leave(self, device: Device) -> None:
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if seat is not None:
             self.seats.leave(seat)
             self.context.sounds.play("back")
@@ -208,7 +208,7 @@ class Lobby:
         """Left and right select the device's own team if teams are on, up and down its robot if a mat is present; the
         remaining directions set the strength of the AIs.
         """
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if self.seats.mat and seat is not None and act in (Button.UP, Button.DOWN):
             self._swap(seat)
             return
@@ -237,7 +237,7 @@ class Lobby:
         self.context.sounds.play("move")
 
     def _unplugged(self, device: Device) -> None:
-        seat = self.seats.of(device)
+        seat = self.seats.seat_of(device)
         if seat is not None:
             self.seats.leave(seat)
             self._say(self.context.words("lobby.unplugged", player=seat + 1), "back")
@@ -281,7 +281,7 @@ class Lobby:
                 self.now.starting = self.now.countdown = COUNTDOWN_ALONE if alone else COUNTDOWN
 
     def _add_opponents(self) -> None:
-        for seat in self.seats.fill():
+        for seat in self.seats.add_opponents():
             self.now.seated[seat] = 0.0
 
     def _say(self, message: str, sound: str) -> None:

@@ -44,7 +44,7 @@ class Seats:
 
     # ---- queries
 
-    def of(self, device: Device) -> int | None:
+    def seat_of(self, device: Device) -> int | None:
         """The seat of a device, if any."""
         return next((i for i, place in enumerate(self.places) if place.device == device), None)
 
@@ -139,7 +139,7 @@ class Seats:
         for place in self.places:
             place.ready = False
 
-    def fill(self) -> list[int]:
+    def add_opponents(self) -> list[int]:
         """Add opponents for a single person, or for a pair without rivals: one AI, or all seats in team games. Returns
         the seats.
         """

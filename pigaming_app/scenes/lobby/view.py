@@ -65,7 +65,7 @@ class LobbyPage:
     @property
     def prompts(self) -> ButtonPrompts:
         """Prompts for the device used last, if it may act."""
-        seat = self.seats.of(self.access.voice)
+        seat = self.seats.seat_of(self.access.voice)
         full = not self.seats.of_kind(EMPTY)
         hints = [
             (Button.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
@@ -80,7 +80,7 @@ class LobbyPage:
     def invited(self) -> tuple[str, ...]:
         """Distinct labels of the buttons with which free devices can join: pads first, then keyboard clusters."""
         controls, words = self.context.controls, self.context.words
-        free = [device for device in controls.players() if self.seats.of(device) is None]
+        free = [device for device in controls.players() if self.seats.seat_of(device) is None]
         return tuple(dict.fromkeys(words.key_name(controls.label(device, Button.FIRE)) for device in free))
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:

@@ -159,7 +159,7 @@ def test_times_are_interpolated_within_the_tick():
     began = ride.state.tick
     tick_at(ride, 0, own + 6.0)
     racer = ride.racers[0]
-    assert racer.lap_began == pytest.approx(began - 1 + 0.25, abs=0.01)
+    assert racer.lap_start == pytest.approx(began - 1 + 0.25, abs=0.01)
     ride.along(0, own + 6.0, own + ride.course.length - 6.0)
     tick_at(ride, 0, own - 6.0)
     ended = ride.state.tick

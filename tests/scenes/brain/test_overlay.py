@@ -231,7 +231,7 @@ def test_bars_follow_wishes_and_do_not_jump(arcade: Arcade) -> None:
         seen.append(max(overlay.wishes.values()))
     steps = [b - a for a, b in pairwise(seen)]
     assert max(steps) < 0.2
-    assert overlay.wishes == pytest.approx(dict(overlay.thoughts.wishes), abs=0.01)
+    assert overlay.wishes == pytest.approx(dict(overlay.thoughts.utilities), abs=0.01)
 
 
 def test_brains_are_queried_a_few_times_a_second_and_never_within_a_tick(
@@ -284,4 +284,4 @@ def test_every_wish_of_every_brain_has_a_sign(arcade: Arcade) -> None:
             stage.advance(1 / 60)
         for seat in range(4):
             told = stage.match.brains[seat].explain(stage.match.state, seat)
-            assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in told.wishes)
+            assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in told.utilities)

@@ -99,10 +99,10 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
     assert [(place.kind, place.device, place.strength, place.ready) for place in page.seats.places] == before
     assert not page.seats.teams
     tap(arcade, guest, "start")
-    assert page.seats.of(device) == 2
+    assert page.seats.seat_of(device) == 2
     assert arcade.shown(Lobby) is page, "START of a free pad joins and does not begin"
     tap(arcade, guest, "b")
-    assert page.seats.of(device) is None
+    assert page.seats.seat_of(device) is None
     tap(arcade, guest, "b")
     assert arcade.shown(Lobby) is page
 

@@ -66,7 +66,7 @@ def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, ho
     arcade = Arcade(controls)  # type: ignore[arg-type]
     seats = Seats("normal")
     seats.join(KEYS[0])
-    seats.fill()
+    seats.add_opponents()
     page = MatchSetupPage(arcade.context, "pitanks", seats)
     arcade.open(page)
     arcade.wait(1.0)

@@ -129,7 +129,7 @@ def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: A
     rules = games()[game]
     seats = Seats(team_mode=rules.team_mode)
     seats.join(KEYS[0])
-    seats.fill()
+    seats.add_opponents()
     arcade.open(MatchSetupPage(arcade.context, game, seats))
     arcade.press(Button.DOWN)
     for button, last in ((Button.RIGHT, max(rules.goals)), (Button.LEFT, min(rules.goals))):

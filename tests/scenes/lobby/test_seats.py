@@ -38,9 +38,9 @@ def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
 def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
     seats = Seats(teams=True)
     seats.join(ANA)
-    assert seats.fill() == [1]
+    assert seats.add_opponents() == [1]
     assert seats.places[0].team != seats.places[1].team
-    assert seats.fill() == []
+    assert seats.add_opponents() == []
     assert not seats.one_team
 
 
@@ -94,10 +94,10 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
     seats = Seats(team_mode=PAIRS)
     assert [seats.join(ANA), seats.join(BEN)] == [0, 1]
     assert team_of(seats) == [0, 1]
-    assert not seats.fill(), "one against one is a match too"
+    assert not seats.add_opponents(), "one against one is a match too"
     seats.change_team(1)
     assert seats.one_team
-    assert seats.fill() == [2, 3], "a pair gets two opponents"
+    assert seats.add_opponents() == [2, 3], "a pair gets two opponents"
     assert team_of(seats) == [0, 0, 1, 1]
     assert [seat.team for seat in seats.seats()] == [0, 0, 1, 1]
 
@@ -105,7 +105,7 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
 def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
     seats = Seats(team_mode=PAIRS)
     seats.join(ANA)
-    assert seats.fill() == [1, 2, 3]
+    assert seats.add_opponents() == [1, 2, 3]
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
@@ -123,7 +123,7 @@ def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
 def test_in_a_race_everyone_drives_alone_against_three() -> None:
     seats = Seats(team_mode=ALONE, teams=True)
     seats.join(ANA)
-    assert seats.fill() == [1, 2, 3]
+    assert seats.add_opponents() == [1, 2, 3]
     assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]
     assert not seats.one_team
 

@@ -167,7 +167,7 @@ def test_a_machine_shows_how_far_it_is_and_whose_pallet_it_has(screen):
     pictures = {picture(screen, view, state, machine.x, machine.y, 80)}
     for p in (0, MAX_PALLETS):
         feed(state, p, 0, IN_MACHINE)
-        machine.keeps = p + 1
+        machine.reserved = p + 1
         for left in (290, 150, 20):
             machine.left = left
             pictures.add(picture(screen, view, state, machine.x, machine.y, 80))

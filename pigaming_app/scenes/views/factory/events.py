@@ -24,7 +24,7 @@ class FactoryEventDetector:
     def __init__(self, state: Factory) -> None:
         self._store(state)
 
-    def look(self, state: Factory) -> list[FactoryEvent]:
+    def detect(self, state: Factory) -> list[FactoryEvent]:
         """Events since the last call."""
         events = [*self._robots(state), *self._pallets(state)]
         self._store(state)

@@ -52,7 +52,7 @@ class PiTanksEventDetector:
     def __init__(self, state: PiTanks) -> None:
         self._store(state)
 
-    def look(self, state: PiTanks) -> list[PiTanksEvent]:
+    def detect(self, state: PiTanks) -> list[PiTanksEvent]:
         """Events since the last call."""
         events = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
         self._store(state)

@@ -53,7 +53,7 @@ class PiTanksView(MatchView):
             fresh = not was.alive
             self.shots[i] = (bullet.x - bullet.vx * DT, bullet.y - bullet.vy * DT) if fresh else (was.x, was.y)
             self.flying[i] = bullet.alive
-        events = self.detector.look(state)
+        events = self.detector.detect(state)
         for event in events:
             if event.kind == "fire" and event.player is not None:
                 self.flashed[event.player] = self.particles.clock

@@ -39,7 +39,7 @@ class RaceEventDetector:
         self.candidate, self.since = self.order, state.tick
         self._store(state)
 
-    def look(self, state: Race) -> list[RaceEvent]:
+    def detect(self, state: Race) -> list[RaceEvent]:
         """Events since the last call."""
         events = [event for seat in self.seats for event in self._racer(state, seat)]
         events += self._order(state)

@@ -62,7 +62,7 @@ class RaceView(MatchView):
     def watch(self, state: Race) -> list[SoundCue]:
         self.follow(state)
         self.cards.follow(state)
-        events = self.detector.look(state)
+        events = self.detector.detect(state)
         records = self.recorder.watch(state, events) if self.recorder else []
         golden = self.recorder.golden if self.recorder else {}
         for event in events:
