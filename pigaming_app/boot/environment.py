@@ -36,7 +36,7 @@ NO_VENV = (
 )
 NO_ROOM = "the disk is full: free about 1 GB and start again."
 OFFLINE = "{names} could not be fetched: connect this machine to the internet, this once, and start again."
-UNKNOWN = "{names} is not to be had: if this machine is online, use a Python from 3.11 to 3.14 (this is {python})."
+UNKNOWN = "no suitable version of {names} was found: if this machine is online, use a Python from 3.11 to 3.14 (this is {python})."
 CAUSES = (  # (pattern in the output of a tool, message); the first match applies
     (r"No space left|Errno 28|not enough space|Disk quota", NO_ROOM),
     (r"ensurepip is not|No module named (ensurepip|venv)", NO_VENV),
@@ -47,7 +47,7 @@ CAUSES = (  # (pattern in the output of a tool, message); the first match applie
 
 
 def prepare(needed: set[str], optional: set[str]) -> Path:
-    """An environment with the needed groups, and the optional ones if they can be installed. Raises Trouble.
+    """An environment with the needed groups, and the optional ones if they can be installed. Raises StartError.
 
     Waits while another process is installing.
     """
@@ -68,7 +68,7 @@ def prepare(needed: set[str], optional: set[str]) -> Path:
 
 
 def _claimed() -> tuple[Path, IO[str]]:
-    """The first writable place and its lock file, locked until it is closed or this process ends. Raises Trouble."""
+    """The first writable place and its lock file, locked until it is closed or this process ends. Raises StartError."""
     for place in environment_folders():
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
@@ -122,20 +122,20 @@ def works(place: Path) -> bool:
 
 
 def make(place: Path) -> None:
-    """Create an empty environment, replacing a broken one. Raises Trouble."""
+    """Create an empty environment, replacing a broken one. Raises StartError."""
     if not (importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip")):
         raise StartError(NO_VENV)
     if place.exists():
-        report(f"{place} is not whole, or its Python has gone; making it again.")
+        report(f"{place} is incomplete or its Python is missing; creating it again.")
     else:
-        report(f"first start: making {place}, for this program only.")
+        report(f"first start: creating {place}, for this program only.")
     code, output = _run([sys.executable, "-I", "-m", "venv", "--clear", str(place)])
     if code:
         raise StartError(_cause(output, place, []))
 
 
 def install(place: Path, groups: set[str]) -> None:
-    """Install the missing packages of these groups, and record the groups as complete. Raises Trouble."""
+    """Install the missing packages of these groups, and record the groups as complete. Raises StartError."""
     wanted = requirements(groups)
     try:
         (place / "ready").unlink(missing_ok=True)

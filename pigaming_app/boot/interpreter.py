@@ -26,7 +26,7 @@ def report(text: str) -> None:
 
 
 def requirements(groups: Iterable[str]) -> list[str]:
-    """The packages of these groups, as pyproject.toml lists them. Raises Trouble."""
+    """The packages of these groups, as pyproject.toml lists them. Raises StartError."""
     import tomllib
 
     try:

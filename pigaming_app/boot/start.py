@@ -54,7 +54,7 @@ def start(args: list[str]) -> int | None:
 
 
 def hand_over(place: Path, args: list[str]) -> int:
-    """Run main.py in an environment, replacing this process, or on Windows as its child. Raises Trouble."""
+    """Run main.py in an environment, replacing this process, or on Windows as its child. Raises StartError."""
     if both_pygames(packages([site_packages(place)])):
         report(f"{place} holds both pygame and pygame-ce, which overwrite each other: delete it and start again.")
     command = [str(python_of(place)), "-X", HANDED_OVER, str(ROOT / "main.py"), *args]
@@ -74,7 +74,7 @@ def hand_over(place: Path, args: list[str]) -> int:
 
 
 def environment(needed: set[str], optional: set[str]) -> Path | None:
-    """An environment with these groups, prepared if there is none; None: this Python has them. Raises Trouble."""
+    """An environment with these groups, prepared if there is none; None: this Python has them. Raises StartError."""
     groups = needed | optional
     place = next((place for place in environment_folders() if groups <= ready(place)), None)
     if place and sys.prefix == sys.base_prefix:

@@ -104,7 +104,7 @@ def _packages() -> Iterator[Line]:
 
 
 def requirements(group: str) -> list[str]:
-    """The packages of an extra, or of ARCADE, with their versions: `numba>=0.61,<1`. Raises Trouble."""
+    """The packages of an extra, or of ARCADE, with their versions: `numba>=0.61,<1`. Raises StartError."""
     if not INSTALLED:
         return listed([group])
     try:

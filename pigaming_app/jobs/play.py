@@ -181,7 +181,7 @@ def _headless(
 ) -> int:
     match = seated(setup, plant)
     if any(seat.brain == "human" for seat in setup.seats):
-        print("PiGaming: nobody can steer without a window; the human seat stands still", file=sys.stderr)
+        print("PiGaming: human seats need a window; without one their robots stand still", file=sys.stderr)
     began = perf_counter()
     photographer = Photographer(match, arguments.screenshot, arguments.at) if arguments.screenshot else None
     while not match.over:

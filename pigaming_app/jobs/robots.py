@@ -154,7 +154,7 @@ def _print(status: dict[str, Any]) -> None:
         devices = ", ".join(" ".join(str(part) for part in device.values()) for device in status[name])
         print(f"{name:9} {devices or 'none'}")
     for name in ("radio", "eyes"):
-        print(f"{name:9} {status.get(name) or 'well'}")
+        print(f"{name:9} {status.get(name) or 'ok'}")
     for robot in status["robots"]:
         print(f"robot {robot['robot']}   {_described(robot)}")
     for pair in status.get("pairing", ()):
@@ -168,7 +168,7 @@ def _print(status: dict[str, Any]) -> None:
 
 def _described(robot: dict[str, Any]) -> str:
     if not robot["heard"]:
-        return "not heard" + (", seen" if robot["seen"] else "")
+        return "no reports" + (", seen" if robot["seen"] else "")
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"
     echo = "" if robot["echo_ms"] is None else f", answers in {robot['echo_ms']} ms"
     where = f", seen at {robot['at'][0]:.0f}, {robot['at'][1]:.0f}" if robot["seen"] else ", not seen"

@@ -163,7 +163,7 @@ def _stops(stopped: dict[float, Future[dict[str, StopResult]]], note: Callable[[
         for name, run in _result(future, f"emergencies at {fps:.0f} fps").items():
             note(f"{name} at {fps:.0f} fps: motors stood after {1e3 * run.seconds:.0f} ms")
             if not run.reported:
-                raise Unproven(f"{name}: the game did not say what had happened")
+                raise Unproven(f"{name}: the fault was not reported")
             stops[f"{name} {fps}"] = run.seconds
     return stops
 
