@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
-from pigaming_app.ai import BRAINS, seated
+from pigaming_app.ai import BRAINS, new_match
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import ChoiceError, make_setup
@@ -18,13 +18,13 @@ from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import (
     DEFAULT_GAME,
     MATCH,
+    decimal,
     display,
     game_option,
     goal,
     mat_options,
     mat_settings,
     path,
-    real,
     shared,
 )
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
@@ -55,7 +55,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--record", type=path, metavar="FILE", help="write a replay")
     parser.add_argument("--screenshot", type=path, metavar="FILE", help="save a picture (PNG)")
     parser.add_argument(
-        "--at", type=real(0.0, 3600.0), metavar="SECONDS", default=5.0, help="time of the picture; default 5"
+        "--at", type=decimal(0.0, 3600.0), metavar="SECONDS", default=5.0, help="time of the picture; default 5"
     )
     parser.add_argument("--robots", type=path, metavar="FILE", help="simulate these measured robots (see fidelity)")
     parser.add_argument("--real", metavar="SEATS", help="seats with real robots, such as 1,3, or all")
@@ -179,7 +179,7 @@ def _headless(
     speed: float,
     plant: Callable[[Any], Plant],
 ) -> int:
-    match = seated(setup, plant)
+    match = new_match(setup, plant)
     if any(seat.brain == "human" for seat in setup.seats):
         print("PiGaming: human seats need a window; without one their robots stand still", file=sys.stderr)
     began = perf_counter()

@@ -180,15 +180,6 @@ def main(matches: int) -> int:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        prog="python -m tests.bench.makespan", description="Performance of the drivers of Robot Factory."
-    )
-    parser.add_argument(
-        "matches",
-        type=int,
-        nargs="?",
-        default=1000,
-        metavar="MATCHES",
-        help="matches of four hard drivers; default: 1000",
-    )
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.makespan", description=__doc__.splitlines()[0])
+    parser.add_argument("matches", type=int, nargs="?", default=1000, help="matches of four hard drivers (1000)")
     sys.exit(main(parser.parse_args().matches))

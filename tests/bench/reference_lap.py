@@ -215,11 +215,6 @@ def main(races: int) -> int:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        prog="python -m tests.bench.reference_lap",
-        description="Lap times of the drivers of Robot Race against the reference lap.",
-    )
-    parser.add_argument(
-        "races", type=int, nargs="?", default=1000, metavar="RACES", help="races of four drivers; default: 1000"
-    )
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.reference_lap", description=__doc__.splitlines()[0])
+    parser.add_argument("races", type=int, nargs="?", default=1000, help="races of four drivers (1000)")
     sys.exit(main(parser.parse_args().races))

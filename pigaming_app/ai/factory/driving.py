@@ -30,7 +30,7 @@ STUCK_DISTANCE = 16.0  # px; a smaller displacement within HELD_UP_TICKS counts 
 STUCK_TICKS = 45
 FREEING = 25  # ticks of backing out
 NEARER = 10.0  # px that count as progress towards a slot
-PATIENCE, SHUN = 8 * HZ, 12 * HZ  # ticks without progress before a slot is shunned, and ticks of shunning it
+PATIENCE, AVOID_TICKS = 8 * HZ, 12 * HZ  # ticks without progress before a slot is avoided, and ticks of avoiding it
 DETOUR = 4 * HZ  # ticks of a detour towards another slot
 
 
@@ -134,24 +134,25 @@ def free_gap(distance: float, bearing: float, clearance: float) -> float:
 
 @kernel
 def update_patience(obs: Any, mind: Any) -> None:
-    """Shun the target for SHUN ticks after PATIENCE ticks without progress, measured along the route.
+    """Avoid the target for AVOID_TICKS ticks after PATIENCE ticks without progress, measured along the route.
 
-    If that target fails again while it is shunned, for want of another, start a detour to approach from elsewhere.
+    If that target fails again while it is avoided, for want of another, start a detour to approach from elsewhere.
     """
     left = obs.goal_distance
     if not obs.straight:
         left = CELL * mind.senses.route.reach[node_at(obs.x, obs.y)]
-    if mind.near or mind.sought != mind.target:
-        mind.sought, mind.closest, mind.late = mind.target, 1e9, 0
+    if mind.near or mind.progress_target != mind.target:
+        mind.progress_target, mind.closest, mind.progress_ticks = mind.target, 1e9, 0
     if 0.0 < left < mind.closest - NEARER:
-        mind.closest, mind.late = left, 0
+        mind.closest, mind.progress_ticks = left, 0
     else:
-        mind.late += PERIOD
-    if mind.late <= PATIENCE:
+        mind.progress_ticks += PERIOD
+    if mind.progress_ticks <= PATIENCE:
         return
-    if mind.shun > 0 and mind.shunned == mind.target:
+    if mind.avoid_ticks > 0 and mind.avoided == mind.target:
         mind.detour, mind.via = DETOUR, int(uniform(mind) * SLOTS)
-    mind.shunned, mind.shun, mind.closest, mind.late, mind.plan_in = mind.target, SHUN, 1e9, 0, 0
+    mind.avoided, mind.avoid_ticks = mind.target, AVOID_TICKS
+    mind.closest, mind.progress_ticks, mind.plan_in = 1e9, 0, 0
 
 
 @kernel

@@ -22,7 +22,7 @@ from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import ROBOTS, World
 
-AT, FACING = 12.0, 0.10  # px and rad, tolerances of the goal pose
+POSITION_TOLERANCE, HEADING_TOLERANCE = 12.0, 0.10  # px and rad, tolerances of the goal pose
 SLOWEST, FASTEST = 45.0, 220.0  # px/s
 SLOWEST_TURN, FASTEST_TURN = 0.7, 2.2  # rad/s
 CORNER = 30.0  # px from a waypoint within which the robot heads for the next
@@ -93,7 +93,7 @@ class Homing:
             return HomingProgress(robot, goal, 1e9, pi, False, False)
         off, turn = distance(goal[:2], pose[:2]), abs(turn_to(goal[2] - pose[2]))
         slack = 2.0 if robot in self._home else 1.0
-        arrived = off < AT * slack and turn < FACING * slack
+        arrived = off < POSITION_TOLERANCE * slack and turn < HEADING_TOLERANCE * slack
         if arrived:
             self._forget(robot)
             self._home.add(robot)
@@ -145,8 +145,8 @@ class Homing:
         while len(path) > 1 and distance((x, y), path[0]) < CORNER:
             path.pop(0)
         remaining = distance((x, y), path[-1]) if len(path) == 1 else 1e9
-        if remaining < (AT if robot in self._arrived else AT - 4.0):
-            if distance(path[-1], goal[:2]) > AT:
+        if remaining < (POSITION_TOLERANCE if robot in self._arrived else POSITION_TOLERANCE - 4.0):
+            if distance(path[-1], goal[:2]) > POSITION_TOLERANCE:
                 del self._paths[robot]  # it has made room; plan from here to its goal
                 return REST
             self._arrived.add(robot)

@@ -50,7 +50,7 @@ class SafetyRule:
     """One row of the table: the response to a condition, for the robot or for everyone."""
 
     name: str  # text key: faults.NAME
-    bad: Callable[[Health], bool]
+    condition: Callable[[Health], bool]
     response: Response
     everyone: bool = False
     pauses: bool = False
@@ -142,11 +142,11 @@ class Safety:
         for rule in RULES:
             for robot in [None] if rule.everyone else real:
                 concerned = list(real) if robot is None else [robot]
-                bad = any(rule.bad(real[other]) for other in concerned)
+                active = any(rule.condition(real[other]) for other in concerned)
                 if rule.latched and robot is not None:
-                    self._latched |= {(rule, robot)} if bad else set()
-                    bad = (rule, robot) in self._latched
-                since = self._since(rule, robot, bad, now)
+                    self._latched |= {(rule, robot)} if active else set()
+                    active = (rule, robot) in self._latched
+                since = self._since(rule, robot, active, now)
                 if since is None:
                     continue
                 for other in real if rule.latched else concerned:
@@ -162,10 +162,10 @@ class Safety:
             if fault.pauses and not any(rule.latched for rule in RULES if rule.name == fault.name):
                 self._latched = {key for key in self._latched if fault.robot not in (None, key[1])}
 
-    def _since(self, rule: SafetyRule, robot: int | None, bad: bool, now: float) -> float | None:
+    def _since(self, rule: SafetyRule, robot: int | None, active: bool, now: float) -> float | None:
         """Start of a rule's present fault, s, or None. A rule that pauses outlasts its condition by CALM."""
         since, last = self._bad.get((rule, robot), (now, now))
-        if bad:
+        if active:
             self._bad[rule, robot] = since, now
             return since
         if (rule, robot) in self._bad and rule.pauses and now - last < CALM:

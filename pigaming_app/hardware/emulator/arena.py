@@ -41,7 +41,7 @@ class EmulatedArena:
     def __init__(
         self,
         seed: int = 1,
-        pace: FrameTiming | None = None,
+        timing: FrameTiming | None = None,
         channel: RadioChannel | None = None,
         refresh: int = 1,
         exposure_jitter: float = 0.0,
@@ -56,7 +56,9 @@ class EmulatedArena:
         ]
         self.firmwares = [Firmware(robot, i + 1) for i, robot in enumerate(self.robots)]
         self.radio = EmulatedRadio(self.firmwares, channel or RadioChannel(), self.clock, seed)
-        self.camera = EmulatedCamera(SceneRenderer(self.optics, seed, refresh), pace or FrameTiming(), self.clock, seed)
+        self.camera = EmulatedCamera(
+            SceneRenderer(self.optics, seed, refresh), timing or FrameTiming(), self.clock, seed
+        )
         self.faults = FaultInjector(self)
         self.gain = 1.0  # exposure
         self.cleared = False  # True if the robots are off the mat, out of view

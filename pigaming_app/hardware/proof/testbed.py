@@ -52,7 +52,7 @@ class Testbed:
             seed,
             False,
             lighting=self.lighting,
-            pace=FrameTiming(fps, DELAY, drops=drops),
+            timing=FrameTiming(fps, DELAY, drops=drops),
             channel=channel,
             exposure_jitter=EXPOSURE_JITTER,
             ground=ground,

@@ -35,7 +35,7 @@ class EmulatedSession:
 
     `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
-    `show`. `pace`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of camera and
+    `show`. `timing`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of camera and
     radio.
     """
 
@@ -47,7 +47,7 @@ class EmulatedSession:
         live: bool = True,
         projection: Callable[[], str | None] = lambda: None,
         lighting: "Lighting | None" = None,
-        pace: "FrameTiming | None" = None,
+        timing: "FrameTiming | None" = None,
         channel: "RadioChannel | None" = None,
         exposure_jitter: float = 0.0,
         ground: "GroundPlane | None" = None,
@@ -55,7 +55,7 @@ class EmulatedSession:
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
         self.mm = 0.0
-        self._pace, self._channel, self._exposure_jitter, self._tracker = pace, channel, exposure_jitter, tracker
+        self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._arena: EmulatedArena | None = None
         self._made = ground
         self._rig: Rig | None = None
@@ -197,7 +197,7 @@ class EmulatedSession:
 
         refresh = WHOLE if self.live else QUICK
         arena = EmulatedArena(
-            self.seed, self._pace or FrameTiming(FPS), self._channel or MODERATE, refresh, self._exposure_jitter
+            self.seed, self._timing or FrameTiming(FPS), self._channel or MODERATE, refresh, self._exposure_jitter
         )
         self._made = self._made or calibrated(arena)
         arena.project(np.zeros(DARK, np.uint8))  # until the window renders

@@ -11,7 +11,7 @@ import numpy as np
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.recordings import Floats, Recording, RobotRecording
-from pigaming_app.hardware.sysid.identify import identify, placed, shifted, track
+from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, twist
 from pigaming_app.sim.plant import SimPlant
 from pigaming_app.sim.robot import RADIUS
@@ -116,8 +116,8 @@ def predictions(course: RobotRecording, drivetrain: Drivetrain, horizon: float) 
         if middle - first < FEWEST or last <= middle or times[last - 1] < now + horizon - 0.1:
             continue
         only = np.array([0])  # a single piece
-        _, move = placed(there[first:middle], course.poses[first:middle], only)
-        predicted = shifted(there[first:last], only, move)[middle - first :]
+        _, move = fit_pieces(there[first:middle], course.poses[first:middle], only)
+        predicted = move_pieces(there[first:last], only, move)[middle - first :]
         ahead.append(Prediction(times[middle:last], course.poses[middle:last], predicted))
     return ahead
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Self
 
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, Clock
-from pigaming_app.hardware.vision.discovery import why_not
+from pigaming_app.hardware.vision.discovery import unavailable_reason
 from pigaming_app.hardware.vision.markers import opencv
 
 SETTLE = 2.0  # s after opening at which exposure, white balance, focus and gain are locked
@@ -96,7 +96,7 @@ class Camera:
             capture.release()
         except (self._cv.error, OSError):
             pass
-        self.fault = why_not(self.number)
+        self.fault = unavailable_reason(self.number)
         return None
 
     def _configure(self, capture: Any) -> None:

@@ -11,7 +11,7 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import NamedTuple, TypeVar
 
-from pigaming_app.ai import make
+from pigaming_app.ai import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -116,7 +116,7 @@ def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
     match = Match(setup, lambda world: RealPlant(world, bed.rig))
     for seat in range(ROBOTS):
         seed = ROBOTS * job.seed + seat
-        match.sit(seat, ButtonMasher(seed) if job.mashed else make(job.game, "normal", seed))
+        match.sit(seat, ButtonMasher(seed) if job.mashed else make_brain(job.game, "normal", seed))
         if job.carried:
             robot = match.state.robots[seat]
             bed.arena.place(seat, (robot.x, robot.y, robot.heading))

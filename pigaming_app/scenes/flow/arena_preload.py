@@ -2,7 +2,7 @@
 
 from contextlib import suppress
 
-from pigaming_app.ai import seated
+from pigaming_app.ai import new_match
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -26,4 +26,4 @@ def prepare(game: str, name: str) -> None:
     one, two, three, four = (Seat("hard", team) for team in rules.teams)
     setup = Setup(game, name, (one, two, three, four), rules.default_minutes, 1, rules.variants[0], rules.default_goal)
     with suppress(ArenaError):
-        seated(setup)
+        new_match(setup)

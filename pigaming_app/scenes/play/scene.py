@@ -13,7 +13,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai import make, seated
+from pigaming_app.ai import make_brain, new_match
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE, Access
@@ -63,7 +63,7 @@ class MatchScene:
         self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
-        self.match = seated(setup, plant)
+        self.match = new_match(setup, plant)
         self.runner = MatchRunner(context, self.match)
         self.count = Countdown(lead=LEAD)
         self.spot = CENTRE
@@ -300,7 +300,11 @@ class MatchScene:
         self.devices[seat] = device
         if device is None:
             self.helped.add(seat)
-        brain = HumanPlayer(lambda: self._read(seat, device)) if device else make(self.setup.game, STAND_IN, new_seed())
+        brain = (
+            HumanPlayer(lambda: self._read(seat, device))
+            if device
+            else make_brain(self.setup.game, STAND_IN, new_seed())
+        )
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else STAND_IN
 

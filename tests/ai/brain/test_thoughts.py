@@ -4,7 +4,7 @@ from math import isfinite, pi
 
 import pytest
 
-from pigaming_app.ai import BRAINS, make
+from pigaming_app.ai import BRAINS, make_brain
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
 from pigaming_app.ai.factory import foreman
@@ -45,7 +45,7 @@ def play(game: str, *brains: str, seed: int = 1, variant: str | None = None) -> 
     setup = Setup(game, "", (one, two, three, four), 2.0, seed, variant or rules.variants[0], rules.default_goal)
     match = Match(setup, arena=load(game))
     for seat, brain in enumerate(brains):
-        match.sit(seat, make(game, brain, seed * ROBOTS + seat))
+        match.sit(seat, make_brain(game, brain, seed * ROBOTS + seat))
     return match
 
 

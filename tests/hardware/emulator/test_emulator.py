@@ -177,7 +177,7 @@ def kept_pictures(arena):
 
 
 def test_an_arena_that_nobody_looks_at_keeps_a_handful_of_pictures():
-    arena = EmulatedArena(pace=FrameTiming(60.0, 0.06))
+    arena = EmulatedArena(timing=FrameTiming(60.0, 0.06))
     for _ in range(600):  # 10 s at 60 pictures/s, the camera closed
         arena.project(np.zeros((1, 1), np.uint8))
         arena.advance(1 / 60)
@@ -204,7 +204,7 @@ def test_however_fast_pictures_come_the_newest_is_shown():
 
 
 def test_after_a_long_time_closed_the_camera_gives_out_its_newest_picture():
-    arena = EmulatedArena(pace=FrameTiming(30.0, 0.06), refresh=1000)
+    arena = EmulatedArena(timing=FrameTiming(30.0, 0.06), refresh=1000)
     arena.project(np.zeros((1080, 1920), np.uint8))
     arena.advance(5.0)
     frame = arena.camera.newest()

@@ -11,7 +11,7 @@ from pigaming_app.hardware.recordings import Recording, RecordingError, Recordin
 from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, errors, measure, predictions, replay
 from pigaming_app.hardware.sysid.excitation import ExcitationPattern
-from pigaming_app.hardware.sysid.identify import identify, placed, shifted, track
+from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from tests.floor import floor
 from tests.hardware.mat import TRUE, Mat
@@ -59,8 +59,8 @@ def test_a_track_of_both_wheels_alike_is_straight_and_late():
 def test_a_piece_of_track_is_laid_over_what_was_seen():
     bend = np.linspace(0.0, 1.0, 20)
     there = np.column_stack([100.0 * np.sin(bend), 100.0 * (1.0 - np.cos(bend)), bend])
-    seen = shifted(there, np.array([0]), np.array([[300.0, 200.0, 0.7]]))
-    fitted, move = placed(there, seen, np.array([0]))
+    seen = move_pieces(there, np.array([0]), np.array([[300.0, 200.0, 0.7]]))
+    fitted, move = fit_pieces(there, seen, np.array([0]))
     assert move[0] == pytest.approx([300.0, 200.0, 0.7])
     assert fitted == pytest.approx(seen)
 

@@ -185,29 +185,31 @@ def test_cameras_are_listed_by_number_without_their_data_nodes(system):
 
 
 def test_no_such_camera_names_those_that_are_there(system):
-    assert sentence(cameras.why_not(5)) == "There is no camera 5: choose one of 0 (HD Webcam), 10 (Overhead)."
+    assert (
+        sentence(cameras.unavailable_reason(5)) == "There is no camera 5: choose one of 0 (HD Webcam), 10 (Overhead)."
+    )
 
 
 def test_no_camera_at_all(tmp_path, system, monkeypatch):
     monkeypatch.setattr(cameras, "DEVICES", tmp_path / "nothing")
-    assert sentence(cameras.why_not(0)) == "There is no camera 0: plug one in."
+    assert sentence(cameras.unavailable_reason(0)) == "There is no camera 0: plug one in."
 
 
 def test_no_permission_says_what_to_do(system, monkeypatch):
     (system / "dev" / "video0").write_text("")
     monkeypatch.setattr(os, "access", lambda *_: False)
-    assert "group video" in sentence(cameras.why_not(0))
+    assert "group video" in sentence(cameras.unavailable_reason(0))
 
 
 def test_a_busy_camera_is_said_to_be_busy(system):
     (system / "dev" / "video0").write_text("")
-    assert "close other camera programs" in sentence(cameras.why_not(0))
+    assert "close other camera programs" in sentence(cameras.unavailable_reason(0))
 
 
 def test_other_systems_get_one_sentence_too(monkeypatch):
     monkeypatch.setattr(cameras.sys, "platform", "win32")
     assert [known.number for known in cameras.cameras()] == [0, 1, 2]
-    assert sentence(cameras.why_not(1)).endswith(".")
+    assert sentence(cameras.unavailable_reason(1)).endswith(".")
 
 
 def test_without_opencv_there_is_one_sentence(monkeypatch):

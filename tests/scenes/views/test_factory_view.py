@@ -5,7 +5,7 @@ import math
 import pygame
 import pytest
 
-from pigaming_app.ai import seated
+from pigaming_app.ai import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (
@@ -52,7 +52,7 @@ def screen():
 def begun(floor="hall", goal=4, brains=("human",) * 4, teams=(ICE, FIRE, ICE, FIRE)):
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
     setup = Setup("factory", floor, (one, two, three, four), 5.0, 3, "standard", goal)
-    return seated(setup) if "hard" in brains else Match(setup)
+    return new_match(setup) if "hard" in brains else Match(setup)
 
 
 def seen(match, players=HUMANS, taste=None):
