@@ -53,7 +53,7 @@ class Mat:
         self.robots = [Robot(pose, train) for pose in poses]
         self.blind, self.fault, self.closed = False, None, False
         self.last_captured = 0.0
-        self.refused = {}
+        self.rejections = {}
         self.coming = deque()
         self.radio = [0, 1, 2, 3]  # channel of each robot
         self.past = deque()  # (s, poses) in transit through the camera

@@ -5,7 +5,7 @@ import pytest
 from pigaming_app.hardware.control.safety import CALM, RULES, Health, Response, Safety
 from pigaming_app.ui.i18n import Words
 
-GOOD = Health(picture=0.09, battery=5.0)
+GOOD = Health(picture_age=0.09, battery=5.0)
 
 
 def judged(sign, others=GOOD, now=1.0):
