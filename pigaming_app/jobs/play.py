@@ -37,7 +37,7 @@ from pigaming_app.storage.parsing import ParseError, describe_error, quote, read
 from pigaming_app.storage.safe_files import NotSaved, require_writable
 from pigaming_app.storage.settings import Settings, folders
 
-HELD_UP = 4.0  # s, timeout of the picture in a match delayed by real robots
+PICTURE_TIMEOUT = 4.0  # s, timeout of the picture in a match delayed by real robots
 FASTEST = 64.0  # times real time, maximum in a window
 SLOWEST_RATE, FASTEST_RATE = 0.01, 10_000.0  # times real time, limits of --speed
 WATCHED = 150  # ticks before a picture, for its shots, sparks and tread marks
@@ -273,7 +273,7 @@ def _on_screen(
         if scenes and not scenes[0].stuck:
             shot = bool(scenes[0].match.over or scenes[0].match.seconds >= arguments.at)
         else:
-            shot = perf_counter() - began > arguments.at + HELD_UP
+            shot = perf_counter() - began > arguments.at + PICTURE_TIMEOUT
         return shot
 
     def over() -> bool:

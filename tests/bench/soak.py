@@ -113,6 +113,6 @@ def memory() -> float:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(prog="python -m tests.bench.soak", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.soak", description="Soak test of the simulator.")
     parser.add_argument("hours", type=float, nargs="?", default=24.0, help="simulated hours (24)")
     sys.exit(main(parser.parse_args().hours))
