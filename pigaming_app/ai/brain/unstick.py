@@ -1,7 +1,7 @@
 """Stuck detection and recovery, and a recovery reflex for learned brains, which have neither.
 
-Minds that use `ticks_stuck`, `choose_escape` and `escape` need the fields `anchor_x`, `anchor_y`, `stuck_ticks`, `escape`,
-`escape_turn`, `since` and a random generator.
+Minds that use `ticks_stuck`, `choose_escape` and `escape` need the fields `anchor_x`, `anchor_y`, `stuck_ticks`,
+`escape`, `escape_turn`, `since` and a random generator.
 
 The reflex overrides a learned policy for a second when the robot pushes without moving. It is not part of the policy
 and is off during training and evaluation. It first drives towards the opponent round the walls; if that fails, it
