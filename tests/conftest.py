@@ -62,8 +62,10 @@ def _one_calibration(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]
     calibrated = emulated.calibrated
 
     def once(arena: Any) -> Any:
-        pace = arena.camera.pace
-        file = folder / f"ground-{arena.camera.painter._seed}-{pace.fps}-{pace.delay}-{arena._unrest}.pickle"
+        timing = arena.camera.timing
+        file = (
+            folder / f"ground-{arena.camera.painter._seed}-{timing.fps}-{timing.delay}-{arena._exposure_jitter}.pickle"
+        )
         if not file.exists():
             unfinished = file.with_suffix(f".{worker or 'new'}")
             unfinished.write_bytes(pickle.dumps(calibrated(arena)))

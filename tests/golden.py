@@ -12,7 +12,7 @@ import json
 import sys
 from pathlib import Path
 
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -61,7 +61,7 @@ def played(key: str) -> str:
     one, two, three, four = (Seat("random", team) for team in offered.teams)
     match = Match(Setup(game, arena, (one, two, three, four), 1.0, SEED, variant, offered.default_goal))
     for seat in range(4):
-        match.sit(seat, make(game, "random", SEED + seat))
+        match.sit(seat, make_brain(game, "random", SEED + seat))
     for _ in range(TICKS):
         match.tick()
     sha = hashlib.sha256(comparable_bytes(match.state))

@@ -19,7 +19,7 @@ from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
 from pigaming_app.games.factory import pedestrians as walker
@@ -108,7 +108,7 @@ def in_code(row):
     """The value of a row in the code. Raises KeyError for an unknown name."""
     root, _, path = row.name.partition(".")
     if root == "mind":
-        return attrgetter(path)(make(GAME_OF[row.first], row.column, 1).mind)
+        return attrgetter(path)(make_brain(GAME_OF[row.first], row.column, 1).mind)
     if root == "Variant":
         return attrgetter(path)(games()[GAME_OF[row.section]].default)
     if root in ("Rules", "Game"):
@@ -270,7 +270,7 @@ def test_classic_loses_to_an_opponent_that_stands_still_and_fires(seed):
 
     match = match_of("pitanks", "classic")
     match.sit(seed % 2, Camper())
-    match.sit(1 - seed % 2, make("pitanks", "classic", seed))
+    match.sit(1 - seed % 2, make_brain("pitanks", "classic", seed))
     while not match.over:
         match.tick()
     assert match.outcome().winners == (seed % 2,)

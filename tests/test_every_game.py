@@ -10,7 +10,7 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 import pytest
 
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.registry import BRAINS, make
+from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match
@@ -46,7 +46,7 @@ def company(game):
 def played(setup, brains=("random",) * 4):
     match = Match(setup)
     for seat, brain in enumerate(brains):
-        match.sit(seat, make(setup.game, brain, setup.seed * 4 + seat))
+        match.sit(seat, make_brain(setup.game, brain, setup.seed * 4 + seat))
     while not match.over:
         match.tick()
     return match
@@ -112,7 +112,7 @@ def test_a_batch_is_the_match_that_people_see(game):
 def test_every_number_of_every_view_is_finite(game, arena, teams):
     match = Match(setup(game, arena, teams=teams))
     for seat in range(4):
-        match.sit(seat, make(game, "random", seat))
+        match.sit(seat, make_brain(game, "random", seat))
     rules = games()[game]
     eyes, view = rules.senses(), rules.observation()
     while not match.over:
@@ -140,7 +140,7 @@ def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
     match = Match(setup(game, arena))
     scene = VIEWS[game](match.arena, match.state, ["easy", "random", "random", "random"], AllEffects())
     for seat in range(4):
-        match.sit(seat, make(game, "random", seat))
+        match.sit(seat, make_brain(game, "random", seat))
     screen.fill((1, 2, 3))
     blank = pygame.image.tobytes(screen, "RGB")
     for _ in range(100):

@@ -16,7 +16,7 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.qlearning.table_files import TableError
-from pigaming_app.ai.registry import seated
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games import arenas, replay
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.replay import ReplayError
@@ -177,7 +177,7 @@ def test_ghosts(tmp_path, caplog):
 
 
 def packed_replay(path):
-    match = seated(make_setup("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
+    match = new_match(make_setup("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
     while not match.over:
         match.tick()
     save_replay(match, path)

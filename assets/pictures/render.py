@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 sys.path.insert(0, str(ROOT))
 
-from pigaming_app.ai.registry import BRAINS, seated  # noqa: E402
+from pigaming_app.ai.registry import BRAINS, new_match  # noqa: E402
 from pigaming_app.games.setup import make_setup  # noqa: E402
 from pigaming_app.scenes.views.screenshot import Screenshot  # noqa: E402
 from pigaming_app.sim.world import HZ  # noqa: E402
@@ -35,7 +35,7 @@ def frames() -> Iterator[Image.Image]:
     """The frames of all clips, in order."""
     for game, arena, seed, first, last in CLIPS:
         setup = make_setup(game, ["hard"] * 4, arena, None, seed, None, None, list(BRAINS[game]), None)
-        match = seated(setup)
+        match = new_match(setup)
         camera = None
         while match.seconds < last:
             match.tick()

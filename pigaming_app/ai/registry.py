@@ -54,15 +54,15 @@ RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in 
 }
 
 
-def make(game: str, name: str, seed: int) -> BrainPlayer:
+def make_brain(game: str, name: str, seed: int) -> BrainPlayer:
     """A player with the brain `name` of `game`. Raises KeyError for unknown names."""
     return BrainPlayer(BRAINS[game][name], seed)
 
 
-def seated(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant) -> Match:
+def new_match(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant) -> Match:
     """A match with an AI player on every seat that names a brain; all other seats stay idle."""
     match = Match(setup, plant)
     for i, seat in enumerate(setup.seats):
         if seat.brain in BRAINS[setup.game]:
-            match.sit(i, make(setup.game, seat.brain, setup.seed * ROBOTS + i))
+            match.sit(i, make_brain(setup.game, seat.brain, setup.seed * ROBOTS + i))
     return match

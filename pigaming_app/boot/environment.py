@@ -19,10 +19,10 @@ from pigaming_app.boot.interpreter import (
     StartError,
     environment_folders,
     fingerprint,
+    installed_groups,
     is_missing,
     packages,
     python_of,
-    ready,
     report,
     requirements,
     site_packages,
@@ -36,7 +36,10 @@ NO_VENV = (
 )
 NO_ROOM = "the disk is full: free about 1 GB and start again."
 OFFLINE = "{names} could not be fetched: connect this machine to the internet, this once, and start again."
-UNKNOWN = "{names} is not to be had: if this machine is online, use a Python from 3.11 to 3.14 (this is {python})."
+UNKNOWN = (
+    "no suitable version of {names} was found: if this machine is online, "
+    "use a Python from 3.11 to 3.14 (this is {python})."
+)
 CAUSES = (  # (pattern in the output of a tool, message); the first match applies
     (r"No space left|Errno 28|not enough space|Disk quota", NO_ROOM),
     (r"ensurepip is not|No module named (ensurepip|venv)", NO_VENV),
@@ -47,17 +50,17 @@ CAUSES = (  # (pattern in the output of a tool, message); the first match applie
 
 
 def prepare(needed: set[str], optional: set[str]) -> Path:
-    """An environment with the needed groups, and the optional ones if they can be installed. Raises Trouble.
+    """An environment with the needed groups, and the optional ones if they can be installed. Raises StartError.
 
     Waits while another process is installing.
     """
     place, lock = _claimed()
     with lock:
-        if not works(place):
-            make(place)
-        if not needed <= ready(place):
-            install(place, needed | ready(place))
-        complete = ready(place)
+        if not is_usable(place):
+            create(place)
+        if not needed <= installed_groups(place):
+            install(place, needed | installed_groups(place))
+        complete = installed_groups(place)
         if not optional <= complete:
             try:
                 install(place, complete | optional)
@@ -68,7 +71,7 @@ def prepare(needed: set[str], optional: set[str]) -> Path:
 
 
 def _claimed() -> tuple[Path, IO[str]]:
-    """The first writable place and its lock file, locked until it is closed or this process ends. Raises Trouble."""
+    """The first writable place and its lock file, locked until it is closed or this process ends. Raises StartError."""
     for place in environment_folders():
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
@@ -110,7 +113,7 @@ def _locked(lock: IO[str]) -> bool:
     return True
 
 
-def works(place: Path) -> bool:
+def is_usable(place: Path) -> bool:
     """True if there is an environment with a Python that runs, is new enough and has pip."""
     if not python_of(place).exists():
         return False
@@ -121,21 +124,21 @@ def works(place: Path) -> bool:
     return _run([*python, "-m", "pip", "--version"])[0] == 0 or _run([*python, "-m", "ensurepip"])[0] == 0
 
 
-def make(place: Path) -> None:
-    """Create an empty environment, replacing a broken one. Raises Trouble."""
+def create(place: Path) -> None:
+    """Create an empty environment, replacing a broken one. Raises StartError."""
     if not (importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip")):
         raise StartError(NO_VENV)
     if place.exists():
-        report(f"{place} is not whole, or its Python has gone; making it again.")
+        report(f"{place} is incomplete or its Python is missing; creating it again.")
     else:
-        report(f"first start: making {place}, for this program only.")
+        report(f"first start: creating {place}, for this program only.")
     code, output = _run([sys.executable, "-I", "-m", "venv", "--clear", str(place)])
     if code:
         raise StartError(_cause(output, place, []))
 
 
 def install(place: Path, groups: set[str]) -> None:
-    """Install the missing packages of these groups, and record the groups as complete. Raises Trouble."""
+    """Install the missing packages of these groups, and record the groups as complete. Raises StartError."""
     wanted = requirements(groups)
     try:
         (place / "ready").unlink(missing_ok=True)

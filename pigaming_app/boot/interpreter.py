@@ -26,7 +26,7 @@ def report(text: str) -> None:
 
 
 def requirements(groups: Iterable[str]) -> list[str]:
-    """The packages of these groups, as pyproject.toml lists them. Raises Trouble."""
+    """The packages of these groups, as pyproject.toml lists them. Raises StartError."""
     import tomllib
 
     try:
@@ -64,7 +64,7 @@ def _numbers(text: str) -> list[int]:
     return [int(part) for part in match[0].split(".")] if match else []
 
 
-def both_pygames(installed: dict[str, str]) -> bool:
+def has_both_pygames(installed: dict[str, str]) -> bool:
     """True if both pygame and pygame-ce are installed; they overwrite each other's files."""
     return "pygame" in installed and "pygame-ce" in installed
 
@@ -95,7 +95,7 @@ def site_packages(place: Path) -> Path:
     return next(place.glob("lib/python3*/site-packages"), place / "lib")
 
 
-def ready(place: Path) -> set[str]:
+def installed_groups(place: Path) -> set[str]:
     """The groups that are complete; none if pyproject.toml or the base Python has changed since."""
     try:
         fingerprint_then, *groups = (place / "ready").read_text(encoding="utf-8").splitlines()

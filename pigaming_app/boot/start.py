@@ -13,12 +13,12 @@ from pigaming_app.boot.interpreter import (
     ROOT,
     WINDOWS,
     StartError,
-    both_pygames,
     environment_folders,
+    has_both_pygames,
+    installed_groups,
     is_missing,
     packages,
     python_of,
-    ready,
     report,
     requirements,
     site_packages,
@@ -54,8 +54,8 @@ def start(args: list[str]) -> int | None:
 
 
 def hand_over(place: Path, args: list[str]) -> int:
-    """Run main.py in an environment, replacing this process, or on Windows as its child. Raises Trouble."""
-    if both_pygames(packages([site_packages(place)])):
+    """Run main.py in an environment, replacing this process, or on Windows as its child. Raises StartError."""
+    if has_both_pygames(packages([site_packages(place)])):
         report(f"{place} holds both pygame and pygame-ce, which overwrite each other: delete it and start again.")
     command = [str(python_of(place)), "-X", HANDED_OVER, str(ROOT / "main.py"), *args]
     try:
@@ -74,17 +74,17 @@ def hand_over(place: Path, args: list[str]) -> int:
 
 
 def environment(needed: set[str], optional: set[str]) -> Path | None:
-    """An environment with these groups, prepared if there is none; None: this Python has them. Raises Trouble."""
+    """An environment with these groups, prepared if there is none; None: this Python has them. Raises StartError."""
     groups = needed | optional
-    place = next((place for place in environment_folders() if groups <= ready(place)), None)
+    place = next((place for place in environment_folders() if groups <= installed_groups(place)), None)
     if place and sys.prefix == sys.base_prefix:
         return place
     own = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
-    if not both_pygames(own) and not any(is_missing(own, requirement) for requirement in requirements(groups)):
+    if not has_both_pygames(own) and not any(is_missing(own, requirement) for requirement in requirements(groups)):
         return None
     if place:
         return place
-    if both_pygames(own):
+    if has_both_pygames(own):
         report(f"{sys.prefix} holds both pygame and pygame-ce, which overwrite each other: it is not used.")
     from pigaming_app.boot.environment import prepare
 

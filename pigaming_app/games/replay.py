@@ -133,9 +133,9 @@ def _decode(raw: bytes) -> Replay:
             raise ValueError("ticks")
         columns = zlib.decompressobj().decompress(packed, BYTES_PER_TICK * MAX_TICKS)
     except (KeyError, TypeError, ValueError, OverflowError, ArenaError, zlib.error) as error:
-        raise ReplayError(f"not a replay that makes sense ({type(error).__name__}: {printable(str(error))})") from None
+        raise ReplayError(f"not a valid replay ({type(error).__name__}: {printable(str(error))})") from None
     if len(columns) != count * BYTES_PER_TICK:
-        raise ReplayError("not a replay that makes sense (the number of ticks)")
+        raise ReplayError("not a valid replay (the number of ticks)")
     ticks = bytearray(len(columns))
     for i in range(BYTES_PER_TICK):
         ticks[i::BYTES_PER_TICK] = columns[i * count : (i + 1) * count]

@@ -70,7 +70,7 @@ def check_teams(rules: Game, variant: Variant, playing: Sequence[int]) -> None:
         raise ChoiceError(f"{rules.name} is played by two teams, 0 and 1, of at most two robots each")
 
 
-def require_one_of(what: str, name: str, choices: Sequence[str]) -> None:
-    """Raises ChoiceError, with the noun `what`, unless `name` is one of the choices."""
+def require_one_of(noun: str, name: str, choices: Sequence[str]) -> None:
+    """Raises ChoiceError, with the `noun`, unless `name` is one of the choices."""
     if name not in choices:
-        raise ChoiceError(f"no {what} '{name}'; there are {', '.join(choices)}")
+        raise ChoiceError(f"no {noun} '{name}'; there are {', '.join(choices)}")

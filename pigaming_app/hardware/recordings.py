@@ -70,18 +70,18 @@ class RecordingWriter:
         self._seq = 0
         self._write({"kind": "head", "format": FORMAT, "mm": mm, "emulated": emulated})
 
-    def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
+    def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
         """Record the commands of all robots, sent at `time` (s)."""
         self._seq += 1
         pairs = [pair and list(pair) for pair in wheels]
         self._write({"kind": "sent", "time": time, "seq": self._seq, "wheels": pairs})
 
-    def seen(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
+    def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
         """Record the fixes of a picture taken at `captured` and processed at `now` (s)."""
         raw = [[fix.robot, fix.x, fix.y, fix.heading] for fix in fixes]
         self._write({"kind": "seen", "captured": captured, "time": now, "fixes": raw})
 
-    def believed(self, now: float, sightings: Sequence[Sighting]) -> None:
+    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
         """Record the tracker's estimates."""
         self._write({"kind": "pose", "time": now, "poses": [list(sighting[:3]) for sighting in sightings]})
 

@@ -28,7 +28,7 @@ class CameraSource(Protocol):
     """A camera. Its health is judged by the age of its newest frame, not by the driver's status."""
 
     @property
-    def trouble(self) -> OperatorMessage | None:
+    def fault(self) -> OperatorMessage | None:
         """The present fault, or None."""
 
     def newest(self) -> CameraFrame | None:
@@ -67,7 +67,7 @@ class Telemetry(NamedTuple):
     robot: int
     battery: float  # V
     flags: int
-    heard: float  # s, when it was received
+    received: float  # s, when it was received
 
 
 class SerialPort(Protocol):

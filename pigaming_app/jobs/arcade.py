@@ -4,7 +4,7 @@ import argparse
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
-from pigaming_app.jobs.terminal.options import display, mat_options, mat_settings, shared, whole
+from pigaming_app.jobs.terminal.options import display, integer, mat_options, mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import refused, require
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ def options(parser: ArgumentParser) -> None:
     parser.usage = "%(prog)s [JOB] [OPTIONS]"
     shared(parser, "--kiosk", "--display")
     mat_options(parser)
-    parser.add_argument("--frames", type=whole(), help=argparse.SUPPRESS)
+    parser.add_argument("--frames", type=integer(), help=argparse.SUPPRESS)
 
 
 def run(arguments: Namespace) -> int:

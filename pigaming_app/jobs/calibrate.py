@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.jobs.arcade import show
-from pigaming_app.jobs.terminal.options import display, mat_settings, path, real, shared
+from pigaming_app.jobs.terminal.options import decimal, display, mat_settings, path, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.ui.i18n import all_languages
 
@@ -18,7 +18,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--robot", action="store_true", help="with --headless: camera height measured by a robot")
     parser.add_argument("--sheet", type=path, metavar="FILE", help="write the page of markers to print (PDF), no more")
     parser.add_argument(
-        "--edge", type=real(1.0, 1000.0), metavar="MM", default=50.0, help="edge of its markers; default 50"
+        "--edge", type=decimal(1.0, 1000.0), metavar="MM", default=50.0, help="edge of its markers; default 50"
     )
 
 

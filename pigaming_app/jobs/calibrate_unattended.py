@@ -36,7 +36,7 @@ class Operator:
     def __init__(self, seed: int, robot: bool = False) -> None:
         self.site, self.robot = EmulatedCalibrationSite(seed), robot
         canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-        canvas.watchers.append(lambda window: self.site.see(pixels_of(window)))
+        canvas.watchers.append(lambda window: self.site.project(pixels_of(window)))
         self.context = Context(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
         self.page = CalibrationPage(self.context, self.site)
         self.stack = Stack(self.page)

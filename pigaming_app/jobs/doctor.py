@@ -16,7 +16,7 @@ from importlib import metadata
 from pathlib import Path
 
 from pigaming_app import ASSETS, INSTALLED, ROOT
-from pigaming_app.boot.interpreter import ARCADE, StartError, both_pygames, is_missing, packages
+from pigaming_app.boot.interpreter import ARCADE, StartError, has_both_pygames, is_missing, packages
 from pigaming_app.boot.interpreter import requirements as listed
 from pigaming_app.jobs.terminal.options import shared
 from pigaming_app.jobs.terminal.refusal import remedy
@@ -97,14 +97,14 @@ def _packages() -> Iterator[Line]:
                 yield Line(name, "problem", f"{installed.get(name, 'missing')}, but {requirement} is needed", RESTART)
             else:
                 yield Line(name, "note", installed.get(name, "not installed"), _advice(group))
-    if both_pygames(installed):
+    if has_both_pygames(installed):
         yield Line(
             "pygame", "problem", "it is installed beside pygame-ce and they overwrite each other", "uninstall both"
         )
 
 
 def requirements(group: str) -> list[str]:
-    """The packages of an extra, or of ARCADE, with their versions: `numba>=0.61,<1`. Raises Trouble."""
+    """The packages of an extra, or of ARCADE, with their versions: `numba>=0.61,<1`. Raises StartError."""
     if not INSTALLED:
         return listed([group])
     try:
@@ -208,10 +208,10 @@ def _probed() -> dict[str, tuple[str, str]]:
 
 def _engine() -> Line:
     try:
-        from pigaming_app.ai.registry import seated
+        from pigaming_app.ai.registry import new_match
         from pigaming_app.games.setup import make_setup
 
-        match = seated(make_setup("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
+        match = new_match(make_setup("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
         for _ in range(50):
             match.tick()
     except Exception as error:  # a broken engine must not prevent the report

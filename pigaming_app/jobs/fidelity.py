@@ -8,9 +8,9 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, unfit
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
 from pigaming_app.jobs.sessions import new_session
-from pigaming_app.jobs.terminal.options import mat_settings, path, shared, whole
+from pigaming_app.jobs.terminal.options import integer, mat_settings, path, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.settings import Settings, folders
@@ -25,7 +25,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("step", choices=list(STEPS), help="in this order, on the same run")
     parser.add_argument("file", type=path, metavar="FILE", help="run (JSONL)")
     parser.add_argument(
-        "--seconds", type=whole(high=LONGEST), metavar="NUMBER", default=60, help="record: length; default 60"
+        "--seconds", type=integer(high=LONGEST), metavar="NUMBER", default=60, help="record: length; default 60"
     )
     parser.add_argument("--out", type=path, metavar="FILE", help="identify: drivetrains (TOML); default: the arcade's")
     parser.add_argument("--plots", type=path, metavar="FOLDER", help="identify: draw the errors (extra `plots`)")
@@ -52,7 +52,7 @@ def record(arguments: Namespace) -> dict[str, Any]:
     from pigaming_app.hardware.recordings import RecordingWriter
     from pigaming_app.storage.safe_files import require_writable
 
-    if arguments.emulate is None and (problem := unfit(Settings.load(folders().config)[0])):
+    if arguments.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
         raise Refusal(english().long_sentence(problem))
     require("hardware")
     require_writable(arguments.file)

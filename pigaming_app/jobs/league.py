@@ -39,7 +39,7 @@ def run(arguments: Namespace) -> int:
             arguments.arena,
             arguments.variant,
             goal=goal(arguments),
-            heard=_progress if sys.stderr.isatty() else None,
+            progress=_progress if sys.stderr.isatty() else None,
         )
     if sys.stderr.isatty():
         print(end="\r\x1b[K", file=sys.stderr)

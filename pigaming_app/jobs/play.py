@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
-from pigaming_app.ai.registry import BRAINS, seated
+from pigaming_app.ai.registry import BRAINS, new_match
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import ChoiceError, make_setup
@@ -18,13 +18,13 @@ from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import (
     DEFAULT_GAME,
     MATCH,
+    decimal,
     display,
     game_option,
     goal,
     mat_options,
     mat_settings,
     path,
-    real,
     shared,
 )
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
@@ -37,7 +37,7 @@ from pigaming_app.storage.parsing import ParseError, describe_error, quote, read
 from pigaming_app.storage.safe_files import NotSaved, require_writable
 from pigaming_app.storage.settings import Settings, folders
 
-HELD_UP = 4.0  # s, timeout of the picture in a match delayed by real robots
+PICTURE_TIMEOUT = 4.0  # s, timeout of the picture in a match delayed by real robots
 FASTEST = 64.0  # times real time, maximum in a window
 SLOWEST_RATE, FASTEST_RATE = 0.01, 10_000.0  # times real time, limits of --speed
 WATCHED = 150  # ticks before a picture, for its shots, sparks and tread marks
@@ -55,7 +55,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--record", type=path, metavar="FILE", help="write a replay")
     parser.add_argument("--screenshot", type=path, metavar="FILE", help="save a picture (PNG)")
     parser.add_argument(
-        "--at", type=real(0.0, 3600.0), metavar="SECONDS", default=5.0, help="time of the picture; default 5"
+        "--at", type=decimal(0.0, 3600.0), metavar="SECONDS", default=5.0, help="time of the picture; default 5"
     )
     parser.add_argument("--robots", type=path, metavar="FILE", help="simulate these measured robots (see fidelity)")
     parser.add_argument("--real", metavar="SEATS", help="seats with real robots, such as 1,3, or all")
@@ -151,12 +151,12 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
 
 def _check_radio(chosen: dict[str, Any]) -> None:
     """Raises Refusal for robots without a deadman, whether the command line or the settings name them."""
-    from pigaming_app.hardware.session.robot_session import unfit
+    from pigaming_app.hardware.session.robot_session import settings_problem
     from pigaming_app.ui.i18n import english
 
     settings, _ = Settings.load(folders().config)
     settings.radio = chosen.get("radio", settings.radio)
-    if reason := unfit(settings):
+    if reason := settings_problem(settings):
         raise Refusal(f"--radio: {english().long_sentence(reason)}")
 
 
@@ -179,9 +179,9 @@ def _headless(
     speed: float,
     plant: Callable[[Any], Plant],
 ) -> int:
-    match = seated(setup, plant)
+    match = new_match(setup, plant)
     if any(seat.brain == "human" for seat in setup.seats):
-        print("PiGaming: nobody can steer without a window; the human seat stands still", file=sys.stderr)
+        print("PiGaming: human seats need a window; without one their robots stand still", file=sys.stderr)
     began = perf_counter()
     photographer = Photographer(match, arguments.screenshot, arguments.at) if arguments.screenshot else None
     while not match.over:
@@ -273,7 +273,7 @@ def _on_screen(
         if scenes and not scenes[0].blocked:
             shot = bool(scenes[0].match.over or scenes[0].match.seconds >= arguments.at)
         else:
-            shot = perf_counter() - began > arguments.at + HELD_UP
+            shot = perf_counter() - began > arguments.at + PICTURE_TIMEOUT
         return shot
 
     def over() -> bool:

@@ -70,9 +70,9 @@ def look(arguments: Namespace) -> dict[str, Any]:
 
 def _radio_status(session: RobotSession) -> dict[str, Any]:
     """The status by radio alone."""
-    link = session.listen()
+    link = session.open_link()
     time.sleep(LISTEN)
-    return {"radio": _sentence(session.trouble), "robots": [_robot(link, i, i, None) for i in range(4)]}
+    return {"radio": _sentence(session.fault), "robots": [_robot(link, i, i, None) for i in range(4)]}
 
 
 def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
@@ -82,7 +82,7 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
         session.tick()
         rig.pump()
     seen = rig.sense()
-    status["radio"], status["eyes"] = _sentence(rig.link.trouble), _sentence(rig.camera.trouble)
+    status["radio"], status["eyes"] = _sentence(rig.link.fault), _sentence(rig.camera.fault)
     status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     movable = [i for i in range(4) if status["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
@@ -154,7 +154,7 @@ def _print(status: dict[str, Any]) -> None:
         devices = ", ".join(" ".join(str(part) for part in device.values()) for device in status[name])
         print(f"{name:9} {devices or 'none'}")
     for name in ("radio", "eyes"):
-        print(f"{name:9} {status.get(name) or 'well'}")
+        print(f"{name:9} {status.get(name) or 'ok'}")
     for robot in status["robots"]:
         print(f"robot {robot['robot']}   {_described(robot)}")
     for pair in status.get("pairing", ()):
@@ -168,7 +168,7 @@ def _print(status: dict[str, Any]) -> None:
 
 def _described(robot: dict[str, Any]) -> str:
     if not robot["heard"]:
-        return "not heard" + (", seen" if robot["seen"] else "")
+        return "no reports" + (", seen" if robot["seen"] else "")
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"
     echo = "" if robot["echo_ms"] is None else f", answers in {robot['echo_ms']} ms"
     where = f", seen at {robot['at'][0]:.0f}, {robot['at'][1]:.0f}" if robot["seen"] else ", not seen"

@@ -3,14 +3,14 @@
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.storage.settings import Settings, folders
 
-UNREST = 0.15  # size of the exposure steps of the emulated camera, as a share
+EXPOSURE_JITTER = 0.15  # size of the exposure steps of the emulated camera, as a share
 
 
 def emulated_session(seed: int) -> RobotSession:
     """A session with the emulated arena of a seed, with all robots found. Raises RobotsUnavailable."""
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
-    session = EmulatedSession(seed, live=False, unrest=UNREST)
+    session = EmulatedSession(seed, live=False, exposure_jitter=EXPOSURE_JITTER)
     session.open()  # raises RobotsUnavailable without OpenCV, before Lighting needs it
     from pigaming_app.hardware.session.lighting import Lighting
 

@@ -22,7 +22,7 @@ from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_one_of
-from pigaming_app.jobs.terminal.options import game_option, path, real, shared, whole
+from pigaming_app.jobs.terminal.options import decimal, game_option, integer, path, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.scenes.files import load_table, save_table
 from pigaming_app.sim.arena import ArenaError
@@ -52,11 +52,11 @@ class Point(NamedTuple):
 def options(parser: ArgumentParser) -> None:
     parser.add_argument("learner", choices=["qlearning"], help="a table, for pitanks only")
     game_option(parser)
-    parser.add_argument("--reward", type=whole(), default=1, choices=[1, 2], help="published reward; default 1")
+    parser.add_argument("--reward", type=integer(), default=1, choices=[1, 2], help="published reward; default 1")
     parser.add_argument(
-        "--matches", type=whole(), metavar="NUMBER", default=200, help="matches of self-play; default 200"
+        "--matches", type=integer(), metavar="NUMBER", default=200, help="matches of self-play; default 200"
     )
-    parser.add_argument("--minutes", type=real(0.0, 3600.0), default=2.0, help="length of a match; default 2")
+    parser.add_argument("--minutes", type=decimal(0.0, 3600.0), default=2.0, help="length of a match; default 2")
     shared(parser, "--seed", "--json")
     parser.add_argument("--arena", default="classic", help="name, or path of a .toml file; default classic")
     parser.add_argument("--out", type=path, metavar="FILE", required=True, help="table (.npz)")

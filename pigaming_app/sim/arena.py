@@ -101,7 +101,7 @@ def build(world: World, arena: Arena) -> None:
     block_rim(world)
     for wall, spec in zip(world.walls, arena.walls, strict=False):
         wall.ax, wall.ay, wall.bx, wall.by = spec.ax, spec.ay, spec.bx, spec.by
-        wall.half, wall.health, wall.whole = spec.half, spec.health, spec.health
+        wall.half, wall.health, wall.initial_health = spec.half, spec.health, spec.health
         edge = spec.half + RADIUS
         wall.left, wall.right = min(spec.ax, spec.bx) - edge, max(spec.ax, spec.bx) + edge
         wall.top, wall.bottom = min(spec.ay, spec.by) - edge, max(spec.ay, spec.by) + edge

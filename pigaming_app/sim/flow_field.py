@@ -21,11 +21,11 @@ LOOK = 7  # lookahead down the field, nodes
 class Route:
     """A robot's goal and the flow field towards it."""
 
-    wanted: int  # 0: no goal
+    active: int  # 0: no goal
     goal_x: float
     goal_y: float
-    way_x: float  # the point to drive to now
-    way_y: float
+    waypoint_x: float  # the point to drive to now
+    waypoint_y: float
     straight: int  # 1: it is the goal itself
     root: int  # the node from which the field was built; 0: there is no field
     walls: int  # number of walls standing at that time
@@ -121,8 +121,8 @@ def descend(route: Any, node: int) -> int:
 @kernel
 def update_route(world: Any, route: Any, x: float, y: float) -> None:
     """Set the waypoint for a robot at (x, y), along its route."""
-    route.way_x, route.way_y, route.straight = route.goal_x, route.goal_y, 1
-    if not route.wanted or is_clear(world, x, y, route.goal_x, route.goal_y, RADIUS + 1.0):
+    route.waypoint_x, route.waypoint_y, route.straight = route.goal_x, route.goal_y, 1
+    if not route.active or is_clear(world, x, y, route.goal_x, route.goal_y, RADIUS + 1.0):
         return
     root = free_node(world, route.goal_x, route.goal_y)
     node = free_node(world, x, y)
@@ -138,13 +138,13 @@ def update_route(world: Any, route: Any, x: float, y: float) -> None:
         if route.reach[node] == 0:  # unreachable: keep the straight line
             return
     route.straight = 0
-    route.way_x, route.way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
+    route.waypoint_x, route.waypoint_y = node % COLUMNS * CELL, node // COLUMNS * CELL
     for _ in range(LOOK):
         node = descend(route, node)
-        way_x, way_y = node % COLUMNS * CELL, node // COLUMNS * CELL
-        if not is_clear(world, x, y, way_x, way_y, RADIUS + 1.0):
+        waypoint_x, waypoint_y = node % COLUMNS * CELL, node // COLUMNS * CELL
+        if not is_clear(world, x, y, waypoint_x, waypoint_y, RADIUS + 1.0):
             return
-        route.way_x, route.way_y = way_x, way_y
+        route.waypoint_x, route.waypoint_y = waypoint_x, waypoint_y
         if node == route.root:
             return
 

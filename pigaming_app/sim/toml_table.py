@@ -76,7 +76,7 @@ class TomlTable:
         """A number from `low` to `high`. Raises FieldError."""
         value = self.entries.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e6:
-            raise self.error(key, f"{quote(value)} is not a number that makes sense here")
+            raise self.error(key, f"{quote(value)} is not a number between -1e6 and 1e6")
         if not low <= value <= high:
             raise self.error(key, f"{value:g}{unit}, but {low:g} to {high:g} are possible")
         return float(value)

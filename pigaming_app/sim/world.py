@@ -44,7 +44,7 @@ class Wall:
     by: float
     half: float
     health: int  # bullets it still takes; SOLID: indestructible; 0: gone
-    whole: int  # initial health
+    initial_health: int  # SOLID: indestructible
     left: float  # bounding box, expanded by a robot's radius
     right: float
     top: float

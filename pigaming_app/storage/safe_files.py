@@ -118,10 +118,10 @@ def read_or_restore(path: Path, parse: Callable[[str], T], limit: int = MAX_BYTE
     try:
         restored = parse(read_text(backup, limit))
     except (OSError, ValueError):
-        return None, [f"{message}; starting afresh."]
+        return None, [f"{message}; there is no usable backup."]
     with contextlib.suppress(OSError):
         _replace(path, read(backup, MAX_BACKUP))
-    return restored, [f"{message}; the version before it is back."]
+    return restored, [f"{message}; the previous version was restored."]
 
 
 def delete_temporary_files(*folders: Path) -> None:

@@ -243,7 +243,8 @@ def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str
             problems.append(f"{path}: {one_line(game, MAX_NAME)} is not a table; it is ignored.")
         elif len(game) > MAX_NAME or (game not in settings.games and len(settings.games) >= MAX_GAMES):
             problems.append(
-                f"{path}: games.{one_line(game, MAX_NAME)} is one game too many, or its name is; it is ignored."
+                f"{path}: games.{one_line(game, MAX_NAME)} is ignored: "
+                f"at most {MAX_GAMES} games are kept, with names of at most {MAX_NAME} characters."
             )
         else:
             problems += _fill(settings.choice(game), entries, f"{path}: games.{one_line(game, MAX_NAME)}.")

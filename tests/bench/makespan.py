@@ -16,6 +16,7 @@ least the first pallet's route to a machine A, the work of the two machines A on
 pallet's route through a machine B to the exit.
 """
 
+import argparse
 import sys
 from collections.abc import Iterator
 from itertools import product
@@ -179,4 +180,6 @@ def main(matches: int) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.makespan", description=__doc__.splitlines()[0])
+    parser.add_argument("matches", type=int, nargs="?", default=1000, help="matches of four hard drivers (1000)")
+    sys.exit(main(parser.parse_args().matches))

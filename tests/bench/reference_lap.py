@@ -14,6 +14,7 @@ A driver's ratio is the reference over the mean of its flying laps, alone on the
 empty, so that both have the same limits. With turbo, printed beside it, a driver may be faster than the reference.
 """
 
+import argparse
 import sys
 from collections import deque
 from math import atan2, cos, pi, sin
@@ -214,4 +215,6 @@ def main(races: int) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000))
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.reference_lap", description=__doc__.splitlines()[0])
+    parser.add_argument("races", type=int, nargs="?", default=1000, help="races of four drivers (1000)")
+    sys.exit(main(parser.parse_args().races))

@@ -4,6 +4,7 @@ The hours are shared among the games, and every simulated second of every match 
 and the invariants of the game. Then 10,000 plain matches are created and played briefly: memory must stay flat.
 """
 
+import argparse
 import resource
 import sys
 from collections.abc import Callable, Iterator
@@ -112,4 +113,6 @@ def memory() -> float:
 
 
 if __name__ == "__main__":
-    sys.exit(main(float(sys.argv[1]) if len(sys.argv) > 1 else 24.0))
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.soak", description="Soak test of the simulator.")
+    parser.add_argument("hours", type=float, nargs="?", default=24.0, help="simulated hours (24)")
+    sys.exit(main(parser.parse_args().hours))

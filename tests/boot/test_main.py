@@ -195,7 +195,7 @@ def test_other_requirements_are_installed_when_the_list_has_changed(furnished):
 @pytest.mark.long
 def test_offline_the_remedy_is_reported_and_nothing_is_lost(clone):
     offline = {"PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull, "PIP_NO_CACHE_DIR": "1"}
-    assert "is not to be had: if this machine is online" in refused(started(clone, "doctor", **offline))
+    assert "was found: if this machine is online" in refused(started(clone, "doctor", **offline))
     again = started(clone, "doctor", **offline)
     assert "first start" not in again.stderr  # the environment itself is there already
 
@@ -203,7 +203,7 @@ def test_offline_the_remedy_is_reported_and_nothing_is_lost(clone):
 def test_without_the_venv_module_its_package_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr(install.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(interpreter.StartError, match="apt install python3-venv"):
-        install.make(tmp_path / "venv")
+        install.create(tmp_path / "venv")
 
 
 def test_a_full_disk_is_reported(furnished):
@@ -256,7 +256,7 @@ def test_a_disk_that_fills_up_under_the_stamp_leaves_the_groups_uninstalled(furn
     place = furnished / ".venv"
     monkeypatch.setattr(interpreter, "PROJECT", furnished / "pyproject.toml")
     install.install(place, {interpreter.ARCADE})
-    assert interpreter.ready(place) == {interpreter.ARCADE}
+    assert interpreter.installed_groups(place) == {interpreter.ARCADE}
 
     def full(descriptor):
         raise OSError(errno.ENOSPC, "No space left on device")
@@ -264,23 +264,23 @@ def test_a_disk_that_fills_up_under_the_stamp_leaves_the_groups_uninstalled(furn
     monkeypatch.setattr(install.os, "fsync", full)
     with pytest.raises(interpreter.StartError, match="the disk is full"):
         install.install(place, {interpreter.ARCADE, "train"})
-    assert interpreter.ready(place) == set()
+    assert interpreter.installed_groups(place) == set()
 
 
 def test_an_environment_whose_python_has_gone_does_not_work(furnished):
     place = furnished / ".venv"
     started(furnished)
-    assert install.works(place)
+    assert install.is_usable(place)
     interpreter.python_of(place).unlink()
     interpreter.python_of(place).symlink_to("/nowhere/python3.11")
-    assert not install.works(place)
-    assert interpreter.ready(place) == set()
+    assert not install.is_usable(place)
+    assert interpreter.installed_groups(place) == set()
 
 
 def test_an_environment_left_half_made_does_not_work(tmp_path):
     venv.create(tmp_path, symlinks=os.name != "nt")
     shutil.rmtree(tmp_path / "lib")
-    assert not install.works(tmp_path)
+    assert not install.is_usable(tmp_path)
 
 
 def test_another_base_python_of_an_environment_is_detected(furnished):

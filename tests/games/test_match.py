@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import IdlePlayer, Match
 from pigaming_app.sim.action import set_action
@@ -123,7 +123,7 @@ def test_the_table_counts_what_the_game_counts():
 def test_the_series_tells_every_change_and_ends_at_the_score():
     match = Match(setup(minutes=0.5))
     for seat in range(4):
-        match.sit(seat, make("pitanks", "hard", seat))
+        match.sit(seat, make_brain("pitanks", "hard", seat))
     while not match.over:
         match.tick()
     outcome = match.outcome()

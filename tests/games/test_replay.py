@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games import replay as replays
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -24,7 +24,7 @@ def played(minutes, brains=BRAINS, arena="classic"):
     match = Match(Setup("pitanks", arena, (one, two, three, four), minutes, 42, "pickups"))
     for seat, brain in enumerate(brains):
         if brain != "off":
-            match.sit(seat, make("pitanks", brain, seat))
+            match.sit(seat, make_brain("pitanks", brain, seat))
     while not match.over:
         match.tick()
     return match

@@ -29,7 +29,7 @@ class Robot:
         self.train = train
         self.command = None
         self.linear = self.angular = 0.0
-        self.seen, self.doubled, self.battery, self.heard = 0.0, False, 5.0, 0.0
+        self.seen, self.duplicate, self.battery, self.received = 0.0, False, 5.0, 0.0
         self.hidden = self.silent = False
 
     def roll(self):
@@ -51,9 +51,9 @@ class Mat:
     def __init__(self, poses=STARTS, train=TRUE):
         self.now = 0.0
         self.robots = [Robot(pose, train) for pose in poses]
-        self.blind, self.trouble, self.closed = False, None, False
-        self.looked = 0.0
-        self.refused = {}
+        self.blind, self.fault, self.closed = False, None, False
+        self.last_captured = 0.0
+        self.rejections = {}
         self.coming = deque()
         self.radio = [0, 1, 2, 3]  # channel of each robot
         self.past = deque()  # (s, poses) in transit through the camera
@@ -75,8 +75,8 @@ class Mat:
                 if not self.blind and not robot.hidden:
                     robot.seen = self.now
                 if not robot.silent:
-                    robot.heard = self.now
-            self.looked = self.looked if self.blind else self.now
+                    robot.received = self.now
+            self.last_captured = self.last_captured if self.blind else self.now
 
             self.past.append((self.now, [(robot.x, robot.y, robot.heading) for robot in self.robots]))
 
@@ -93,10 +93,10 @@ class Mat:
         self.closed = True
 
     # tracker
-    def sent(self, time, twists):
+    def record_commands(self, time, twists):
         pass
 
-    def see(self, frame):
+    def process(self, frame):
         return [Fix(i, *pose, frame.captured) for i, pose in enumerate(self.past[0][1])]
 
     def sense(self, now):
@@ -114,16 +114,16 @@ class Mat:
     def predict(self, now, ahead):
         return self.sense(now), [self.sense(now + more)[i] for i, more in enumerate(ahead)]
 
-    def doubled(self):
-        return {i for i, robot in enumerate(self.robots) if robot.doubled}
+    def duplicates(self):
+        return {i for i, robot in enumerate(self.robots) if robot.duplicate}
 
-    def wear(self, robot):
+    def wheel_correction(self, robot):
         return IDEAL
 
     # link
     @property
     def telemetry(self):
-        return {i: Telemetry(i, robot.battery, 0, robot.heard) for i, robot in enumerate(self.robots)}
+        return {i: Telemetry(i, robot.battery, 0, robot.received) for i, robot in enumerate(self.robots)}
 
     def send(self, wheels):
         self.coming.append((self.now + TRUE.dead_time, tuple(wheels)))

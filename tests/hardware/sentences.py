@@ -11,9 +11,9 @@ from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.ui.i18n import english
 
 
-def sentence(trouble: Any) -> str:
+def sentence(fault: Any) -> str:
     """The text of an OperatorMessage or OperatorError."""
-    return english().long_sentence(trouble.message if isinstance(trouble, OperatorError) else trouble)
+    return english().long_sentence(fault.message if isinstance(fault, OperatorError) else fault)
 
 
 @contextmanager

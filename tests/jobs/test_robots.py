@@ -32,7 +32,7 @@ def test_without_hardware_everything_that_is_missing_is_said(capsys):
     assert found["eyes"]
     assert [one["heard"] for one in found["robots"]] == [False] * 4
     assert main(["robots", "--port", "/dev/nowhere"]) == 0
-    assert "robot 1   not heard" in capsys.readouterr().out
+    assert "robot 1   no reports" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("wish", ["--pair", "--latency"])

@@ -26,7 +26,7 @@ class Operated(Arcade):
         self.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         self.site = site
         if isinstance(site, EmulatedCalibrationSite):
-            self.context.canvas.watchers.append(lambda window: site.see(pixels_of(window)))
+            self.context.canvas.watchers.append(lambda window: site.project(pixels_of(window)))
 
     def picture(self, covered: bool = False) -> None:
         """Draw and project one picture; `covered`: a person blocks the light of the right half."""

@@ -19,7 +19,7 @@ U = [(600.0, 250.0, 1000.0, 250.0), (1000.0, 250.0, 1000.0, 650.0), (1000.0, 650
 
 def route(x, y):
     made = Route()
-    made.wanted, made.goal_x, made.goal_y = 1, x, y
+    made.active, made.goal_x, made.goal_y = 1, x, y
     return made
 
 
@@ -27,7 +27,7 @@ def follow(world, robot, to, seconds):
     """Follow the route to its goal; returns the time in s, or None if it was not reached."""
     for tick in range(round(seconds * HZ)):
         update_route(world, to, robot.x, robot.y)
-        bearing = turn_to(atan2(to.way_y - robot.y, to.way_x - robot.x) - robot.heading)
+        bearing = turn_to(atan2(to.waypoint_y - robot.y, to.waypoint_x - robot.x) - robot.heading)
         robot.requested_angular = max(-3.0, min(3.0, 6.0 * bearing))
         robot.requested_linear = 260.0 * max(0.0, cos(bearing)) ** 3
         drive(world)
@@ -39,7 +39,7 @@ def follow(world, robot, to, seconds):
 def test_on_an_empty_floor_the_way_is_the_goal_itself():
     to = route(1200.0, 700.0)
     update_route(floor(), to, 200.0, 200.0)
-    assert (to.way_x, to.way_y, to.straight) == (1200.0, 700.0, 1)
+    assert (to.waypoint_x, to.waypoint_y, to.straight) == (1200.0, 700.0, 1)
 
 
 def test_the_field_leads_out_of_a_u_and_round_it():
@@ -47,7 +47,7 @@ def test_the_field_leads_out_of_a_u_and_round_it():
     robot, to = world.robots[0], route(1200.0, 450.0)
     update_route(world, to, robot.x, robot.y)
     assert not to.straight
-    assert to.way_x < robot.x  # the goal is to the right, the way out to the left
+    assert to.waypoint_x < robot.x  # the goal is to the right, the way out to the left
     # out 300 px, over 240, and back 600: at least 1000 px, 4 s at full speed
     seconds = follow(world, robot, to, 12.0)
     assert seconds is not None
@@ -86,8 +86,8 @@ def test_the_way_is_always_one_that_the_robot_fits_through():
             if world.grid[row * COLUMNS + column] & BLOCKED:
                 continue
             update_route(world, to, x, y)
-            assert is_clear(world, x, y, to.way_x, to.way_y, 36.0)
-            assert not in_wall(world, to.way_x, to.way_y)
+            assert is_clear(world, x, y, to.waypoint_x, to.waypoint_y, 36.0)
+            assert not in_wall(world, to.waypoint_x, to.waypoint_y)
 
 
 def test_an_unreachable_goal_is_harmless():
@@ -95,7 +95,7 @@ def test_an_unreachable_goal_is_harmless():
     world = floor(walls=box, poses=[(200.0, 450.0, 0.0)])
     robot, to = world.robots[0], route(800.0, 450.0)
     assert follow(world, robot, to, 5.0) is None
-    assert (to.way_x, to.way_y) == (800.0, 450.0)
+    assert (to.waypoint_x, to.waypoint_y) == (800.0, 450.0)
     assert not in_wall(world, robot.x, robot.y)
 
 

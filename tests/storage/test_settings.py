@@ -48,7 +48,7 @@ def test_the_one_before_serves_when_the_last_is_broken(tmp_path):
     settings, problems = Settings.load(tmp_path)
     assert settings.language == "pt"
     assert "it is not text in UTF-8" in problems[0]
-    assert problems[0].endswith("the version before it is back.")
+    assert problems[0].endswith("the previous version was restored.")
     assert Settings.load(tmp_path) == (settings, [])
 
 

@@ -42,9 +42,9 @@ def follow(match: Any, seat: int, route: Any, period: int) -> None:
     """Set the action that follows `route` for the next `period` ticks."""
     robot = match.robots[seat]
     update_route(match, route, robot.x, robot.y)
-    dx, dy = route.way_x - robot.x, route.way_y - robot.y
+    dx, dy = route.waypoint_x - robot.x, route.waypoint_y - robot.y
     gap = sqrt(dx * dx + dy * dy)
-    angle, speed = approach(bearing(robot, route.way_x, route.way_y), gap)
+    angle, speed = approach(bearing(robot, route.waypoint_x, route.waypoint_y), gap)
     if route.straight and gap < 70.0:
         speed *= 0.3 + 0.7 * gap / 70.0
     set_action(match.actions[seat], speed, turn_stick(angle, robot.angular, match.rules.turn_rate, period), 0, 0)

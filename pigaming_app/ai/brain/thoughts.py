@@ -29,18 +29,18 @@ class Percept:
 class Thoughts:
     """Present reasoning of a brain.
 
-    `doing` and `because` are keys of the texts [brain]; `names` fill the placeholders in those texts.
+    `behaviour` and `reason` are keys of the texts [brain]; `names` fill the placeholders in those texts.
     """
 
-    doing: str
-    because: str = ""
+    behaviour: str
+    reason: str = ""
     names: Mapping[str, int | str] = field(default_factory=dict)
     facts: Mapping[str, float] = field(default_factory=dict)  # the variables behind the decision, by name
-    sights: Sequence[Percept] = ()
+    percepts: Sequence[Percept] = ()
     rose: Sequence[float] = (0.0,) * PETALS  # utility of each direction, -1..1, relative to the robot's heading
-    wishes: Mapping[str, float] = field(default_factory=dict)  # utility of each behaviour, 0..1
+    utilities: Mapping[str, float] = field(default_factory=dict)  # utility of each behaviour, 0..1
     moves: Mapping[MoveKey, float] = field(default_factory=dict)  # utility of each move, for brains that choose moves
-    chosen: str | MoveKey = ""  # a key of `wishes` or of `moves`
+    chosen: str | MoveKey = ""  # a key of `utilities` or of `moves`
 
 
 def clamp(value: float) -> float:

@@ -1,7 +1,7 @@
 """Stuck detection and recovery, and a recovery reflex for learned brains, which have neither.
 
-Minds that use `held_up`, `choose_escape` and `escape` need the fields `anchor_x`, `anchor_y`, `held_up`, `escape`,
-`escape_turn`, `since` and a random generator.
+Minds that use `ticks_stuck`, `choose_escape` and `escape` need the fields `anchor_x`, `anchor_y`, `stuck_ticks`,
+`escape`, `escape_turn`, `since` and a random generator.
 
 The reflex overrides a learned policy for a second when the robot pushes without moving. It is not part of the policy
 and is off during training and evaluation. It first drives towards the opponent round the walls; if that fails, it
@@ -28,19 +28,19 @@ WAITING = 5 * HZ  # ticks of standing without sight of the opponent until the re
 OVERRIDE = HZ  # ticks for which the reflex drives
 CLASSIC_PUSHING, CLASSIC_OVERRIDE = round(2.5 * HZ), 10  # PUSHING and OVERRIDE by the classic rules
 TOUCH = 2.0 * RADIUS + 6.0  # px between the centres of robots that push each other
-HELD_UP = 20.0  # px; a smaller displacement counts as stuck
+STUCK_DISTANCE = 20.0  # px; a smaller displacement counts as stuck
 FREEING = 20  # ticks of one attempt to back out
 
 
 @kernel
-def held_up(mind: Any, x: float, y: float, idle: bool, near: float, period: int) -> int:
+def ticks_stuck(mind: Any, x: float, y: float, idle: bool, near: float, period: int) -> int:
     """Ticks since a robot, now at (x, y), was last idle or moved more than `near` px; call every `period` ticks."""
     dx, dy = x - mind.anchor_x, y - mind.anchor_y
     if idle or dx * dx + dy * dy > near * near:
-        mind.held_up, mind.anchor_x, mind.anchor_y = 0, x, y
+        mind.stuck_ticks, mind.anchor_x, mind.anchor_y = 0, x, y
     else:
-        mind.held_up += period
-    return int(mind.held_up)
+        mind.stuck_ticks += period
+    return int(mind.stuck_ticks)
 
 
 @kernel
@@ -60,10 +60,10 @@ def escape(mind: Any, x: float, y: float, action: Any) -> int:
     if mind.since < FREEING:
         return 0
     dx, dy = x - mind.anchor_x, y - mind.anchor_y
-    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
+    if dx * dx + dy * dy < STUCK_DISTANCE * STUCK_DISTANCE:  # that way is blocked too
         mind.since, mind.escape, mind.escape_turn = 0, -mind.escape, 2.0 * uniform(mind) - 1.0
         return 0
-    mind.held_up, mind.anchor_x, mind.anchor_y = 0, x, y
+    mind.stuck_ticks, mind.anchor_x, mind.anchor_y = 0, x, y
     return 1
 
 
@@ -75,7 +75,7 @@ class Reflex:
     route: Route
     x: float  # position at the last progress, px
     y: float
-    held_up: int  # ticks of pushing since then
+    stuck_ticks: int  # ticks of pushing since then
     waited: int  # ticks of standing without sight of the opponent since then
     left: int  # ticks left of overriding
     tries: int  # overrides since the last progress
@@ -95,8 +95,8 @@ def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) 
     robot, action = match.robots[seat], match.actions[seat]
     update_reflex(match, robot, opponent, reflex, action, period)
     classic = not match.rules.turbo
-    if reflex.held_up >= (CLASSIC_PUSHING if classic else PUSHING) or reflex.waited >= WAITING:
-        reflex.left, reflex.held_up, reflex.waited = CLASSIC_OVERRIDE if classic else OVERRIDE, 0, 0
+    if reflex.stuck_ticks >= (CLASSIC_PUSHING if classic else PUSHING) or reflex.waited >= WAITING:
+        reflex.left, reflex.stuck_ticks, reflex.waited = CLASSIC_OVERRIDE if classic else OVERRIDE, 0, 0
         reflex.tries += 1
         reflex.stick = -1.0 if action.linear > 0.0 else 1.0
         reflex.turn = 0.0 if classic else 2.0 * uniform(mind) - 1.0
@@ -105,7 +105,7 @@ def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) 
     reflex.left -= period
     if reflex.tries % 2 and not classic:
         route, other = reflex.route, match.robots[opponent]
-        route.wanted, route.goal_x, route.goal_y = 1, other.x, other.y
+        route.active, route.goal_x, route.goal_y = 1, other.x, other.y
         follow(match, seat, route, period)
     else:
         set_action(action, reflex.stick, reflex.turn, 0, 0)
@@ -117,13 +117,13 @@ def update_reflex(match: Any, robot: Any, opponent: int, reflex: Any, action: An
     """Count the ticks of pushing against anything but the opponent, and of waiting without sight of the opponent."""
     dx, dy = robot.x - reflex.x, robot.y - reflex.y
     if dx * dx + dy * dy > PROGRESS * PROGRESS:
-        reflex.x, reflex.y, reflex.held_up, reflex.waited, reflex.tries = robot.x, robot.y, 0, 0, 0
+        reflex.x, reflex.y, reflex.stuck_ticks, reflex.waited, reflex.tries = robot.x, robot.y, 0, 0, 0
         return
     other = match.robots[opponent]
     dx, dy = other.x - robot.x, other.y - robot.y
     if reflex.left > 0 or dx * dx + dy * dy < TOUCH * TOUCH:
         return
     if action.linear != 0.0:
-        reflex.held_up += period
+        reflex.stuck_ticks += period
     elif match.rules.turbo and not is_clear(match, robot.x, robot.y, other.x, other.y, 0.0):
         reflex.waited += period

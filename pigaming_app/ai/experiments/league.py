@@ -21,8 +21,8 @@ from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
-MOST_MATCHES = 100_000  # in a duel; all are in memory at once
-WORTH_COMPILING = 300_000  # ticks; below this compiling takes longer than interpreted play
+MAX_MATCHES = 100_000  # in a duel; all are in memory at once
+MIN_COMPILED_MATCHES = 300_000  # ticks; below this compiling takes longer than interpreted play
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ def duel(
     In a game of two pairs each brain drives both robots of its team. `fast`: compiled; None: compiled if numba is
     installed and there are enough ticks to repay compiling.
     """
-    return meet(_setups(game, left, right, matches, seed, minutes, arena, variant, goal), left, right, fast)[0]
+    return play_duel(_setups(game, left, right, matches, seed, minutes, arena, variant, goal), left, right, fast)[0]
 
 
 def league(
@@ -101,11 +101,11 @@ def league(
     variant: str | None = None,
     fast: bool | None = None,
     goal: int | None = None,
-    heard: Callable[[int, int, str, str], None] | None = None,
+    progress: Callable[[int, int, str, str], None] | None = None,
 ) -> League:
     """Play a duel of `matches` matches between every two brains. Raises ChoiceError or ArenaError.
 
-    `heard(number, count, left, right)` is called before each duel; `number` counts from 0.
+    `progress(number, count, left, right)` is called before each duel; `number` counts from 0.
     """
     require_one_of("game", game, list(games()))
     check_brains(game, brains)
@@ -115,9 +115,9 @@ def league(
     for number, (i, j) in enumerate(pairs):
         left, right = brains[i], brains[j]
         setups = _setups(game, left, right, matches, seed, minutes, arena, variant, goal)
-        if heard:
-            heard(number, len(pairs), left, right)
-        result, ends = meet(setups, left, right, fast)
+        if progress:
+            progress(number, len(pairs), left, right)
+        result, ends = play_duel(setups, left, right, fast)
         duels.append(result)
         shares[i, j] = [_points(ends[k : k + 2]) for k in range(0, matches, 2)]
     rated = ratings(len(brains), shares, seed)
@@ -147,14 +147,14 @@ class Ending(NamedTuple):
     right_score: int
 
 
-def meet(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[Ending]]:
+def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[Ending]]:
     """Play these matches, every other one with the sides swapped; returns the duel and each match's end, in order."""
     game, matches = setups[0].game, len(setups)
     variant = games()[game].variants[setups[0].variant]
     brains = _line_up(variant, left, right)
     ticks = round((setups[0].minutes * 60 + variant.overtime) * HZ)
     if fast is None:
-        fast = can_compile() and matches * ticks > WORTH_COMPILING
+        fast = can_compile() and matches * ticks > MIN_COMPILED_MATCHES
     began = perf_counter()
     batches = [Batch(half, [BRAINS[game][name] for name in order], fast) for half, order in _both_ways(setups, brains)]
     for batch in batches:
@@ -195,8 +195,8 @@ def _setups(
 ) -> list[Setup]:
     """Setups of a duel, two per seed. Raises ChoiceError or ArenaError."""
     require_one_of("game", game, list(games()))
-    if not 1 <= matches <= MOST_MATCHES:
-        raise ChoiceError(f"--matches: {matches}; possible are 1 to {MOST_MATCHES}")
+    if not 1 <= matches <= MAX_MATCHES:
+        raise ChoiceError(f"--matches: {matches}; possible are 1 to {MAX_MATCHES}")
     variants = games()[game].variants
     variant = games()[game].default.name if variant is None else variant
     require_one_of("variant", variant, list(variants))

@@ -114,7 +114,7 @@ class Training:
         """Compile the loop now rather than on the first tick."""
         self.loop(self._matches, self._ones, self._twos, self._tables, 0)
 
-    def look(self) -> Any:
+    def snapshot(self) -> Any:
         """Snapshot of the match after the last `run`, read-only (in plain training: the match itself)."""
         return unpack(games()[GAME].state, self._seen[0]) if self.fast else self._seen[0]
 

@@ -7,7 +7,7 @@ from math import cos, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.steering import turn_stick
-from pigaming_app.ai.brain.unstick import choose_escape, held_up
+from pigaming_app.ai.brain.unstick import choose_escape, ticks_stuck
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import SLOTS, WORKERS
 from pigaming_app.sim.action import set_action
@@ -26,11 +26,11 @@ LOOKS, LEAN = 11, 0.32  # candidate directions around the route, and rad between
 ROBOT_ROOM = 78.0  # px between the centres of two passing robots
 PERSON_ROOM = 70.0  # px between the centres of a robot and a person it passes
 STOP = 96.0  # px; it never backs out towards a person nearer than this
-HELD_UP = 16.0  # px; a smaller displacement within HELD_UP_TICKS counts as stuck
-HELD_UP_TICKS = 45
+STUCK_DISTANCE = 16.0  # px; a smaller displacement within HELD_UP_TICKS counts as stuck
+STUCK_TICKS = 45
 FREEING = 25  # ticks of backing out
 NEARER = 10.0  # px that count as progress towards a slot
-PATIENCE, SHUN = 8 * HZ, 12 * HZ  # ticks without progress before a slot is shunned, and ticks of shunning it
+PATIENCE, AVOID_TICKS = 8 * HZ, 12 * HZ  # ticks without progress before a slot is avoided, and ticks of avoiding it
 DETOUR = 4 * HZ  # ticks of a detour towards another slot
 
 
@@ -38,8 +38,8 @@ DETOUR = 4 * HZ  # ticks of a detour towards another slot
 def drive_to(obs: Any, mind: Any, action: Any) -> None:
     """Drive to the target slot; once there, turn to it and use the fork."""
     slot, route = obs.slots[mind.target], mind.senses.route
-    moved = not route.wanted or route.goal_x != slot.x or route.goal_y != slot.y
-    route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
+    moved = not route.active or route.goal_x != slot.x or route.goal_y != slot.y
+    route.active, route.goal_x, route.goal_y = 1, slot.x, slot.y
     if moved:  # the next observation brings the new route
         set_action(action, 0.0, 0.0, 0, 0)
         return
@@ -62,7 +62,7 @@ def make_way(obs: Any, mind: Any, action: Any) -> None:
         if person.distance < nearest:
             nearest = person.distance
             speed = -0.6 if abs(person.bearing) < 1.57 else 0.6
-    mind.held_up = 0
+    mind.stuck_ticks = 0
     set_action(action, speed, 0.0, 0, 0)
 
 
@@ -84,12 +84,12 @@ def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
 @kernel
 def follow_route(obs: Any, mind: Any, action: Any) -> None:
     """Follow the route, or the free direction nearest to it if people or robots block it."""
-    bearing = obs.way_bearing
+    bearing = obs.waypoint_bearing
     free = False
     for i in range(LOOKS):
         lean = LEAN * ((i + 1) // 2)
         turn = bearing + (lean if i % 2 else -lean)  # right first, so robots that meet head-on both keep right
-        if free_distance(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.way_distance):
+        if free_distance(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.waypoint_distance):
             bearing, free = turn, True
             break
     ahead = free_distance(obs, 0.0, ROBOT_ROOM)
@@ -134,24 +134,25 @@ def free_gap(distance: float, bearing: float, clearance: float) -> float:
 
 @kernel
 def update_patience(obs: Any, mind: Any) -> None:
-    """Shun the target for SHUN ticks after PATIENCE ticks without progress, measured along the route.
+    """Avoid the target for AVOID_TICKS ticks after PATIENCE ticks without progress, measured along the route.
 
-    If that target fails again while it is shunned, for want of another, start a detour to approach from elsewhere.
+    If that target fails again while it is avoided, for want of another, start a detour to approach from elsewhere.
     """
     left = obs.goal_distance
     if not obs.straight:
         left = CELL * mind.senses.route.reach[node_at(obs.x, obs.y)]
-    if mind.near or mind.sought != mind.target:
-        mind.sought, mind.least, mind.late = mind.target, 1e9, 0
-    if 0.0 < left < mind.least - NEARER:
-        mind.least, mind.late = left, 0
+    if mind.near or mind.progress_target != mind.target:
+        mind.progress_target, mind.closest, mind.progress_ticks = mind.target, 1e9, 0
+    if 0.0 < left < mind.closest - NEARER:
+        mind.closest, mind.progress_ticks = left, 0
     else:
-        mind.late += PERIOD
-    if mind.late <= PATIENCE:
+        mind.progress_ticks += PERIOD
+    if mind.progress_ticks <= PATIENCE:
         return
-    if mind.shun > 0 and mind.shunned == mind.target:
+    if mind.avoid_ticks > 0 and mind.avoided == mind.target:
         mind.detour, mind.via = DETOUR, int(uniform(mind) * SLOTS)
-    mind.shunned, mind.shun, mind.least, mind.late, mind.plan_in = mind.target, SHUN, 1e9, 0, 0
+    mind.avoided, mind.avoid_ticks = mind.target, AVOID_TICKS
+    mind.closest, mind.progress_ticks, mind.plan_in = 1e9, 0, 0
 
 
 @kernel
@@ -159,7 +160,7 @@ def make_detour(obs: Any, mind: Any, action: Any) -> None:
     """Drive towards another slot for a while, so that the route to the target changes."""
     slot, route = obs.slots[mind.via], mind.senses.route
     moved = route.goal_x != slot.x or route.goal_y != slot.y
-    route.wanted, route.goal_x, route.goal_y = 1, slot.x, slot.y
+    route.active, route.goal_x, route.goal_y = 1, slot.x, slot.y
     mind.detour -= PERIOD
     if moved:
         set_action(action, 0.0, 0.0, 0, 0)
@@ -172,8 +173,8 @@ def make_detour(obs: Any, mind: Any, action: Any) -> None:
 @kernel
 def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
     """Start backing out if it has been stuck for HELD_UP_TICKS."""
-    if held_up(mind, obs.x, obs.y, False, HELD_UP, PERIOD) > HELD_UP_TICKS:
-        mind.held_up, mind.freeing = 0, FREEING
+    if ticks_stuck(mind, obs.x, obs.y, False, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
+        mind.stuck_ticks, mind.freeing = 0, FREEING
         choose_escape(mind, -0.8, 0.7)
 
 

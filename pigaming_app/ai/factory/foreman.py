@@ -44,12 +44,12 @@ class ForemanMind:
     waiting: int  # allocations in a row without a job
     anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since then
-    sought: int  # target to which `least` and `late` refer
-    least: float  # shortest remaining route so far, px
-    late: int  # ticks since then
-    shunned: int  # slot that could not be reached
-    shun: int  # ticks left of shunning it
+    stuck_ticks: int  # ticks since then
+    progress_target: int  # target to which `closest` and `progress_ticks` refer
+    closest: float  # shortest remaining route so far, px
+    progress_ticks: int  # ticks since then
+    avoided: int  # slot that could not be reached
+    avoid_ticks: int  # ticks left of avoiding it
     via: int  # slot that a detour leads towards
     detour: int  # ticks left of the detour
     freeing: int  # ticks left of backing out
@@ -74,13 +74,13 @@ def act(obs: Any, mind: Any, action: Any) -> None:
     if obs.carries != mind.carried:  # a job has just ended
         mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause
     mind.plan_in -= PERIOD
-    mind.shun -= PERIOD
+    mind.avoid_ticks -= PERIOD
     if mind.plan_in <= 0:
         mind.plan_in = PLAN
         choose_job(obs, mind)
     mind.resting -= PERIOD
     if obs.frozen or mind.resting > 0:
-        mind.held_up = 0
+        mind.stuck_ticks = 0
         set_action(action, 0.0, 0.0, 0, 0)
         return
     if mind.freeing > 0:

@@ -9,7 +9,7 @@ from math import pi, tau
 from typing import Any
 
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Percept, Thoughts, blend, clamp, towards
-from pigaming_app.ai.factory.driving import HELD_UP_TICKS, LOOK, ROBOT_ROOM, free_distance
+from pigaming_app.ai.factory.driving import LOOK, ROBOT_ROOM, STUCK_TICKS, free_distance
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, cheapest_place, cost_of, distance_to
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, B
 
@@ -25,20 +25,20 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     if not obs.turn_rate or mind.target < 0:
         return Thoughts("starts")
     slot = obs.slots[mind.target]
-    doing, because = _doing(obs, mind, slot)
+    behaviour, reason = _behaviour(obs, mind, slot)
     return Thoughts(
-        doing=doing,
-        because=because,
+        behaviour=behaviour,
+        reason=reason,
         names={"machine": "B" if slot.makes == B else "A"},
         facts=_facts(obs, mind),
-        sights=tuple(_sights(obs, mind, doing)),
-        rose=_rose(obs, mind, doing),
-        wishes=_wishes(obs, mind),
-        chosen=_chosen(obs, mind, slot, doing),
+        percepts=tuple(_percepts(obs, mind, behaviour)),
+        rose=_rose(obs, mind, behaviour),
+        utilities=_utilities(obs, mind),
+        chosen=_chosen(obs, mind, slot, behaviour),
     )
 
 
-def _doing(obs: Any, mind: Any, slot: Any) -> tuple[str, str]:
+def _behaviour(obs: Any, mind: Any, slot: Any) -> tuple[str, str]:
     """Text keys of the present behaviour and its reason."""
     if obs.frozen:
         return "frozen", "bumped"
@@ -56,28 +56,28 @@ def _doing(obs: Any, mind: Any, slot: Any) -> tuple[str, str]:
     return bring, LOADS[obs.carries - 1]
 
 
-def _chosen(obs: Any, mind: Any, slot: Any, doing: str) -> str:
-    if doing == "free":
+def _chosen(obs: Any, mind: Any, slot: Any, behaviour: str) -> str:
+    if behaviour == "free":
         return "free"
-    if mind.near or doing in ("frozen", "ponder"):
+    if mind.near or behaviour in ("frozen", "ponder"):
         return "wait"
     return "put" if obs.carries else LOADS.get(slot.holds - 1, "wait")
 
 
-def _wishes(obs: Any, mind: Any) -> dict[str, float]:
+def _utilities(obs: Any, mind: Any) -> dict[str, float]:
     """Utilities: for each state of a pallet that of its best job; for putting down, higher the nearer the place."""
-    wishes = dict.fromkeys(JOBS, 0.0)
+    utilities = dict.fromkeys(JOBS, 0.0)
     for s in range(SLOTS):
         name = LOADS.get(obs.slots[s].holds - 1, "")
         if name in JOBS and not obs.carries:
             cost = cost_of(obs, s, QUEUE)
             if cost < NO / 2.0:
-                wishes[name] = max(wishes[name], clamp(1.0 - (distance_to(obs, s) + cost) / DEAR))
+                utilities[name] = max(utilities[name], clamp(1.0 - (distance_to(obs, s) + cost) / DEAR))
     place = cheapest_place(obs, mind) if obs.carries else -1
-    wishes["put"] = clamp(1.0 - 0.8 * distance_to(obs, place) / FAR) if place >= 0 else 0.0
-    wishes["wait"] = 1.0 if mind.near or obs.frozen or mind.resting > 0 else 0.0
-    wishes["free"] = 1.0 if mind.freeing > 0 else clamp(mind.held_up / HELD_UP_TICKS)
-    return wishes
+    utilities["put"] = clamp(1.0 - 0.8 * distance_to(obs, place) / FAR) if place >= 0 else 0.0
+    utilities["wait"] = 1.0 if mind.near or obs.frozen or mind.resting > 0 else 0.0
+    utilities["free"] = 1.0 if mind.freeing > 0 else clamp(mind.stuck_ticks / STUCK_TICKS)
+    return utilities
 
 
 def _facts(obs: Any, mind: Any) -> dict[str, float]:
@@ -89,11 +89,11 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
         "frozen": obs.frozen,
         "lead": obs.lead,
         "goal_distance": obs.goal_distance,
-        "held_up": mind.held_up,
+        "stuck_ticks": mind.stuck_ticks,
     }
 
 
-def _sights(obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
+def _percepts(obs: Any, mind: Any, behaviour: str) -> Iterator[Percept]:
     """Nearby people and robots, and the route to the slot."""
     for person in obs.people:
         if person.distance < 2.0 * LOOK:
@@ -101,17 +101,17 @@ def _sights(obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
     for other in obs.others:
         if other.present and other.distance < LOOK:
             yield Percept(OPPONENT, other.x, other.y)
-    if doing not in ("frozen", "ponder", "free"):
+    if behaviour not in ("frozen", "ponder", "free"):
         if not obs.straight:
-            yield Percept(WAY, obs.way_x, obs.way_y)
+            yield Percept(WAY, obs.waypoint_x, obs.waypoint_y)
         yield Percept(GOAL, obs.slots[mind.target].x, obs.slots[mind.target].y)
 
 
-def _rose(obs: Any, mind: Any, doing: str) -> list[float]:
+def _rose(obs: Any, mind: Any, behaviour: str) -> list[float]:
     """Attraction along the route, repulsion from blocked directions."""
     blocked = [clamp(free_distance(obs, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
-    if doing in ("frozen", "ponder"):
+    if behaviour in ("frozen", "ponder"):
         return blocked
-    if doing == "free":
+    if behaviour == "free":
         return blend(towards(0.0 if mind.escape > 0.0 else pi), blocked)
-    return blend(towards(obs.way_bearing), blocked)
+    return blend(towards(obs.waypoint_bearing), blocked)

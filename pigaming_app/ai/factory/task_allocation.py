@@ -22,7 +22,7 @@ HOME = 5000.0  # px, cost of waiting at home, so that waiting at an output comes
 NOISE = 600.0  # px, largest estimation error at `mind.noise` 1
 STALLED = 12.0  # s without a worker after which a pallet is taken back out of a machine's input
 SLOW = 6.0  # s without a worker before that counts as a delay; less is common
-SHUN = 2000.0  # px, cost of the shunned slot, which could not be reached
+AVOID_COST = 2000.0  # px, cost of the avoided slot, which could not be reached
 LATER = 260.0  # px, cost of a raw pallet, so that pallets nearer to completion come first
 
 
@@ -81,9 +81,9 @@ def delay(slot: Any) -> float:
 
 
 @kernel
-def shun_cost(mind: Any, s: int) -> float:
-    """SHUN for the shunned slot, else 0, px."""
-    return SHUN if mind.shun > 0 and mind.shunned == s else 0.0
+def avoid_cost(mind: Any, s: int) -> float:
+    """AVOID_COST for the avoided slot, else 0, px."""
+    return AVOID_COST if mind.avoid_ticks > 0 and mind.avoided == s else 0.0
 
 
 @kernel
@@ -106,7 +106,7 @@ def cheapest_place(obs: Any, mind: Any) -> int:
         right = slot.kind == ENTRY if state == DAMAGED else may_take(slot, state)
         if not right:
             continue
-        cost = distance_to(obs, s) + input_cost(slot) + shun_cost(mind, s)
+        cost = distance_to(obs, s) + input_cost(slot) + avoid_cost(mind, s)
         if mind.target == s:
             cost -= KEEP
         if cost < least:
@@ -166,7 +166,7 @@ def share_out(obs: Any, mind: Any) -> int:
         then = cost_of(obs, s, queue)
         if then >= NO - FREES or (alone and is_taken(obs, s)):
             continue
-        cost = distance_to(obs, s) + then + shun_cost(mind, s) - (KEEP if mind.target == s else 0.0)
+        cost = distance_to(obs, s) + then + avoid_cost(mind, s) - (KEEP if mind.target == s else 0.0)
         if mind.noise > 0.0:
             cost += mind.noise * NOISE * uniform(mind)
         if not alone:
@@ -204,7 +204,7 @@ def waiting_place(obs: Any, mind: Any) -> int:
         else:
             good = slot.mine == 1 or (slot.kind == OUTPUT and slot.ours == 1)
         if good and not is_taken(obs, s):
-            cost = distance_to(obs, s) + slot.wait * SPEED + delay(slot) + shun_cost(mind, s)
+            cost = distance_to(obs, s) + slot.wait * SPEED + delay(slot) + avoid_cost(mind, s)
             if slot.mine == 1:
                 cost += HOME
             if cost < least:

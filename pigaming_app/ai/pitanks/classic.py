@@ -27,7 +27,11 @@ from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
-HELD_UP, HELD_UP_TICKS, FREEING = 20.0, 30, 20  # px and ticks: a smaller displacement is stuck; ticks of backing out
+STUCK_DISTANCE, STUCK_TICKS, FREEING = (
+    20.0,
+    30,
+    20,
+)  # px and ticks: a smaller displacement is stuck; ticks of backing out
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,7 @@ class ClassicMind:
     since: int  # ticks in this state
     anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since then
+    stuck_ticks: int  # ticks since then
     escape: float  # forward stick while backing out
     escape_turn: float
 
@@ -115,10 +119,10 @@ def break_free(robot: Any, mind: Any, action: Any) -> None:
         return
     dx, dy = robot.x - mind.anchor_x, robot.y - mind.anchor_y
     mind.since = 0
-    if dx * dx + dy * dy < HELD_UP * HELD_UP:  # that way is blocked too
+    if dx * dx + dy * dy < STUCK_DISTANCE * STUCK_DISTANCE:  # that way is blocked too
         mind.escape, mind.escape_turn = -mind.escape, 2.0 * uniform(mind) - 1.0
     else:
-        mind.state, mind.held_up, mind.anchor_x, mind.anchor_y = DEFEND, 0, robot.x, robot.y
+        mind.state, mind.stuck_ticks, mind.anchor_x, mind.anchor_y = DEFEND, 0, robot.x, robot.y
 
 
 # ------------------------------------------------------------------------------------------------------------- helpers
@@ -130,11 +134,11 @@ def detect_stuck(robot: Any, mind: Any, action: Any) -> None:
     if mind.state == BREAK_FREE:
         return
     dx, dy = robot.x - mind.anchor_x, robot.y - mind.anchor_y
-    if dx * dx + dy * dy > HELD_UP * HELD_UP or action.linear == 0.0:
-        mind.held_up, mind.anchor_x, mind.anchor_y = 0, robot.x, robot.y
+    if dx * dx + dy * dy > STUCK_DISTANCE * STUCK_DISTANCE or action.linear == 0.0:
+        mind.stuck_ticks, mind.anchor_x, mind.anchor_y = 0, robot.x, robot.y
         return
-    mind.held_up += mind.numbers.period
-    if mind.held_up > HELD_UP_TICKS:
+    mind.stuck_ticks += mind.numbers.period
+    if mind.stuck_ticks > STUCK_TICKS:
         mind.state, mind.since = BREAK_FREE, 0
         mind.escape = -1.0 if action.linear > 0.0 else 1.0
         mind.escape_turn = 2.0 * uniform(mind) - 1.0
@@ -185,7 +189,7 @@ def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
 
 @kernel
 def go_to(mind: Any, x: float, y: float) -> None:
-    mind.route.wanted, mind.route.goal_x, mind.route.goal_y = 1, x, y
+    mind.route.active, mind.route.goal_x, mind.route.goal_y = 1, x, y
 
 
 @kernel

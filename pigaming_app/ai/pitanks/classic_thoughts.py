@@ -16,32 +16,32 @@ from pigaming_app.sim.sweep import is_clear
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     """Thoughts of the machine on `seat`."""
     opponent = nearest_opponent(match, seat)
-    if not mind.route.wanted or opponent < 0:
+    if not mind.route.active or opponent < 0:
         return Thoughts("starts")
     robot, other = match.robots[seat], match.robots[opponent]
     aim = abs(bearing(robot, other.x, other.y))
     away = max(1.0, _away(robot, other.x, other.y))
     shows = bool(classic.shows(match, robot, other, mind))
     ahead, hides = lead(match, seat), mind.state == classic.DEFEND
-    doing, because, chosen = _doing(robot, mind, shows, ahead)
+    behaviour, reason, chosen = _behaviour(robot, mind, shows, ahead)
     return Thoughts(
-        doing=doing,
-        because=because,
+        behaviour=behaviour,
+        reason=reason,
         names={"player": opponent + 1},
-        facts={"state": mind.state, "lead": ahead, "distance": away, "shows": shows, "held_up": mind.held_up},
-        sights=tuple(_sights(match, robot, other, mind, doing)),
-        rose=_rose(robot, other, mind, doing),
-        wishes={
+        facts={"state": mind.state, "lead": ahead, "distance": away, "shows": shows, "stuck_ticks": mind.stuck_ticks},
+        percepts=tuple(_percepts(match, robot, other, mind, behaviour)),
+        rose=_rose(robot, other, mind, behaviour),
+        utilities={
             "cover": float(hides),
             "attack": float(mind.state == classic.ATTACK),
             "fire": clamp(RADIUS / away / (aim + 1e-9)) if shows else 0.0,
-            "free": 1.0 if mind.state == classic.BREAK_FREE else clamp(mind.held_up / classic.HELD_UP_TICKS),
+            "free": 1.0 if mind.state == classic.BREAK_FREE else clamp(mind.stuck_ticks / classic.STUCK_TICKS),
         },
         chosen=chosen,
     )
 
 
-def _doing(robot: Any, mind: Any, shows: bool, ahead: int) -> tuple[str, str, str]:
+def _behaviour(robot: Any, mind: Any, shows: bool, ahead: int) -> tuple[str, str, str]:
     """Text keys of the present behaviour and its reason, and the chosen wish."""
     if mind.state == classic.BREAK_FREE:
         return "free", "stuck", "free"
@@ -58,22 +58,22 @@ def _away(robot: Any, x: float, y: float) -> float:
     return float((dx * dx + dy * dy) ** 0.5)
 
 
-def _sights(match: Any, robot: Any, other: Any, mind: Any, doing: str) -> Iterator[Percept]:
+def _percepts(match: Any, robot: Any, other: Any, mind: Any, behaviour: str) -> Iterator[Percept]:
     seen = bool(is_clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius))
     yield Percept(OPPONENT, other.x, other.y, seen)
     route = mind.route
-    if doing in ("hunt", "cover"):
+    if behaviour in ("hunt", "cover"):
         if not route.straight:
-            yield Percept(WAY, route.way_x, route.way_y)
-        if doing == "cover":
+            yield Percept(WAY, route.waypoint_x, route.waypoint_y)
+        if behaviour == "cover":
             yield Percept(GOAL, route.goal_x, route.goal_y)
 
 
-def _rose(robot: Any, other: Any, mind: Any, doing: str) -> list[float]:
+def _rose(robot: Any, other: Any, mind: Any, behaviour: str) -> list[float]:
     """Direction in which it drives, or points the gun."""
-    if doing == "free":
+    if behaviour == "free":
         return towards(0.0 if mind.escape > 0.0 else pi)
-    if doing in ("duel", "wait"):
+    if behaviour in ("duel", "wait"):
         return towards(bearing(robot, other.x, other.y))
     route = mind.route
-    return towards(atan2(route.way_y - robot.y, route.way_x - robot.x) - robot.heading)
+    return towards(atan2(route.waypoint_y - robot.y, route.waypoint_x - robot.x) - robot.heading)

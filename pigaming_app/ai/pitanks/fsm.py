@@ -12,7 +12,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.steering import approach, turn_stick
-from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
+from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
 from pigaming_app.games.pitanks.observation import OTHERS, Observation, Senses, observe
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
@@ -28,7 +28,7 @@ CROWD = 230.0  # px; within this range it backs off
 REACH = 760.0  # px; within this range an attacker fires
 SWERVE = 0.9  # rad off the opponent's bearing while reloading
 ARRIVED = 26.0  # px from the goal that count as arrived
-HELD_UP_TICKS = 30  # ticks of driving without moving that count as stuck
+STUCK_TICKS = 30  # ticks of driving without moving that count as stuck
 NEW_AIM = 25  # ticks between draws of the aiming error
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
@@ -54,7 +54,7 @@ class FsmMind:
     bias_left: int  # ticks until the next draw
     anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since then
+    stuck_ticks: int  # ticks since then
     escape: float  # forward stick while backing out
     escape_turn: float
     weave: float  # forward stick in a duel, 1 or -1
@@ -187,7 +187,7 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
     if mind.state == BREAK_FREE:
         return
     idle = action.linear == 0.0
-    if held_up(mind, obs.x, obs.y, idle, HELD_UP, PERIOD) > HELD_UP_TICKS:
+    if ticks_stuck(mind, obs.x, obs.y, idle, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
         mind.state, mind.since = BREAK_FREE, 0
         choose_escape(mind, -1.0 if action.linear > 0.0 else 1.0, 0.75)
 
@@ -196,13 +196,13 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
 def go_to(mind: Any, x: float, y: float) -> None:
     """Set the goal of the route; the next observation brings the route itself."""
     route = mind.senses.route
-    route.wanted, route.goal_x, route.goal_y = 1, x, y
+    route.active, route.goal_x, route.goal_y = 1, x, y
 
 
 @kernel
 def follow(obs: Any, mind: Any, action: Any) -> None:
     """Follow the route; fire if the gun happens to point at the target."""
-    bearing, speed = approach(obs.way_bearing, obs.way_distance)
+    bearing, speed = approach(obs.waypoint_bearing, obs.waypoint_distance)
     near = obs.goal_distance / 70.0
     if obs.straight and near < 1.0:
         speed *= 0.3 + 0.7 * near

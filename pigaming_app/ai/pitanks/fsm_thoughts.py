@@ -22,33 +22,33 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     obs = mind.obs
     if not obs.turn_rate:
         return Thoughts("starts")
-    doing = _doing(obs, mind)
+    behaviour = _behaviour(obs, mind)
     player = (seat + 1 + mind.target) % ROBOTS + 1
-    wishes = {
+    utilities = {
         "cover": _cover(obs, mind),
         "attack": 1.0 - _cover(obs, mind),
         "fire": _fire(obs, mind),
         "dodge": clamp(2.0 - 2.0 * obs.threat / SOON) if mind.dodges else 0.0,
-        "free": 1.0 if mind.state == fsm.BREAK_FREE else clamp(mind.held_up / fsm.HELD_UP_TICKS),
+        "free": 1.0 if mind.state == fsm.BREAK_FREE else clamp(mind.stuck_ticks / fsm.STUCK_TICKS),
     }
     if match.rules.pickups:
-        wishes["collect"] = clamp(1.0 - obs.prize_distance / DETOUR) if obs.prize else 0.0
+        utilities["collect"] = clamp(1.0 - obs.prize_distance / DETOUR) if obs.prize else 0.0
     return Thoughts(
-        doing=doing,
-        because=_because(obs, mind, doing),
+        behaviour=behaviour,
+        reason=_reason(obs, mind, behaviour),
         names={"player": player},
         facts=_facts(obs, mind),
-        sights=tuple(_sights(match, obs, mind, doing)),
-        rose=_rose(obs, mind, doing),
-        wishes=wishes,
-        chosen=CHOSEN.get(doing, "cover" if mind.state == fsm.DEFEND else "attack"),
+        percepts=tuple(_percepts(match, obs, mind, behaviour)),
+        rose=_rose(obs, mind, behaviour),
+        utilities=utilities,
+        chosen=CHOSEN.get(behaviour, "cover" if mind.state == fsm.DEFEND else "attack"),
     )
 
 
 CHOSEN = {"free": "free", "dodge": "dodge", "duel": "fire", "collect": "collect"}
 
 
-def _doing(obs: Any, mind: Any) -> str:
+def _behaviour(obs: Any, mind: Any) -> str:
     """Text key of the present behaviour."""
     if mind.state == fsm.BREAK_FREE:
         return "free"
@@ -75,10 +75,10 @@ def _dodges(obs: Any) -> bool:
     return action.linear != UNTOUCHED
 
 
-def _because(obs: Any, mind: Any, doing: str) -> str:
-    if doing in ("free", "dodge", "collect", "idle"):
-        return {"free": "stuck", "dodge": "bullet", "collect": "near", "idle": ""}[doing]
-    if doing == "duel":
+def _reason(obs: Any, mind: Any, behaviour: str) -> str:
+    if behaviour in ("free", "dodge", "collect", "idle"):
+        return {"free": "stuck", "dodge": "bullet", "collect": "near", "idle": ""}[behaviour]
+    if behaviour == "duel":
         return "sees"
     if mind.state == fsm.DEFEND:
         return "ahead" if obs.lead > 0 else "level"
@@ -117,7 +117,7 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _sights(match: Any, obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
+def _percepts(match: Any, obs: Any, mind: Any, behaviour: str) -> Iterator[Percept]:
     """The target, the most urgent bullet, and the route to its goal."""
     if mind.target >= 0:
         other = obs.others[mind.target]
@@ -126,23 +126,23 @@ def _sights(match: Any, obs: Any, mind: Any, doing: str) -> Iterator[Percept]:
         away, angle = obs.threat * match.rules.bullet_speed, obs.heading + obs.threat_bearing
         yield Percept(BULLET, obs.x + away * cos(angle), obs.y + away * sin(angle))
     route = mind.senses.route
-    if doing in ("hunt", "cover", "collect") and route.wanted:
+    if behaviour in ("hunt", "cover", "collect") and route.active:
         if not obs.straight:
-            yield Percept(WAY, obs.way_x, obs.way_y)
-        if doing != "hunt":
-            yield Percept(PRIZE if doing == "collect" else GOAL, route.goal_x, route.goal_y, bool(obs.straight))
+            yield Percept(WAY, obs.waypoint_x, obs.waypoint_y)
+        if behaviour != "hunt":
+            yield Percept(PRIZE if behaviour == "collect" else GOAL, route.goal_x, route.goal_y, bool(obs.straight))
 
 
-def _rose(obs: Any, mind: Any, doing: str) -> list[float]:
+def _rose(obs: Any, mind: Any, behaviour: str) -> list[float]:
     """Direction in which it drives or points the gun; repulsion from a bullet."""
-    if doing == "free":
+    if behaviour == "free":
         wanted = towards(0.0 if mind.escape > 0.0 else pi)
-    elif doing == "duel" and obs.loaded:
+    elif behaviour == "duel" and obs.loaded:
         wanted = towards(obs.others[mind.target].aim + mind.bias)
-    elif doing in ("idle", "wait"):
+    elif behaviour in ("idle", "wait"):
         wanted = towards(0.0, 0.0)
-    elif doing == "duel":
+    elif behaviour == "duel":
         wanted = towards(obs.others[mind.target].bearing + fsm.SWERVE * mind.weave)
     else:
-        wanted = towards(obs.way_bearing)
+        wanted = towards(obs.waypoint_bearing)
     return blend(wanted, towards(obs.threat_bearing, -1.0 if obs.threat < SOON else 0.0))

@@ -52,7 +52,7 @@ class LearnerMind:
     begun: int  # 0 before the first decision of a match
     state: int  # state at the last decision
     move: int  # move chosen then
-    worth: float  # immediate reward of that move
+    reward: float  # immediate reward of that move
     random: int  # generator of a player; learners use the generator of their table
     reflex: Reflex
 
@@ -70,7 +70,7 @@ def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
     mind.begun, mind.state = 1, here
     mind.move = sample_move(table, here, temperature(table), table)
     apply_move(match.actions[seat], mind.move)
-    mind.worth = action_reward(match, seat, opponent, here, match.actions[seat], knobs)
+    mind.reward = action_reward(match, seat, opponent, here, match.actions[seat], knobs)
 
 
 @kernel
@@ -91,7 +91,7 @@ def update(table: Any, mind: Any, here: int) -> None:
             table.states += 1
     table.n[pair] += 1
     table.experiences += 1
-    reward = mind.worth + transition_reward(mind.state, here, knobs)
+    reward = mind.reward + transition_reward(mind.state, here, knobs)
     target = reward + knobs.gamma * max_value(table, here)
     table.q[pair] += (target - table.q[pair]) / table.n[pair]
 

@@ -18,25 +18,25 @@ CLEAR = 0.05  # excess over a uniform policy that counts as a preference
 class Direction:
     """Summary for one sector.
 
-    `seen`: decisions with the opponent there; `worth`: mean over them of the best tried Q; `shares`: probabilities of
+    `seen`: decisions with the opponent there; `value`: mean over them of the best tried Q; `shares`: probabilities of
     the 18 moves.
     """
 
     seen: int
-    worth: float
+    value: float
     shares: tuple[float, ...]
 
     @property
-    def deed(self) -> str:
+    def action(self) -> str:
         """The behaviour with the largest excess over a uniform policy; "unknown" if the excess is below CLEAR."""
-        excess = {word: -DEEDS.count(word) / ACTIONS for word in DEEDS}
-        for share, word in zip(self.shares, DEEDS, strict=True):
+        excess = {word: -ACTION_NAMES.count(word) / ACTIONS for word in ACTION_NAMES}
+        for share, word in zip(self.shares, ACTION_NAMES, strict=True):
             excess[word] += share
         best = max(excess, key=lambda word: excess[word])
         return best if self.seen and excess[best] > CLEAR else "unknown"
 
 
-def deed(linear: float, angular: float, fire: int) -> str:
+def action_name(linear: float, angular: float, fire: int) -> str:
     """Class of a move, a key of the texts."""
     if fire:
         return "shoot"
@@ -47,7 +47,7 @@ def deed(linear: float, angular: float, fire: int) -> str:
     return "stay"
 
 
-DEEDS = tuple(deed(move.linear, move.angular, move.fire) for move in MOVES)
+ACTION_NAMES = tuple(action_name(move.linear, move.angular, move.fire) for move in MOVES)
 
 
 def direction(table: Any, sector: int, cold: float) -> Direction:

@@ -77,26 +77,26 @@ RECIPES = {1: Recipe(), 2: replace(Recipe(), behind_always=1, still=-10.0)}
 @kernel
 def action_reward(match: Any, seat: int, opponent: int, state: int, action: Any, knobs: Any) -> float:
     """Immediate reward for choosing `action` in `state`, points."""
-    worth = 0.0
+    reward = 0.0
     if action.fire and not (knobs.loaded and match.tanks[seat].cooldown):
         ahead = opponent_of(state)
         if ahead != AHEAD:
-            worth += knobs.miss
+            reward += knobs.miss
         elif wall_of(state) != ahead:
             robot, other = match.robots[seat], match.robots[opponent]
             if not knobs.in_sight or is_clear(match, robot.x, robot.y, other.x, other.y, 0.0):
-                worth += knobs.hit
+                reward += knobs.hit
     speed = match.robots[seat].linear
     if (-CREEP < speed < CREEP) if knobs.moving else action.linear == 0.0:
-        worth += knobs.still
-    return worth
+        reward += knobs.still
+    return reward
 
 
 @kernel
 def transition_reward(before: int, after: int, knobs: Any) -> float:
     """Reward for the transition from one decision's state to the next one's, points."""
-    worth: float = knobs.behind if exposed(after) and (knobs.behind_always or not exposed(before)) else 0.0
-    return worth
+    reward: float = knobs.behind if exposed(after) and (knobs.behind_always or not exposed(before)) else 0.0
+    return reward
 
 
 @kernel

@@ -38,8 +38,8 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     likely = move_probabilities(weights, here, weights.knobs.cold)[mind.move]
     move = _plain(mind.move)
     return Thoughts(
-        doing="shoot" if move[2] else STEERS[move[:2]],
-        because="tried" if tried else "new",
+        behaviour="shoot" if move[2] else STEERS[move[:2]],
+        reason="tried" if tried else "new",
         names={"count": tried, "percent": round(100.0 * likely)},
         facts={
             "opponent": opponent_of(here),
@@ -48,7 +48,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
             "tried": tried,
             "likely": likely,
         },
-        sights=tuple(_sights(match, seat, opponent, here)),
+        percepts=tuple(_percepts(match, seat, opponent, here)),
         rose=_scaled([float(max_value(weights, state(k, wall_of(here), bullet_of(here)))) for k in range(SECTORS)]),
         moves=dict(zip((_plain(k) for k in range(ACTIONS)), _scaled(values), strict=True)),
         chosen=move,
@@ -66,7 +66,7 @@ def _scaled(values: list[float]) -> list[float]:
     return [copysign(sqrt(abs(value) / largest), value) if largest else 0.0 for value in values]
 
 
-def _sights(match: Any, seat: int, opponent: int, here: int) -> Iterator[Percept]:
+def _percepts(match: Any, seat: int, opponent: int, here: int) -> Iterator[Percept]:
     """The opponent, and the directions of the wall and the bullet."""
     robot, other = match.robots[seat], match.robots[opponent]
     yield Percept(OPPONENT, other.x, other.y)

@@ -11,7 +11,7 @@ from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.unstick import HELD_UP, choose_escape, escape, held_up
+from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
 from pigaming_app.ai.race.overtaking import EDGE, choose_lane, leader_speed
 from pigaming_app.games.race.observation import OTHERS, Observation, Senses, observe
 from pigaming_app.sim.action import set_action
@@ -29,7 +29,7 @@ OUT = 30.0  # px inside the edge at which it aims when off the course
 SLACK = 25.0  # px past a line before it counts as missed: the rules may not have registered the crossing yet
 SAVE = 80.0  # px to a robot ahead within which it saves its turbo
 NEW_ERROR = 30  # ticks between draws of the line error
-HELD_UP_TICKS = 40  # ticks of driving without moving that count as stuck
+STUCK_TICKS = 40  # ticks of driving without moving that count as stuck
 
 RACE, GO_BACK, BREAK_FREE = range(3)
 
@@ -52,7 +52,7 @@ class RacerMind:
     lane: float  # present lane, px right of the middle
     anchor_x: float  # position at the last progress, px
     anchor_y: float
-    held_up: int  # ticks since then
+    stuck_ticks: int  # ticks since then
     escape: float  # forward stick while backing out
     escape_turn: float
 
@@ -150,7 +150,7 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
     if mind.state == BREAK_FREE:
         return
     idle = action.linear == 0.0 and action.angular == 0.0
-    if held_up(mind, obs.x, obs.y, idle, HELD_UP, PERIOD) > HELD_UP_TICKS:
+    if ticks_stuck(mind, obs.x, obs.y, idle, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
         mind.state, mind.since = BREAK_FREE, 0
         choose_escape(mind, -1.0 if action.linear >= 0.0 else 1.0, 0.75)
 

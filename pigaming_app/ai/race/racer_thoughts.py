@@ -23,7 +23,7 @@ CHOSEN = {
     "free": "free", "return": "back", "done": "brake", "follow": "brake", "bend": "brake", "boost": "turbo",
     "mud": "line", "race": "line",
 }  # fmt: skip
-BECAUSE = {
+REASONS = {
     "free": "stuck", "return": "missed", "done": "finish", "pass_left": "in_way", "pass_right": "in_way",
     "follow": "no_room", "bend": "bend", "boost": "straight", "mud": "mud",
 }  # fmt: skip
@@ -35,21 +35,21 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     if not obs.turn_rate:
         return Thoughts("starts")
     x, y = _goal(obs, mind)
-    doing, first = _doing(obs, mind), _ahead(obs)
+    behaviour, first = _behaviour(obs, mind), _ahead(obs)
     line = "line" if mind.line > 0.5 else "middle"
     return Thoughts(
-        doing=doing,
-        because=BECAUSE.get(doing, line),
+        behaviour=behaviour,
+        reason=REASONS.get(behaviour, line),
         names={"player": (seat + 1 + first) % ROBOTS + 1},
         facts=_facts(obs, mind),
-        sights=tuple(_sights(obs, first, x, y)),
+        percepts=tuple(_percepts(obs, first, x, y)),
         rose=_rose(obs, mind, x, y),
-        wishes=_wishes(obs, mind),
-        chosen=CHOSEN.get(doing, doing.removeprefix("pass_")),
+        utilities=_utilities(obs, mind),
+        chosen=CHOSEN.get(behaviour, behaviour.removeprefix("pass_")),
     )
 
 
-def _doing(obs: Any, mind: Any) -> str:
+def _behaviour(obs: Any, mind: Any) -> str:
     """Text key of the present behaviour."""
     aside = mind.lane - mind.line * obs.ahead.ideal
     if obs.finished:  # its actions no longer move the robot
@@ -69,7 +69,7 @@ def _doing(obs: Any, mind: Any) -> str:
     return "bend" if obs.pace < SLOW else "race"
 
 
-def _wishes(obs: Any, mind: Any) -> dict[str, float]:
+def _utilities(obs: Any, mind: Any) -> dict[str, float]:
     """Utilities of lanes (of another lane, higher the more its own is blocked) and of speed changes."""
     mark = obs.ahead
     room, own = mark.half - EDGE, mind.line * mark.ideal
@@ -84,7 +84,7 @@ def _wishes(obs: Any, mind: Any) -> dict[str, float]:
         "brake": clamp(1.0 - min(obs.pace, leader_speed(obs, mind), 1.0)),
         "turbo": 1.0 if obs.boosting else clamp(obs.turbo / max(0.1, mind.boost)) if may else 0.0,
         "back": 1.0 if mind.state == racer.GO_BACK else clamp(obs.past / racer.SLACK),
-        "free": 1.0 if mind.state == racer.BREAK_FREE else clamp(mind.held_up / racer.HELD_UP_TICKS),
+        "free": 1.0 if mind.state == racer.BREAK_FREE else clamp(mind.stuck_ticks / racer.STUCK_TICKS),
     }
 
 
@@ -118,7 +118,7 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _sights(obs: Any, first: int, x: float, y: float) -> Iterator[Percept]:
+def _percepts(obs: Any, first: int, x: float, y: float) -> Iterator[Percept]:
     if first >= 0:
         yield Percept(OPPONENT, obs.others[first].x, obs.others[first].y)
     yield Percept(GOAL, x, y)

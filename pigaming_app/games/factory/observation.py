@@ -97,10 +97,10 @@ class Observation:
     others: Annotated[list[Other], OTHERS]
     people: Annotated[list[Person], WORKERS]
     slots: Annotated[list[SlotView], SLOTS]
-    way_x: float  # waypoint of the route
-    way_y: float
-    way_bearing: float
-    way_distance: float
+    waypoint_x: float  # waypoint of the route
+    waypoint_y: float
+    waypoint_bearing: float
+    waypoint_distance: float
     goal_bearing: float
     goal_distance: float  # straight-line
     straight: int  # 1: the straight line to the goal is clear
@@ -125,7 +125,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
         observe_person(match, robot, w, obs.people[w])
     for s in range(SLOTS):
         observe_slot(match, seat, s, obs.slots[s])
-    observe_way(match, robot, senses, obs)
+    observe_waypoint(match, robot, senses, obs)
 
 
 @kernel
@@ -171,24 +171,24 @@ def observe_slot(match: Any, seat: int, s: int, seen: Any) -> None:
         seen.wait = machine.left * 0.02 if machine.pallet else 0.0
         if slot.kind == INPUT:
             seen.stalled = machine.stalled * 0.02
-        if machine.keeps:
+        if machine.reserved:
             seen.output_blocked = 1
-            seen.ours = 1 if match.pallets[machine.keeps - 1].team == team else 0
+            seen.ours = 1 if match.pallets[machine.reserved - 1].team == team else 0
 
 
 @kernel
-def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
+def observe_waypoint(match: Any, robot: Any, senses: Any, obs: Any) -> None:
     """Fill in the waypoint and goal of the route."""
     route = senses.route
-    if not route.wanted:
-        obs.way_x, obs.way_y, obs.way_bearing, obs.way_distance = robot.x, robot.y, 0.0, 0.0
+    if not route.active:
+        obs.waypoint_x, obs.waypoint_y, obs.waypoint_bearing, obs.waypoint_distance = robot.x, robot.y, 0.0, 0.0
         obs.goal_bearing, obs.goal_distance, obs.straight = 0.0, 0.0, 1
         return
     update_route(match, route, robot.x, robot.y)
-    obs.way_x, obs.way_y, obs.straight = route.way_x, route.way_y, route.straight
-    dx, dy = route.way_x - robot.x, route.way_y - robot.y
-    obs.way_distance = sqrt(dx * dx + dy * dy)
-    obs.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
+    obs.waypoint_x, obs.waypoint_y, obs.straight = route.waypoint_x, route.waypoint_y, route.straight
+    dx, dy = route.waypoint_x - robot.x, route.waypoint_y - robot.y
+    obs.waypoint_distance = sqrt(dx * dx + dy * dy)
+    obs.waypoint_bearing = turn_to(atan2(dy, dx) - robot.heading)
     dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
     obs.goal_distance = sqrt(dx * dx + dy * dy)
     obs.goal_bearing = turn_to(atan2(dy, dx) - robot.heading)

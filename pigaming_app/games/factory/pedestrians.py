@@ -1,8 +1,8 @@
 """Motion of pedestrians: a flow field leads them around walls; they stop for robots and walk around those at rest.
 
 A walker is any record with x, y, heading, walking (1: moving), side (on which it avoids an obstacle: -1, 0 or 1),
-`route` (see flow_field.py), and `least` and `held_up`, which measure its progress. The world has a Motion for each
-robot, updated once a tick: pedestrians react to measured motion, not to motor speeds.
+`route` (see flow_field.py), and `closest` and `stuck_ticks`, which measure its progress. The world has a Motion for
+each robot, updated once a tick: pedestrians react to measured motion, not to motor speeds.
 """
 
 from math import atan2, exp, sqrt
@@ -16,17 +16,17 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import CELL, DT, HZ, ROBOTS
 
-THERE = 6.0  # px from the goal within which a walker has arrived
-NEARLY = 70.0  # px likewise, if a robot at rest is in the way
-ROOM, CLOSE = 34.0, 8.0  # px of clearance from a moving robot, and from one at rest
-PAST = 24.0  # px beyond that clearance at which an obstacle has been passed
-DRIVING = 20.0  # px/s above which a robot is moving
-AHEAD = 0.5  # s of lookahead at a robot's motion
-SIGHT = 300.0  # px, beyond which no robot can come near within AHEAD
-TURN = 8.0  # rad/s
-NEARER = 10.0  # px that count as progress
-CARRIED = 40.0  # px in a tick: a robot that moved further was carried by hand
-SMOOTH = 1.0 - exp(-DT / 0.1)  # weight of one tick in the low-pass filter of velocity, time constant 0.1 s
+ARRIVED = 6.0  # px from the goal within which a walker has arrived
+ARRIVED_NEAR_ROBOT = 70.0  # px likewise, if a robot at rest is in the way
+MOVING_CLEARANCE, RESTING_CLEARANCE = 34.0, 8.0  # px of clearance from a moving robot, and from one at rest
+PASSED_MARGIN = 24.0  # px beyond that clearance at which an obstacle has been passed
+MOVING_SPEED = 20.0  # px/s above which a robot is moving
+LOOKAHEAD = 0.5  # s of lookahead at a robot's motion
+MAX_RANGE = 300.0  # px, beyond which no robot can come near within LOOKAHEAD
+TURN_RATE = 8.0  # rad/s
+MIN_PROGRESS = 10.0  # px that count as progress
+CARRIED_DISTANCE = 40.0  # px in a tick: a robot that moved further was carried by hand
+FILTER_WEIGHT = 1.0 - exp(-DT / 0.1)  # weight of one tick in the low-pass filter of velocity, time constant 0.1 s
 
 
 @record
@@ -45,18 +45,18 @@ def track_motion(motion: Any, robot: Any) -> None:
     x, y = robot.x, robot.y
     dx, dy = x - motion.x, y - motion.y
     motion.x, motion.y = x, y
-    if dx * dx + dy * dy > CARRIED * CARRIED:
+    if dx * dx + dy * dy > CARRIED_DISTANCE * CARRIED_DISTANCE:
         dx, dy = 0.0, 0.0
-    motion.vx += (dx * HZ - motion.vx) * SMOOTH
-    motion.vy += (dy * HZ - motion.vy) * SMOOTH
+    motion.vx += (dx * HZ - motion.vx) * FILTER_WEIGHT
+    motion.vy += (dy * HZ - motion.vy) * FILTER_WEIGHT
 
 
 @kernel
 def send(walker: Any, x: float, y: float) -> None:
     """Set a walker's goal, px."""
     route = walker.route
-    route.wanted, route.goal_x, route.goal_y = 1, x, y
-    walker.least, walker.held_up = 1e9, 0
+    route.active, route.goal_x, route.goal_y = 1, x, y
+    walker.closest, walker.stuck_ticks = 1e9, 0
 
 
 @kernel
@@ -66,11 +66,11 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     dx, dy = route.goal_x - walker.x, route.goal_y - walker.y
     left = sqrt(dx * dx + dy * dy)
     walker.walking = 0
-    if left < THERE:
+    if left < ARRIVED:
         return 1
     update_route(world, route, walker.x, walker.y)
     advance(world, walker, left)
-    dx, dy = route.way_x - walker.x, route.way_y - walker.y
+    dx, dy = route.waypoint_x - walker.x, route.waypoint_y - walker.y
     distance = sqrt(dx * dx + dy * dy)
     if distance < 1e-6:
         return 0
@@ -78,10 +78,10 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
     ux, uy = pace * dx / distance, pace * dy / distance
     block = in_the_way(world, walker, walker.x + ux, walker.y + uy, radius)
     if block < 0 and step(world, walker, ux, uy, radius):
-        if in_the_way(world, walker, walker.x + ux, walker.y + uy, radius + PAST) < 0:
+        if in_the_way(world, walker, walker.x + ux, walker.y + uy, radius + PASSED_MARGIN) < 0:
             walker.side = 0
         return 0
-    if block >= 0 and left < NEARLY and not is_driving(world.motions[block]):
+    if block >= 0 and left < ARRIVED_NEAR_ROBOT and not is_driving(world.motions[block]):
         return 1
     go_round(world, walker, block, ux, uy, radius)
     return 0
@@ -93,10 +93,10 @@ def advance(world: Any, walker: Any, left: float) -> None:
     route = walker.route
     if not route.straight:
         left = CELL * route.reach[free_node(world, walker.x, walker.y)]
-    if left < walker.least - NEARER:
-        walker.least, walker.held_up = left, 0
+    if left < walker.closest - MIN_PROGRESS:
+        walker.closest, walker.stuck_ticks = left, 0
     else:
-        walker.held_up += 1
+        walker.stuck_ticks += 1
 
 
 @kernel
@@ -128,9 +128,9 @@ def step(world: Any, walker: Any, dx: float, dy: float, radius: float) -> bool:
 
 @kernel
 def turn_towards(walker: Any, vx: float, vy: float) -> None:
-    """Turn a walker towards its direction of motion, by at most TURN."""
+    """Turn a walker towards its direction of motion, by at most TURN_RATE."""
     turn = turn_to(atan2(vy, vx) - walker.heading)
-    limit = TURN * DT
+    limit = TURN_RATE * DT
     if turn > limit:
         turn = limit
     elif turn < -limit:
@@ -141,23 +141,25 @@ def turn_towards(walker: Any, vx: float, vy: float) -> None:
 @kernel
 def is_driving(motion: Any) -> bool:
     """True if a robot is moving."""
-    return motion.vx * motion.vx + motion.vy * motion.vy > DRIVING * DRIVING  # type: ignore[no-any-return]
+    return motion.vx * motion.vx + motion.vy * motion.vy > MOVING_SPEED * MOVING_SPEED  # type: ignore[no-any-return]
 
 
 @kernel
 def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> int:
-    """The first robot that blocks a step to (x, y), now or within AHEAD; -1: none. Steps away from it are free."""
+    """The first robot that blocks a step to (x, y), now or within LOOKAHEAD; -1: none. Steps away from it are free."""
     for k in range(ROBOTS):
         robot = world.robots[k]
         if not robot.present:
             continue
         dx, dy = x - robot.x, y - robot.y
-        if not (-SIGHT < dx < SIGHT and -SIGHT < dy < SIGHT):
+        if not (-MAX_RANGE < dx < MAX_RANGE and -MAX_RANGE < dy < MAX_RANGE):
             continue
         motion = world.motions[k]
-        samples, reach = (3, RADIUS + radius + ROOM) if is_driving(motion) else (1, RADIUS + radius + CLOSE)
+        samples, reach = (
+            (3, RADIUS + radius + MOVING_CLEARANCE) if is_driving(motion) else (1, RADIUS + radius + RESTING_CLEARANCE)
+        )
         for half in range(samples):
-            ahead = 0.5 * half * AHEAD
+            ahead = 0.5 * half * LOOKAHEAD
             rx, ry = robot.x + ahead * motion.vx, robot.y + ahead * motion.vy
             dx, dy = x - rx, y - ry
             distance = dx * dx + dy * dy
@@ -170,9 +172,9 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
 
 @kernel
 def path_is_free(world: Any, robot: Any, motion: Any, half: int) -> bool:
-    """True if no wall stops a robot within `half` halves of AHEAD."""
+    """True if no wall stops a robot within `half` halves of LOOKAHEAD."""
     for part in range(1, half + 1):
-        ahead = 0.5 * part * AHEAD
+        ahead = 0.5 * part * LOOKAHEAD
         if in_wall(world, robot.x + ahead * motion.vx, robot.y + ahead * motion.vy):
             return False
     return True

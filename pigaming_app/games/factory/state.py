@@ -92,10 +92,10 @@ class Machine:
     pallet: int  # 1 + the pallet in process; 0: none
     left: int  # ticks until it is done
     worker: int  # 1 + the worker at it, or on the way; 0: none
-    keeps: int  # 1 + the pallet for which the output slot is reserved; 0: free
+    reserved: int  # 1 + the pallet for which the output slot is reserved; 0: free
     stalled: int  # ticks for which work has waited; counts down without work
-    refused: int  # 1 + the worker who last failed to reach it, until one succeeds; 0: none
-    refused_at: int  # tick of that failure
+    failed_worker: int  # 1 + the worker who last failed to reach it, until one succeeds; 0: none
+    failed_at: int  # tick of that failure
 
 
 @record
@@ -112,8 +112,8 @@ class Worker:
     pallet: int  # 1 + the pallet it carries; 0: none
     shelf: int  # the slot it carries that to
     route: Route
-    least: float  # px, shortest distance to the goal reached on this route
-    held_up: int  # ticks since then
+    closest: float  # px, shortest distance to the goal reached on this route
+    stuck_ticks: int  # ticks since then
     home_x: float  # resting place
     home_y: float
     touched: Annotated[list[int], ROBOTS]  # 1: the robot still touches it, so that a touch counts once

@@ -60,7 +60,7 @@ def run_machine(match: Any, m: int) -> None:
         machine.stalled -= 1
     if not machine.pallet:
         if not match.slots[MACHINE_SLOTS + 2 * m + 1].pallet:
-            machine.keeps = 0
+            machine.reserved = 0
         return
     machine.left -= 1
     if machine.left > 0:
@@ -97,8 +97,8 @@ def call_worker(match: Any) -> None:
         if not machine.worker and (has_work(match, i) or is_overdue(match, i)):
             slot = MACHINE_SLOTS + 2 * i + (0 if has_work(match, i) else 1)
             waited = match.pallets[match.slots[slot].pallet - 1].waited
-            if machine.refused:
-                waited = min(waited, match.tick - machine.refused_at)
+            if machine.failed_worker:
+                waited = min(waited, match.tick - machine.failed_at)
             if waited > longest:
                 m, longest = i, waited
     if m < 0:
@@ -122,7 +122,7 @@ def nearest_resting(match: Any, machine: Any) -> int:
     for w in range(WORKERS):
         worker = match.workers[w]
         dx, dy = worker.x - machine.spot_x, worker.y - machine.spot_y
-        distance2 = dx * dx + dy * dy + (1e12 if machine.refused == w + 1 else 0.0)
+        distance2 = dx * dx + dy * dy + (1e12 if machine.failed_worker == w + 1 else 0.0)
         if worker.task == RESTING and distance2 < nearest2:
             best, nearest2 = w, distance2
     return best
@@ -144,7 +144,7 @@ def run_worker(match: Any, w: int) -> None:
         work(match, w)
         return
     arrived = walk(match, worker, rules.walk, rules.worker_radius)
-    if worker.machine >= 0 and worker.held_up >= rules.patience:
+    if worker.machine >= 0 and worker.stuck_ticks >= rules.patience:
         give_up(match, w)
     elif worker.task == GOING:
         if not has_work(match, worker.machine):
@@ -161,7 +161,7 @@ def run_worker(match: Any, w: int) -> None:
 def give_up(match: Any, w: int) -> None:
     """Mark a worker's machine as refused, and go home."""
     machine = match.machines[match.workers[w].machine]
-    machine.refused, machine.refused_at = w + 1, match.tick
+    machine.failed_worker, machine.failed_at = w + 1, match.tick
     go_home(match, match.workers[w])
 
 
@@ -172,8 +172,8 @@ def begin(match: Any, w: int) -> None:
     m = worker.machine
     machine, p = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1
     move(match, p, IN_MACHINE, m)
-    machine.left, machine.keeps = match.rules.process, p + 1
-    machine.stalled, machine.refused = 0, 0
+    machine.left, machine.reserved = match.rules.process, p + 1
+    machine.stalled, machine.failed_worker = 0, 0
     worker.task, worker.walking = WORKING, 0
 
 
@@ -202,7 +202,7 @@ def fetch(match: Any, w: int, arrived: int) -> None:
     shelf = free_shelf(match, team, ENTRY)
     worker.shelf = shelf if shelf >= 0 else first_slot(team, ENTRY)
     move(match, p, BY_WORKER, w)
-    match.machines[m].worker, match.machines[m].refused = 0, 0
+    match.machines[m].worker, match.machines[m].failed_worker = 0, 0
     worker.machine, worker.task = -1, CARRYING
     send_to_shelf(match, worker)
 

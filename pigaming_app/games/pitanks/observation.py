@@ -75,10 +75,10 @@ class Observation:
     prize_x: float
     prize_y: float
     prize_distance: float
-    way_x: float  # waypoint of the route
-    way_y: float
-    way_bearing: float
-    way_distance: float
+    waypoint_x: float  # waypoint of the route
+    waypoint_y: float
+    waypoint_bearing: float
+    waypoint_distance: float
     goal_distance: float  # straight-line
     straight: int  # 1: the straight line to the goal is clear
 
@@ -108,7 +108,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     obs.prize = 0
     if match.rules.pickups:
         observe_pickup(match, robot, obs)
-    observe_way(match, robot, senses, obs)
+    observe_waypoint(match, robot, senses, obs)
 
 
 @kernel
@@ -224,16 +224,16 @@ def observe_pickup(match: Any, robot: Any, obs: Any) -> None:
 
 
 @kernel
-def observe_way(match: Any, robot: Any, senses: Any, obs: Any) -> None:
+def observe_waypoint(match: Any, robot: Any, senses: Any, obs: Any) -> None:
     """Fill in the waypoint and goal of the route."""
     route = senses.route
-    if not route.wanted:
-        obs.way_bearing, obs.way_distance, obs.goal_distance, obs.straight = 0.0, 0.0, 0.0, 1
+    if not route.active:
+        obs.waypoint_bearing, obs.waypoint_distance, obs.goal_distance, obs.straight = 0.0, 0.0, 0.0, 1
         return
     update_route(match, route, robot.x, robot.y)
-    obs.way_x, obs.way_y, obs.straight = route.way_x, route.way_y, route.straight
-    dx, dy = route.way_x - robot.x, route.way_y - robot.y
-    obs.way_distance = sqrt(dx * dx + dy * dy)
-    obs.way_bearing = turn_to(atan2(dy, dx) - robot.heading)
+    obs.waypoint_x, obs.waypoint_y, obs.straight = route.waypoint_x, route.waypoint_y, route.straight
+    dx, dy = route.waypoint_x - robot.x, route.waypoint_y - robot.y
+    obs.waypoint_distance = sqrt(dx * dx + dy * dy)
+    obs.waypoint_bearing = turn_to(atan2(dy, dx) - robot.heading)
     dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
     obs.goal_distance = sqrt(dx * dx + dy * dy)

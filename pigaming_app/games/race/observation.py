@@ -74,7 +74,7 @@ class Observation:
     aside: float
     half: float
     on: int
-    lean: float  # heading relative to the course
+    heading_error: float  # heading relative to the course
     ideal: float  # offset of the fastest line from the centre line here, px
     pace: float  # lowest speed on that line within the next PACE px, as a share of full speed
     turn: float  # sine of the angle by which the course turns within twice the lookahead, positive to the right
@@ -101,10 +101,10 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     obs.turbo, obs.turbo_factor, obs.boosting = robot.turbo, rules.turbo_factor, robot.boosting
     obs.along, obs.aside = along / course.length, place.aside
     obs.half, obs.on = place.half, place.on
-    obs.lean = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
+    obs.heading_error = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
     obs.left = rules.laps * course.length - racer.progress
     obs.rank, obs.finished = racer.rank, racer.finished
-    observe_way(match, place, senses.look, obs)
+    observe_track(match, place, senses.look, obs)
     observe_mark(match, along + senses.look, obs.ahead)
     observe_next_line(match, seat, along, obs)
     for i in range(OTHERS):
@@ -112,7 +112,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 
 @kernel
-def observe_way(match: Any, place: Any, look: float, obs: Any) -> None:
+def observe_track(match: Any, place: Any, look: float, obs: Any) -> None:
     """Fill in the fastest line at this position, and the turn of the course ahead."""
     course = match.course
     k, _ = segment_at(course, place.along)
@@ -153,7 +153,7 @@ def observe_mark(match: Any, along: float, mark: Any) -> None:
 def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
     """Fill in the distance past the robot's next line, and the waypoint back to it."""
     racer, course = match.racers[seat], match.course
-    behind = racer.passed - 1 - racer.back
+    behind = racer.passed - 1 - racer.lines_reversed
     here = match.lines[(seat + behind) % ROBOTS].along
     ahead = match.lines[(seat + behind + 1) % ROBOTS].along
     gap, way = distance_ahead(course, here, ahead), distance_ahead(course, here, along)

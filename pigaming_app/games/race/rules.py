@@ -90,10 +90,10 @@ def cross_forward(match: Any, k: int, i: int, when: float) -> None:
     expected = (k + racer.passed) % LINES
     if i == expected:
         pass_line(match, k, when)
-    elif racer.back and i == (expected - racer.back) % LINES:
-        racer.back -= 1
+    elif racer.lines_reversed and i == (expected - racer.lines_reversed) % LINES:
+        racer.lines_reversed -= 1
     elif racer.passed:
-        racer.missed, racer.back = 1 + expected, 0
+        racer.missed, racer.lines_reversed = 1 + expected, 0
         if i == k:
             racer.void += 1
 
@@ -101,25 +101,25 @@ def cross_forward(match: Any, k: int, i: int, when: float) -> None:
 @kernel
 def cross_backward(racer: Any, k: int, i: int) -> None:
     """Process a backward crossing of line i by robot k: it counts lines to be crossed again, and undoes nothing."""
-    if i == (k + racer.passed - 1 - racer.back) % LINES:
-        racer.back += 1
+    if i == (k + racer.passed - 1 - racer.lines_reversed) % LINES:
+        racer.lines_reversed += 1
 
 
 @kernel
 def pass_line(match: Any, k: int, when: float) -> None:
     """Process robot k's crossing of its next line: split time, or the end of a lap."""
     racer = match.racers[k]
-    racer.missed, racer.back = 0, 0
+    racer.missed, racer.lines_reversed = 0, 0
     i = racer.passed % LINES
     racer.passed += 1
     if i:
-        racer.splits[i] = when - racer.lap_began
+        racer.splits[i] = when - racer.lap_start
         if racer.best_lap > 0.0:
             racer.delta, racer.delta_at = racer.splits[i] - racer.best_splits[i], match.tick
         return
     if racer.passed > 1:
         end_lap(match, k, when)
-    racer.lap_began = when
+    racer.lap_start = when
     for j in range(LINES):
         racer.splits[j] = 0.0
 
@@ -128,7 +128,7 @@ def pass_line(match: Any, k: int, when: float) -> None:
 def end_lap(match: Any, k: int, when: float) -> None:
     """End a lap of robot k: lap times, best lap, and the finish after the last."""
     racer, robot = match.racers[k], match.robots[k]
-    lap = when - racer.lap_began
+    lap = when - racer.lap_start
     racer.laps[robot.score], racer.last_lap = lap, lap
     robot.score += 1
     if racer.best_lap > 0.0:
@@ -156,7 +156,7 @@ def progress(match: Any, k: int) -> float:
     own = match.lines[k].along
     if racer.finished:
         return float(match.rules.laps * length)
-    behind = racer.passed - 1 - racer.back
+    behind = racer.passed - 1 - racer.lines_reversed
     here, ahead = match.lines[(k + behind) % LINES].along, match.lines[(k + behind + 1) % LINES].along
     gap = distance_ahead(match.course, here, ahead)
     way = distance_ahead(match.course, here, racer.place.along)

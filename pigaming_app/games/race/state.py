@@ -46,7 +46,7 @@ class Racer:
     last_x: float  # position on the previous tick
     last_y: float
     passed: int  # lines crossed in order, its own first; 1 + 4 * laps: finished
-    back: int  # lines that it has gone back over since; crossing these again does not count
+    lines_reversed: int  # lines that it has gone back over since; crossing these again does not count
     missed: int  # 1 + the line that it must go back to, after crossing a later one; 0: none
     void: int  # laps that did not count: own line crossed while another was missing
     wrong: int  # ticks of driving in the wrong direction
@@ -54,7 +54,7 @@ class Racer:
     rank: int  # 1: in the lead
     finished: int  # 1: all laps completed
     finish: float  # time of the finish
-    lap_began: float  # time of its last crossing of its own line
+    lap_start: float  # time of its last crossing of its own line
     last_lap: float  # 0: none yet
     best_lap: float
     laps: Annotated[list[float], MAX_LAPS]

@@ -83,7 +83,7 @@ class BoardSamples:
         """Detect the board's markers in one more picture; returns their number."""
         self.frames += 1
         self.size = (frame.image.shape[1], frame.image.shape[0])
-        marks = self._markers.exact(frame.image, self._markers.everywhere(frame.image))
+        marks = self._markers.refine(frame.image, self._markers.detect(frame.image))
         for mark in marks:
             self._seen.setdefault(mark.number, []).append(mark.corners)
         return len(marks)

@@ -28,7 +28,7 @@ BROKEN = OperatorMessage("broken")
 
 
 class CameraTask(BackgroundWorker):
-    """Opens a camera and passes its pictures to `look`. A camera has one user at a time; the next one waits."""
+    """Opens a camera and passes its pictures to `process`. A camera has one user at a time; the next one waits."""
 
     users: ClassVar[
         dict[tuple[str, int], BackgroundWorker]
@@ -40,7 +40,7 @@ class CameraTask(BackgroundWorker):
     def __init__(self, site: CalibrationSite, number: int) -> None:
         super().__init__()
         self.site, self.number = site, number
-        self.trouble: OperatorMessage | None = None
+        self.fault: OperatorMessage | None = None
         self.small: Image | None = None  # the newest picture, scaled for the preview
         self._camera: CameraSource | None = None
         self._since = self._newest = inf  # s: when it was opened, when the newest picture came
@@ -65,21 +65,21 @@ class CameraTask(BackgroundWorker):
         if frame is not None:
             self._newest = now
             self.small = scaled_preview(frame.image)
-            self.look(frame)
+            self.process(frame)
         else:
-            self.idle(now - self._newest, self._camera.trouble)
+            self.idle(now - self._newest, self._camera.fault)
 
-    def look(self, frame: CameraFrame) -> None:
+    def process(self, frame: CameraFrame) -> None:
         """Process a new picture."""
 
-    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
+    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
         """Handle a step without a new picture, `seconds` after the last one."""
 
-    def give_up(self, trouble: OperatorMessage) -> None:
-        """Set `trouble`; it is logged once."""
-        if trouble != self.trouble and trouble.key != "yet":
-            log.warning("camera %d: %s", self.number, trouble)
-        self.trouble = trouble
+    def give_up(self, fault: OperatorMessage) -> None:
+        """Set `fault`; it is logged once."""
+        if fault != self.fault and fault.key != "yet":
+            log.warning("camera %d: %s", self.number, fault)
+        self.fault = fault
 
     def failed(self, error: Exception) -> None:
         self.give_up(BROKEN)
@@ -90,7 +90,7 @@ class CameraTask(BackgroundWorker):
 
 
 class CameraPreview(CameraTask):
-    """Live preview: `small`, `size` in px, `rate` in pictures/s; or the camera's `trouble`."""
+    """Live preview: `small`, `size` in px, `rate` in pictures/s; or the camera's `fault`."""
 
     locks = False
 
@@ -101,8 +101,8 @@ class CameraPreview(CameraTask):
         self.count = 0
         self._counted = (inf, 0)
 
-    def look(self, frame: CameraFrame) -> None:
-        self.size, self.trouble = (frame.image.shape[1], frame.image.shape[0]), None
+    def process(self, frame: CameraFrame) -> None:
+        self.size, self.fault = (frame.image.shape[1], frame.image.shape[0]), None
         self.count += 1
         now, (since, before) = self.site.clock(), self._counted
         if now - since > RATE:
@@ -110,9 +110,9 @@ class CameraPreview(CameraTask):
         if not 0.0 <= now - since <= RATE:
             self._counted = (now, self.count)
 
-    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
+    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
         if seconds > 1.0:
-            self.give_up(trouble or NO_PICTURE)
+            self.give_up(fault or NO_PICTURE)
 
 
 class DriftCheck(CameraTask):
@@ -131,16 +131,16 @@ class DriftCheck(CameraTask):
         self._robots: MarkerDetector | None = None
         self._searched = -inf
 
-    def look(self, frame: CameraFrame) -> None:
-        if self.trouble is not None:
+    def process(self, frame: CameraFrame) -> None:
+        if self.fault is not None:
             return
         try:
             if self.drift is None:
                 self.drift = DriftMonitor(self._load((frame.image.shape[1], frame.image.shape[0])))
-        except CalibrationError as trouble:
-            self.give_up(trouble.message)
+        except CalibrationError as error:
+            self.give_up(error.message)
             return
-        self.drift.see(frame)
+        self.drift.process(frame)
         self.mm = self.drift.mm or None  # exactly 0: no marker has enough samples
         if frame.captured - self._searched > SEARCH:
             self._searched = frame.captured
@@ -150,14 +150,14 @@ class DriftCheck(CameraTask):
         """Measure the apparent marker size of a robot on the spot."""
         self._robots = self._robots or MarkerDetector(ROBOT_IDS)
         self.marker_mm = None
-        for mark in self._robots.everywhere(frame.image):
+        for mark in self._robots.detect(frame.image):
             away = ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT)
             if float(away @ away) < NEAR * NEAR:
                 self.marker_mm = ground.edge_mm(mark)
 
-    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
+    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
         if seconds > BLIND:
-            self.give_up(trouble or NO_PICTURE)
+            self.give_up(fault or NO_PICTURE)
 
 
 def scaled_preview(image: Image) -> Image:

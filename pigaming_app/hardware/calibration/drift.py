@@ -37,12 +37,12 @@ class DriftMonitor:
         self._misses: dict[int, deque[Points]] = {number: deque(maxlen=PICTURES) for number in CORNER_IDS}
         self._looked = self._local_search = self._full_search = float("-inf")
 
-    def see(self, frame: CameraFrame) -> None:
+    def process(self, frame: CameraFrame) -> None:
         """Measure a picture, at most every PERIOD."""
         if frame.captured - self._looked < PERIOD - 1e-6:
             return
         self._looked = frame.captured
-        found = self._markers.still(frame.image, list(self._seen.values()))
+        found = self._markers.recheck(frame.image, list(self._seen.values()))
         found += self._search(frame, [number for number in CORNER_IDS if number not in {m.number for m in found}])
         self.note(found)
 
@@ -66,20 +66,20 @@ class DriftMonitor:
         if not missing or frame.captured - self._local_search < LOCAL_SEARCH:
             return []
         self._local_search = frame.captured
-        near = [self._markers.near(frame.image, self._spots[number], number) for number in missing]
+        near = [self._markers.detect_in(frame.image, self._spots[number], number) for number in missing]
         found = [mark for mark in near if mark is not None]
         if len(found) < len(missing) and frame.captured - self._full_search > FULL_SEARCH:
             self._full_search = frame.captured
             edge = float(np.mean([spot.edge for spot in self._spots.values()]))
             known = [*self._seen.values(), *found]
-            found += self._markers.glance(frame.image, edge, known, dim=False)
-        return self._markers.exact(frame.image, found)
+            found += self._markers.detect_quickly(frame.image, edge, known, dim=False)
+        return self._markers.refine(frame.image, found)
 
     def _outline(self, number: int) -> DetectedMarker:
         """A corner marker at its calibrated position in the picture."""
         half = EDGE / 2.0
         square = half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
-        return DetectedMarker(number, self.ground.pose_times(self._places[number] + square))
+        return DetectedMarker(number, self.ground.to_camera(self._places[number] + square))
 
 
 def _spot(mark: DetectedMarker) -> SearchWindow:

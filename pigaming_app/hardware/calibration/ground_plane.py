@@ -67,7 +67,7 @@ class GroundPlane:
         foot = np.array(self.foot)
         return np.asarray(foot + (apparent - foot) * ((self.height - height) / self.height))
 
-    def pose_times(self, places: Points, height: float = 0.0) -> Points:
+    def to_camera(self, places: Points, height: float = 0.0) -> Points:
         """Arena px to camera px for points `height` mm above the mat, (n, 2) -> (n, 2)."""
         foot = np.array(self.foot)
         apparent = foot + (places - foot) * (self.height / (self.height - height))

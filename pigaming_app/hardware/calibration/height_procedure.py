@@ -1,6 +1,6 @@
 """Camera height by a robot on projected outlines, with a check of the mat's measured width.
 
-`place` is the outline to project; the caller confirms each projected frame by `shown`.
+`place` is the outline to project; the caller confirms each projected frame by `mark_shown`.
 """
 
 from math import inf
@@ -44,27 +44,27 @@ class HeightProcedure(CameraTask):
     @property
     def place(self) -> int | None:
         """Index of the expected outline in PLACES; None when finished."""
-        return None if self.found or self.trouble else len(self.seen)
+        return None if self.found or self.fault else len(self.seen)
 
     @property
     def steady(self) -> float:
         """Share of the required pictures in which the robot has stood still, 0..1."""
         return min(1.0, len(self._recent) / STILL)
 
-    def shown(self, place: int) -> None:
+    def mark_shown(self, place: int) -> None:
         """Confirm that the outline of `place` is projected."""
         if place == self.place and self._shown == inf:
             self._shown = self._begun = self.site.clock()
             self.site.stand(*PLACES[place])
 
-    def look(self, frame: CameraFrame) -> None:
+    def process(self, frame: CameraFrame) -> None:
         if self.place is None or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
         if frame.captured > self._begun + TIMEOUT:
             self.give_up(OperatorMessage("nobody"))
             return
         self._markers = self._markers or MarkerDetector(ROBOT_IDS)
-        here = [mark for mark in self._markers.everywhere(frame.image) if self._is_near(mark, self.place)]
+        here = [mark for mark in self._markers.detect(frame.image) if self._is_near(mark, self.place)]
         if len(here) != 1 or (self._recent and here[0].number != self._recent[0].number):
             self._recent = []
             return
@@ -73,9 +73,9 @@ class HeightProcedure(CameraTask):
         if len(self._recent) == STILL and _jitter(self._recent) < MAX_JITTER:
             self._note()
 
-    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
+    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
         if seconds > looking.BLIND and self.place is not None:
-            self.give_up(trouble or NO_PICTURE)
+            self.give_up(fault or NO_PICTURE)
 
     def _is_near(self, mark: DetectedMarker, place: int) -> bool:
         away = self.ground.on_mat(mark.corners).mean(axis=0) - np.array(PLACES[place])
@@ -90,8 +90,8 @@ class HeightProcedure(CameraTask):
             return
         try:
             found = height_by_robot(self.ground, PLACES, self.seen)
-        except CalibrationError as trouble:
-            self.give_up(trouble.message)
+        except CalibrationError as error:
+            self.give_up(error.message)
             return
         self.marker_mm = found.edge_mm(last)
         self.found = found

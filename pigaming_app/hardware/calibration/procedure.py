@@ -1,7 +1,7 @@
 """Calibration procedure: observe one board, solve, and verify on the held-out board.
 
-`board` is the board to project; the caller confirms each projected frame by `shown`, and only pictures exposed after
-the projector's and camera's delay count.
+`board` is the board to project; the caller confirms each projected frame by `mark_shown`, and only pictures exposed
+after the projector's and camera's delay count.
 """
 
 from dataclasses import replace
@@ -34,7 +34,7 @@ class CalibrationStage(Enum):
 
 
 class Calibration(CameraTask):
-    """One calibration of the camera on this display. It ends with `ground` and `residuals`, or with `trouble`.
+    """One calibration of the camera on this display. It ends with `ground` and `residuals`, or with `fault`.
 
     A finished calibration may still be too inaccurate: see `residuals.accepted`.
     """
@@ -62,18 +62,18 @@ class Calibration(CameraTask):
         ) + taken, 2 * FRAMES
 
     @property
-    def over(self) -> bool:
+    def finished(self) -> bool:
         """True when done or failed."""
         return self.stage in (CalibrationStage.DONE, CalibrationStage.FAILED)
 
-    def shown(self, board: CalibrationBoard) -> None:
+    def mark_shown(self, board: CalibrationBoard) -> None:
         """Confirm that `board` is projected; call it with every frame."""
         if board is self.board and self._shown == inf:
             self.site.clear(True)
             self._shown = self.site.clock()
 
-    def look(self, frame: CameraFrame) -> None:
-        if self.over or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
+    def process(self, frame: CameraFrame) -> None:
+        if self.finished or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
         if self.site.clock() - self._since > TIMEOUT:
             self.give_up(OperatorMessage("slow"))
@@ -88,15 +88,15 @@ class Calibration(CameraTask):
         if self._samples.ready:
             try:
                 self._solve(self._samples) if self.stage is CalibrationStage.LOOKING else self._verify(self._samples)
-            except CalibrationError as trouble:
-                self.give_up(trouble.message)
+            except CalibrationError as error:
+                self.give_up(error.message)
 
-    def idle(self, seconds: float, trouble: OperatorMessage | None) -> None:
-        if seconds > looking.BLIND and not self.over:
-            self.give_up(trouble or NO_PICTURE)
+    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
+        if seconds > looking.BLIND and not self.finished:
+            self.give_up(fault or NO_PICTURE)
 
-    def give_up(self, trouble: OperatorMessage) -> None:
-        super().give_up(trouble)
+    def give_up(self, fault: OperatorMessage) -> None:
+        super().give_up(fault)
         self.stage, self.board = CalibrationStage.FAILED, None
 
     def _solve(self, samples: BoardSamples) -> None:

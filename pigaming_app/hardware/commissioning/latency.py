@@ -59,7 +59,7 @@ class LatencyTest:
         wheels: list[WheelCommand | None] = [None] * ROBOTS
         wheels[self.robot] = WheelCommand(share, -share)
         self.rig.pump()
-        self.rig.tell(wheels)
+        self.rig.send(wheels)
         done = self._ticks * DT > sum(SHAKES) + 0.5
         if done:
             self.rig.recorder = None
@@ -85,16 +85,16 @@ class LatencyTest:
                 best = min(best, (float(residual @ residual), float(delay), float(lag)))
         return Latency(best[1], float(np.mean(arrived - captured)), best[2])
 
-    def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
+    def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
         """Recorder: commands were sent."""
         command = wheels[self.robot]
         self._sent.append((time, command.left if command else 0.0))
 
-    def seen(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
+    def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
         """Recorder: a frame was processed."""
         self._seen += [(captured, now, fix.heading) for fix in fixes if fix.robot == self.robot]
 
-    def believed(self, now: float, sightings: Sequence[Sighting]) -> None:
+    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
         """Recorder: predictions are not used."""
 
 

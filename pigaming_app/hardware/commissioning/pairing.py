@@ -54,7 +54,7 @@ class Pairing:
         self.findings += [PairingFinding(channel, None, PairingCase.ABSENT) for channel in absent if channels is None]
         self._ticks = 0
         self._turned = [0.0] * ROBOTS
-        self._doubled: set[int] = set()
+        self._duplicates: set[int] = set()
         self._before: list[float | None] = [None] * ROBOTS
         self._began: dict[int, tuple[float, float]] = {}  # px, positions at the start of this spin
         self._astray: int | None = None  # a robot that drives off instead of spinning
@@ -89,13 +89,13 @@ class Pairing:
         )
         if time >= REST + SPIN + BRAKE:
             self.findings.append(self._classify(self._todo.pop(0)))
-            self._ticks, self._turned, self._doubled = 0, [0.0] * ROBOTS, set()
+            self._ticks, self._turned, self._duplicates = 0, [0.0] * ROBOTS, set()
             self._began, self._astray = {}, None
         return not self._todo
 
     def _watch(self, counts: bool) -> None:
         """Accumulate the turn of every marker."""
-        self._doubled |= self.rig.tracker.doubled()
+        self._duplicates |= self.rig.tracker.duplicates()
         for robot, seen in enumerate(self.rig.sense()):
             before, self._before[robot] = self._before[robot], None
             if seen.age < SEEN:
@@ -109,7 +109,7 @@ class Pairing:
     def _classify(self, channel: int) -> PairingFinding:
         turned = [robot for robot in range(ROBOTS) if self._turned[robot] > TURNED]
         moved = [robot for robot in range(ROBOTS) if abs(self._turned[robot]) > STILL]
-        if self._doubled:
+        if self._duplicates:
             return PairingFinding(channel, None, PairingCase.TWICE)
         if len(moved) > 1:
             return PairingFinding(channel, None, PairingCase.SEVERAL)

@@ -22,7 +22,7 @@ from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import ROBOTS, World
 
-AT, FACING = 12.0, 0.10  # px and rad, tolerances of the goal pose
+POSITION_TOLERANCE, HEADING_TOLERANCE = 12.0, 0.10  # px and rad, tolerances of the goal pose
 SLOWEST, FASTEST = 45.0, 220.0  # px/s
 SLOWEST_TURN, FASTEST_TURN = 0.7, 2.2  # rad/s
 CORNER = 30.0  # px from a waypoint within which the robot heads for the next
@@ -44,7 +44,7 @@ class HomingProgress(NamedTuple):
     pose: Pose  # the goal
     distance: float  # px
     turn: float  # rad, absolute heading error
-    there: bool
+    arrived: bool
     moving: bool  # under way; else it has arrived, or waits for others to pass
 
 
@@ -67,7 +67,7 @@ class Homing:
     @property
     def done(self) -> bool:
         """True if all robots had arrived in the last tick."""
-        return len(self.places) == len(self.goals) and all(place.there for place in self.places)
+        return len(self.places) == len(self.goals) and all(place.arrived for place in self.places)
 
     def twists(self, poses: Mapping[int, Pose]) -> dict[int, Twist]:
         """One tick: the twist of each robot of `goals`, px/s and rad/s. `poses`: all robots on the mat."""
@@ -93,13 +93,13 @@ class Homing:
             return HomingProgress(robot, goal, 1e9, pi, False, False)
         off, turn = distance(goal[:2], pose[:2]), abs(turn_to(goal[2] - pose[2]))
         slack = 2.0 if robot in self._home else 1.0
-        there = off < AT * slack and turn < FACING * slack
-        if there:
+        arrived = off < POSITION_TOLERANCE * slack and turn < HEADING_TOLERANCE * slack
+        if arrived:
             self._forget(robot)
             self._home.add(robot)
         else:
             self._home.discard(robot)
-        return HomingProgress(robot, goal, off, turn, there, robot in self._paths)
+        return HomingProgress(robot, goal, off, turn, arrived, robot in self._paths)
 
     def _forget(self, robot: int) -> None:
         self._paths.pop(robot, None)
@@ -145,8 +145,8 @@ class Homing:
         while len(path) > 1 and distance((x, y), path[0]) < CORNER:
             path.pop(0)
         remaining = distance((x, y), path[-1]) if len(path) == 1 else 1e9
-        if remaining < (AT if robot in self._arrived else AT - 4.0):
-            if distance(path[-1], goal[:2]) > AT:
+        if remaining < (POSITION_TOLERANCE if robot in self._arrived else POSITION_TOLERANCE - 4.0):
+            if distance(path[-1], goal[:2]) > POSITION_TOLERANCE:
                 del self._paths[robot]  # it has made room; plan from here to its goal
                 return REST
             self._arrived.add(robot)

@@ -18,19 +18,19 @@ WEAKEST, STRONGEST = 0.8, 1.25  # limits of corrected gains; beyond, the cause i
 
 
 class Kinematics:
-    """Kinematics of one robot; `wear` is the estimated correction of its drivetrain."""
+    """Kinematics of one robot; `correction` is the estimated correction of its drivetrain."""
 
     def __init__(self, drivetrain: Drivetrain) -> None:
         self.drivetrain = drivetrain
-        self.wear = IDEAL
+        self.correction = IDEAL
         self._carry = [0.0, 0.0]
 
     def wheels(self, desired: Twist) -> WheelCommand:
         """The wheel command for a twist (px/s, rad/s), rounded to the levels of the radio protocol."""
-        linear, half = desired[0], 0.5 * self.drivetrain.base * desired[1] / _plausible(self.wear.turning)
+        linear, half = desired[0], 0.5 * self.drivetrain.base * desired[1] / _plausible(self.correction.turning)
         left, right = (
-            self._commanded(linear + half, self.wear.left),
-            self._commanded(linear - half, self.wear.right),
+            self._commanded(linear + half, self.correction.left),
+            self._commanded(linear - half, self.correction.right),
         )
         shares = wheel_shares(self.drivetrain, 0.5 * (left + right), (left - right) / self.drivetrain.base)
         return WheelCommand(self._level(0, shares[0]), self._level(1, shares[1]))
@@ -48,15 +48,20 @@ class Kinematics:
         """Steady-state twist of a command with the estimated wear."""
         linear, angular = self.nominal_twist(wheels)
         half = 0.5 * self.drivetrain.base * angular
-        left, right = self._actual(linear + half, self.wear.left), self._actual(linear - half, self.wear.right)
-        return 0.5 * (left + right), (left - right) * _plausible(self.wear.turning) / self.drivetrain.base
+        left, right = (
+            self._actual(linear + half, self.correction.left),
+            self._actual(linear - half, self.correction.right),
+        )
+        return 0.5 * (left + right), (left - right) * _plausible(self.correction.turning) / self.drivetrain.base
 
     def _commanded(self, speed: float, gain: float) -> float:
         """The nominal wheel speed to command for a true `speed`, px/s."""
-        return copysign(max(0.0, abs(speed) / _plausible(gain) + self.wear.stiction), speed) if speed else 0.0
+        return copysign(max(0.0, abs(speed) / _plausible(gain) + self.correction.stiction), speed) if speed else 0.0
 
     def _actual(self, command: float, gain: float) -> float:
-        return copysign(max(0.0, abs(command) - self.wear.stiction) * _plausible(gain), command) if command else 0.0
+        return (
+            copysign(max(0.0, abs(command) - self.correction.stiction) * _plausible(gain), command) if command else 0.0
+        )
 
     def _level(self, wheel: int, share: float) -> float:
         if share == 0.0:

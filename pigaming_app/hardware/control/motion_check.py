@@ -69,20 +69,20 @@ class PoseSample(NamedTuple):
 
 
 class MotionCheck:
-    """Checks all robots by their commands (`sent`) and observed poses (`seen`)."""
+    """Checks all robots by their commands and observed poses."""
 
     def __init__(self, drivetrains: Sequence[Drivetrain]) -> None:
         self._checks = [RobotMotionCheck(drivetrain) for drivetrain in drivetrains]
 
-    def sent(self, now: float, twists: Sequence[Twist | None]) -> None:
+    def record_commands(self, now: float, twists: Sequence[Twist | None]) -> None:
         """Note the commands in force from `now` on, as twists in px/s and rad/s; None: motors off."""
         for check, twist in zip(self._checks, twists, strict=True):
-            check.sent(now, twist or (0.0, 0.0))
+            check.record_command(now, twist or (0.0, 0.0))
 
-    def seen(self, fixes: Sequence[Fix]) -> None:
+    def record_fixes(self, fixes: Sequence[Fix]) -> None:
         """Note the observed poses and judge by them."""
         for fix in fixes:
-            self._checks[fix.robot].seen(fix)
+            self._checks[fix.robot].record_fix(fix)
 
     def forget(self, robot: int | None = None) -> None:
         """Reset one robot, or all: the next commands come from elsewhere, or concern other robots."""
@@ -106,13 +106,13 @@ class RobotMotionCheck:
         self._sent: deque[WheelTravel] = deque()
         self._poses: deque[PoseSample] = deque()
 
-    def sent(self, now: float, twist: Twist) -> None:
+    def record_command(self, now: float, twist: Twist) -> None:
         """Note a command (px/s, rad/s) in force from `now` on."""
         self._roll(now)
         half = 0.5 * self.drivetrain.base * twist[1]
         self._command = twist[0] + half, twist[0] - half
 
-    def seen(self, fix: Fix) -> None:
+    def record_fix(self, fix: Fix) -> None:
         """Note an observed pose and judge by it."""
         poses = self._poses
         if not self._sent or fix.captured < self._sent[0].time + SETTLES:

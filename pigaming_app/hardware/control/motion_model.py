@@ -28,22 +28,22 @@ class MotionState:
         other.left, other.right, other.left_way, other.right_way = self.left, self.right, self.left_way, self.right_way
         return other
 
-    def roll(self, left: float, right: float, wear: WheelCorrection, base: float, lag: float, dt: float) -> None:
+    def roll(self, left: float, right: float, correction: WheelCorrection, base: float, lag: float, dt: float) -> None:
         """Advance by `dt` s with wheel commands `left`, `right` in px/s; `base` in px, `lag` in s.
 
         Exact for the motors; the path is an arc at the mean speeds of the step.
         """
         decay = exp(-dt / lag)
         mean = (1.0 - decay) * lag / dt
-        goal_left, goal_right = _beyond(left, wear.stiction), _beyond(right, wear.stiction)
-        v_left = wear.left * (goal_left + (self.left - goal_left) * mean)
-        v_right = wear.right * (goal_right + (self.right - goal_right) * mean)
+        goal_left, goal_right = _beyond(left, correction.stiction), _beyond(right, correction.stiction)
+        v_left = correction.left * (goal_left + (self.left - goal_left) * mean)
+        v_right = correction.right * (goal_right + (self.right - goal_right) * mean)
         self.left = goal_left + (self.left - goal_left) * decay
         self.right = goal_right + (self.right - goal_right) * decay
         way_left, way_right = _sign(goal_left), _sign(goal_right)
         self.left_way = way_left + (self.left_way - way_left) * decay
         self.right_way = way_right + (self.right_way - way_right) * decay
-        turn = (v_left - v_right) * wear.turning / base * dt
+        turn = (v_left - v_right) * correction.turning / base * dt
         way, middle = 0.5 * (v_left + v_right) * dt, self.heading + 0.5 * turn
         self.x += way * cos(middle)
         self.y += way * sin(middle)

@@ -49,15 +49,15 @@ def find_path(floor: Any, start: Point, goal: Point) -> list[Point]:
     """Waypoints from start to goal, the goal being the last; empty if there is no path."""
     x, y = min(max(start[0], RADIUS), WIDTH - RADIUS), min(max(start[1], RADIUS), HEIGHT - RADIUS)
     route: Any = Route()
-    route.wanted, route.goal_x, route.goal_y = 1, goal[0], goal[1]
+    route.active, route.goal_x, route.goal_y = 1, goal[0], goal[1]
     path: list[Point] = []
     for _ in range(MAX_POINTS):
         update_route(floor, route, x, y)
         if route.straight:
             return [*path, goal] if is_clear(floor, x, y, *goal, RADIUS + 1.0) else _last_leg(floor, path, (x, y), goal)
-        if path and (route.way_x, route.way_y) == path[-1]:
+        if path and (route.waypoint_x, route.waypoint_y) == path[-1]:
             return []
-        x, y = route.way_x, route.way_y
+        x, y = route.waypoint_x, route.waypoint_y
         path.append((x, y))
     return []
 

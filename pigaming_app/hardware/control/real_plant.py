@@ -71,7 +71,7 @@ class RealPlant:
             if i in self.real:
                 self._roll(i, wheels[i], dt)
                 robot.linear, robot.angular = self.motion[i]
-        self.rig.tell(wheels)
+        self.rig.send(wheels)
 
     def place(self, poses: Sequence[Pose]) -> None:
         """Start homing the real robots of the match to these poses."""
@@ -145,8 +145,8 @@ class RealPlant:
             self._left_at[i] = None if inside or sighting.age > FORGOTTEN else now if left_at is None else left_at
             if i in self.real and self.world.robots[i].present:
                 outside[i] = max(now - left_at, 1e-3) if (left_at := self._left_at[i]) is not None else 0.0
-        signs = self.rig.signs(outside, seen)
-        return self.safety.judge([signs.get(i) for i in range(ROBOTS)], now)
+        health = self.rig.health(outside, seen)
+        return self.safety.judge([health.get(i) for i in range(ROBOTS)], now)
 
     def _ahead(self, snapshot: RobotSnapshot) -> list[Pose]:
         """The stopping pose of every robot, real or simulated."""

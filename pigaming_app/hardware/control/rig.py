@@ -1,7 +1,7 @@
 """Rig: camera, tracker and link of one arena on one clock.
 
 `pump` processes the newest picture and runs the link. In the arena a thread does that (`start`); in simulated time the
-owner of the clock calls it. All commands go through `tell`, which also informs the tracker.
+owner of the clock calls it. All commands go through `send`, which also informs the tracker.
 """
 
 import logging
@@ -38,24 +38,24 @@ log = logging.getLogger("pigaming")
 class TrackerPort(Protocol):
     """The subset of a tracker that a rig uses."""
 
-    looked: float  # s, exposure of the newest processed picture
+    last_captured: float  # s, exposure of the newest processed picture
 
     @property
-    def refused(self) -> Mapping[int, str]: ...
+    def rejections(self) -> Mapping[int, str]: ...
 
     expected: set[int]  # robots worth searching for
 
-    def sent(self, time: float, twists: Sequence[Twist | None]) -> None: ...
+    def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None: ...
 
-    def see(self, frame: CameraFrame) -> Sequence[Fix]: ...
+    def process(self, frame: CameraFrame) -> Sequence[Fix]: ...
 
     def sense(self, now: float) -> list[Sighting]: ...
 
     def predict(self, now: float, ahead: Sequence[float]) -> tuple[list[Sighting], list[Sighting]]: ...
 
-    def doubled(self) -> set[int]: ...
+    def duplicates(self) -> set[int]: ...
 
-    def wear(self, robot: int) -> WheelCorrection: ...
+    def wheel_correction(self, robot: int) -> WheelCorrection: ...
 
 
 class LinkPort(Protocol):
@@ -65,7 +65,7 @@ class LinkPort(Protocol):
     def telemetry(self) -> Mapping[int, Telemetry]: ...
 
     @property
-    def trouble(self) -> OperatorMessage | None: ...
+    def fault(self) -> OperatorMessage | None: ...
 
     def send(self, wheels: Sequence[WheelCommand | None]) -> None: ...
 
@@ -80,7 +80,7 @@ class RobotSnapshot(NamedTuple):
     """Predicted poses of all robots now, and at the time when a command sent now acts."""
 
     time: float  # s
-    looked: float  # s, exposure of the newest picture behind the prediction
+    last_captured: float  # s, exposure of the newest picture behind the prediction
     now: list[Sighting]
     later: list[Sighting]
 
@@ -88,11 +88,11 @@ class RobotSnapshot(NamedTuple):
 class Recorder(Protocol):
     """Receives all commands, fixes and estimates, for a recording."""
 
-    def sent(self, time: float, wheels: Sequence[WheelCommand | None]) -> None: ...
+    def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None: ...
 
-    def seen(self, now: float, captured: float, fixes: Sequence[Fix]) -> None: ...
+    def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None: ...
 
-    def believed(self, now: float, sightings: Sequence[Sighting]) -> None: ...
+    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None: ...
 
 
 class Rig:
@@ -142,14 +142,14 @@ class Rig:
         """One prediction of all robots for one tick, shared by safety, clipping and steering."""
         with self._lock:
             now = self.clock()
-            return RobotSnapshot(now, self.tracker.looked, *self.tracker.predict(now, self._dead_times))
+            return RobotSnapshot(now, self.tracker.last_captured, *self.tracker.predict(now, self._dead_times))
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
         """Poses of the robots, predicted `ahead` s with the commands in force."""
         with self._lock:
             return self.tracker.sense(self.clock() + ahead)
 
-    def tell(self, wheels: Sequence[WheelCommand | None]) -> None:
+    def send(self, wheels: Sequence[WheelCommand | None]) -> None:
         """Send the commands of all robots; None: motors off."""
         sent: list[WheelCommand | None] = [None] * ROBOTS
         for robot, command in enumerate(wheels):
@@ -157,11 +157,11 @@ class Rig:
         twists = [command and self.kinematics[i].nominal_twist(command) for i, command in enumerate(wheels)]
         now = self.clock()
         with self._lock:
-            self.tracker.sent(now, twists)
-            self.motion_check.sent(now, twists)
+            self.tracker.record_commands(now, twists)
+            self.motion_check.record_commands(now, twists)
             if self.recorder:
-                self.recorder.sent(now, wheels)
-                self.recorder.believed(now, self.tracker.sense(now))
+                self.recorder.record_commands(now, wheels)
+                self.recorder.record_estimates(now, self.tracker.sense(now))
         self.link.send(sent)
         self.pump()
 
@@ -183,27 +183,31 @@ class Rig:
         """The latest report of a robot, or None."""
         return self.link.telemetry.get(self.channels[robot])
 
-    def signs(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:
+    def health(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:
         """Health of the robots in `outside` (s outside the arena, by robot).
 
         A verdict lasts one tick, so ages are extrapolated by one tick.
         """
-        now, gone, drift = self.clock(), self.link.trouble is not None, self.drift()
+        now, gone, drift = self.clock(), self.link.fault is not None, self.drift()
         with self._lock:
-            looked, doubled, refused = self.tracker.looked, self.tracker.doubled(), self.tracker.refused
+            last_captured, duplicates, rejections = (
+                self.tracker.last_captured,
+                self.tracker.duplicates(),
+                self.tracker.rejections,
+            )
             contradictions = [self.motion_check.contradiction(robot) for robot in range(ROBOTS)]
         health = {}
         for robot, seconds in outside.items():
             report, age = self.telemetry(robot), seen.now[robot].age
             health[robot] = Health(
-                picture=now - max(looked, self._begun) + DT,
-                unseen=age + DT if seen.looked > seen.time - age + 1e-6 else 0.0,
-                refused=refused.get(robot, ""),
-                doubled=robot in doubled,
+                picture_age=now - max(last_captured, self._begun) + DT,
+                unseen=age + DT if seen.last_captured > seen.time - age + 1e-6 else 0.0,
+                rejection=rejections.get(robot, ""),
+                duplicate=robot in duplicates,
                 outside=seconds,
-                silence=now - (report.heard if report else self._begun),
+                silence=now - (report.received if report else self._begun),
                 battery=report.battery if report else Health().battery,
-                refuses=report is not None and bool(report.flags & EMPTY),
+                undervoltage=report is not None and bool(report.flags & EMPTY),
                 deadman_seconds=self._deaf(robot, report),
                 astray=contradictions[robot].astray,
                 stuck=contradictions[robot].stuck,
@@ -218,10 +222,10 @@ class Rig:
 
         A deadman that tripped before this rig was in contact is not counted.
         """
-        if report is None or not report.flags & DEADMAN or report.heard < self._begun + GREETING:
+        if report is None or not report.flags & DEADMAN or report.received < self._begun + GREETING:
             self._deaf_since.pop(robot, None)
             return 0.0
-        return max(1e-3, report.heard - self._deaf_since.setdefault(robot, report.heard))
+        return max(1e-3, report.received - self._deaf_since.setdefault(robot, report.received))
 
     def start(self) -> "Rig":
         """Process pictures and run the link in threads until `close`. Requires a real-time clock."""
@@ -256,12 +260,12 @@ class Rig:
         if before is not None and _same(before, frame.image):
             return  # a driver that repeats a picture: real ones differ by noise
         with self._lock:
-            fixes = self.tracker.see(frame)
-            self.motion_check.seen(fixes)
+            fixes = self.tracker.process(frame)
+            self.motion_check.record_fixes(fixes)
             for robot, kinematics in enumerate(self.kinematics):
-                kinematics.wear = self.tracker.wear(robot)
+                kinematics.correction = self.tracker.wheel_correction(robot)
             if self.recorder:
-                self.recorder.seen(self.clock(), frame.captured, fixes)
+                self.recorder.record_fixes(self.clock(), frame.captured, fixes)
 
 
 def _same(one: Image, other: Image) -> bool:

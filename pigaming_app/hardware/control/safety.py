@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
 
-IN_A_HAND, BEYOND = ("size", "tilted"), "outside"  # why a marker was refused: see Tracker.refused
+IN_A_HAND, BEYOND = ("size", "tilted"), "outside"  # why a marker was rejected: see Tracker.rejections
 CALM = 0.5  # s for which a condition must be clear before its fault ends
 
 
@@ -28,17 +28,17 @@ class Response(IntEnum):
 class Health(NamedTuple):
     """Health of one robot; conditions of the whole rig are repeated for each."""
 
-    picture: float = 0.0  # s, age of the newest picture
+    picture_age: float = 0.0  # s, age of the newest picture
     unseen: float = 0.0  # s since it was seen, if there are newer pictures
-    refused: str = ""  # why a marker with its number was recently refused: see Tracker.refused
-    doubled: bool = False  # its marker was seen twice in one picture
+    rejection: str = ""  # why a marker with its number was recently rejected: see Tracker.rejections
+    duplicate: bool = False  # its marker was seen twice in one picture
     outside: float = 0.0  # s outside the arena
     astray: float = 0.0  # s of motion that no command explains: see motion_check
     stuck: float = 0.0  # s at rest despite a command to move
     leaving: bool = False  # astray and about to leave the arena
     silence: float = 0.0  # s since its last report
     battery: float = 9.9  # V
-    refuses: bool = False  # its battery was empty; it keeps its motors off until the battery has recovered
+    undervoltage: bool = False  # its battery was empty; it keeps its motors off until the battery has recovered
     deadman_seconds: float = 0.0  # s of reports that its deadman stopped it
     unlinked: bool = False  # no radio
     drift: float = 0.0  # mm, drift of the corner markers
@@ -50,36 +50,36 @@ class SafetyRule:
     """One row of the table: the response to a condition, for the robot or for everyone."""
 
     name: str  # text key: faults.NAME
-    bad: Callable[[Health], bool]
-    does: Response
+    condition: Callable[[Health], bool]
+    response: Response
     everyone: bool = False
     pauses: bool = False
-    lasts: bool = False  # latched until Safety.forgive; meanwhile no robot moves
+    latched: bool = False  # kept until Safety.clear_fault; meanwhile no robot moves
 
 
-def _disobeys(signs: Health) -> bool:
+def _disobeys(health: Health) -> bool:
     """True if motion contradicts the commands; a robot at rest without recent reports may just be switched off."""
-    return signs.leaving or signs.astray > 0.4 or (signs.stuck > 0.4 and signs.silence < 0.35)
+    return health.leaving or health.astray > 0.4 or (health.stuck > 0.4 and health.silence < 0.35)
 
 
 RULES = (
     SafetyRule("stopped", lambda s: s.stopped, Response.STOP, everyone=True, pauses=True),
     SafetyRule("radio", lambda s: s.unlinked, Response.STOP, everyone=True, pauses=True),
-    SafetyRule("camera", lambda s: s.picture > 0.200, Response.STOP, everyone=True, pauses=True),
+    SafetyRule("camera", lambda s: s.picture_age > 0.200, Response.STOP, everyone=True, pauses=True),
     SafetyRule("drift", lambda s: s.drift > 15.0, Response.STOP, everyone=True, pauses=True),
-    SafetyRule("twice", lambda s: s.doubled, Response.STOP, pauses=True),
-    SafetyRule("held", lambda s: s.unseen > 1.000 and s.refused in IN_A_HAND, Response.STOP, pauses=True),
+    SafetyRule("twice", lambda s: s.duplicate, Response.STOP, pauses=True),
+    SafetyRule("held", lambda s: s.unseen > 1.000 and s.rejection in IN_A_HAND, Response.STOP, pauses=True),
     SafetyRule(
-        "lost", lambda s: s.unseen > 1.000 and s.refused not in (*IN_A_HAND, BEYOND), Response.STOP, pauses=True
+        "lost", lambda s: s.unseen > 1.000 and s.rejection not in (*IN_A_HAND, BEYOND), Response.STOP, pauses=True
     ),
-    SafetyRule("disobeys", _disobeys, Response.STOP, pauses=True, lasts=True),
+    SafetyRule("disobeys", _disobeys, Response.STOP, pauses=True, latched=True),
     SafetyRule("unseen", lambda s: s.unseen > 0.250, Response.STOP),
     SafetyRule("unseen", lambda s: s.unseen > 0.100, Response.HALF),
-    SafetyRule("empty", lambda s: s.battery < 4.0 or s.refuses, Response.OFF, pauses=True),
+    SafetyRule("empty", lambda s: s.battery < 4.0 or s.undervoltage, Response.OFF, pauses=True),
     SafetyRule("silent", lambda s: s.silence > 1.0, Response.OFF, pauses=True),
     SafetyRule("deadman", lambda s: s.deadman_seconds > 0.5, Response.STOP, pauses=True),
     SafetyRule("deadman", lambda s: s.deadman_seconds > 0.0, Response.WARN),
-    SafetyRule("outside", lambda s: s.unseen > 1.000 and s.refused == BEYOND, Response.STOP, pauses=True),
+    SafetyRule("outside", lambda s: s.unseen > 1.000 and s.rejection == BEYOND, Response.STOP, pauses=True),
     SafetyRule("outside", lambda s: s.outside > 3.0, Response.INWARD, pauses=True),
     SafetyRule("outside", lambda s: s.outside > 0.0, Response.INWARD),
     SafetyRule("low", lambda s: s.battery < 4.4, Response.WARN),
@@ -92,7 +92,7 @@ class Fault(NamedTuple):
 
     name: str
     robot: int | None  # None: all robots
-    does: Response
+    response: Response
     pauses: bool
     since: float  # s
 
@@ -103,7 +103,7 @@ class Safety:
     def __init__(self) -> None:
         self.stopped = False
         self.faults: list[Fault] = []  # present faults, worst first, each once
-        self._lasting: set[tuple[SafetyRule, int]] = set()
+        self._latched: set[tuple[SafetyRule, int]] = set()
         self._bad: dict[tuple[SafetyRule, int | None], tuple[float, float]] = {}  # first and last time, s
 
     def all_stop(self) -> None:
@@ -115,13 +115,13 @@ class Safety:
         self.stopped = False
 
     @property
-    def lasting(self) -> set[int]:
+    def latched(self) -> set[int]:
         """Robots with a latched fault."""
-        return {robot for _, robot in self._lasting}
+        return {robot for _, robot in self._latched}
 
     def clear_fault(self, robot: int) -> None:
         """Clear the latched faults of a robot after somebody has checked it."""
-        self._lasting = {key for key in self._lasting if key[1] != robot}
+        self._latched = {key for key in self._latched if key[1] != robot}
 
     def forget(self, robot: int, last: bool) -> None:
         """Drop all faults of a robot that is no longer real; `last`: no real robot remains."""
@@ -134,38 +134,38 @@ class Safety:
         """True if the match must pause."""
         return any(fault.pauses for fault in self.faults)
 
-    def judge(self, signs: Sequence[Health | None], now: float) -> list[Response]:
+    def judge(self, health: Sequence[Health | None], now: float) -> list[Response]:
         """The response for each robot; updates `faults`. None: not a real robot, or not in the match."""
-        real = {robot: sign._replace(stopped=self.stopped) for robot, sign in enumerate(signs) if sign is not None}
-        held = [Response.WARN] * len(signs)
+        real = {robot: state._replace(stopped=self.stopped) for robot, state in enumerate(health) if state is not None}
+        held = [Response.WARN] * len(health)
         self.faults = []
         for rule in RULES:
             for robot in [None] if rule.everyone else real:
                 concerned = list(real) if robot is None else [robot]
-                bad = any(rule.bad(real[other]) for other in concerned)
-                if rule.lasts and robot is not None:
-                    self._lasting |= {(rule, robot)} if bad else set()
-                    bad = (rule, robot) in self._lasting
-                since = self._since(rule, robot, bad, now)
+                active = any(rule.condition(real[other]) for other in concerned)
+                if rule.latched and robot is not None:
+                    self._latched |= {(rule, robot)} if active else set()
+                    active = (rule, robot) in self._latched
+                since = self._since(rule, robot, active, now)
                 if since is None:
                     continue
-                for other in real if rule.lasts else concerned:
-                    held[other] = max(held[other], rule.does)
+                for other in real if rule.latched else concerned:
+                    held[other] = max(held[other], rule.response)
                 if (rule.name, robot) not in [(fault.name, fault.robot) for fault in self.faults]:
-                    self.faults.append(Fault(rule.name, robot, rule.does, rule.pauses, since))
+                    self.faults.append(Fault(rule.name, robot, rule.response, rule.pauses, since))
         self._explain()
         return held
 
     def _explain(self) -> None:
         """Unlatch faults that another pausing fault explains: the robot continues once that one has ended."""
         for fault in self.faults:
-            if fault.pauses and not any(rule.lasts for rule in RULES if rule.name == fault.name):
-                self._lasting = {key for key in self._lasting if fault.robot not in (None, key[1])}
+            if fault.pauses and not any(rule.latched for rule in RULES if rule.name == fault.name):
+                self._latched = {key for key in self._latched if fault.robot not in (None, key[1])}
 
-    def _since(self, rule: SafetyRule, robot: int | None, bad: bool, now: float) -> float | None:
+    def _since(self, rule: SafetyRule, robot: int | None, active: bool, now: float) -> float | None:
         """Start of a rule's present fault, s, or None. A rule that pauses outlasts its condition by CALM."""
         since, last = self._bad.get((rule, robot), (now, now))
-        if bad:
+        if active:
             self._bad[rule, robot] = since, now
             return since
         if (rule, robot) in self._bad and rule.pauses and now - last < CALM:

@@ -28,23 +28,23 @@ OPEN = 3  # steps of exposure
 SHOWS_AFTER = 0.025  # s, latency of the projector
 REFRESH = 0.01  # s, least interval of two projected pictures; of two closer ones only the second is shown
 LIGHT_TURN = 40.0  # s, period of the moving light
-RESTLESS = 6.0  # s between two exposure steps
+EXPOSURE_PERIOD = 6.0  # s between two exposure steps
 
 
 class EmulatedArena:
     """The mat and its surroundings. `camera` is a CameraSource, `radio` a SerialPort, `faults` a FaultInjector.
 
-    `unrest`: size of spontaneous exposure steps, as a share; `begin`: start of the clock, s; `refresh`: see
+    `exposure_jitter`: size of spontaneous exposure steps, as a share; `begin`: start of the clock, s; `refresh`: see
     SceneRenderer, 1 renders every picture completely.
     """
 
     def __init__(
         self,
         seed: int = 1,
-        pace: FrameTiming | None = None,
-        air: RadioChannel | None = None,
+        timing: FrameTiming | None = None,
+        channel: RadioChannel | None = None,
         refresh: int = 1,
-        unrest: float = 0.0,
+        exposure_jitter: float = 0.0,
         begin: float = 0.0,
     ) -> None:
         random = Random(f"arena {seed}")
@@ -55,14 +55,16 @@ class EmulatedArena:
             for i, pose in enumerate(STARTS)
         ]
         self.firmwares = [Firmware(robot, i + 1) for i, robot in enumerate(self.robots)]
-        self.radio = EmulatedRadio(self.firmwares, air or RadioChannel(), self.clock, seed)
-        self.camera = EmulatedCamera(SceneRenderer(self.optics, seed, refresh), pace or FrameTiming(), self.clock, seed)
+        self.radio = EmulatedRadio(self.firmwares, channel or RadioChannel(), self.clock, seed)
+        self.camera = EmulatedCamera(
+            SceneRenderer(self.optics, seed, refresh), timing or FrameTiming(), self.clock, seed
+        )
         self.faults = FaultInjector(self)
         self.gain = 1.0  # exposure
         self.cleared = False  # True if the robots are off the mat, out of view
-        self.ran = [float("-inf")] * len(self.robots)  # s, when a robot's motors last ran
-        self._unrest, self._restless = unrest, Random(f"exposure {seed}")
-        self._drift_gain, self._next_gain = 1.0, begin + RESTLESS
+        self.last_driven = [float("-inf")] * len(self.robots)  # s, when a robot's motors last ran
+        self._exposure_jitter, self._exposure_random = exposure_jitter, Random(f"exposure {seed}")
+        self._drift_gain, self._next_gain = 1.0, begin + EXPOSURE_PERIOD
         self._shown: Image = np.zeros((CANVAS[1], CANVAS[0]), dtype=np.uint8)
         self._pending: deque[tuple[float, Image]] = deque()
         self._queue = Lock()  # guards `_pending`: the window projects while another thread advances time
@@ -118,7 +120,7 @@ class EmulatedArena:
         for i, robot in enumerate(self.robots):
             robot.roll()
             if robot.left or robot.right:
-                self.ran[i] = now
+                self.last_driven[i] = now
         push_apart(self.robots)
         with self._queue:
             while self._pending and self._pending[0][0] <= now:
@@ -129,8 +131,8 @@ class EmulatedArena:
 
     def _scene(self, now: float) -> CameraScene:
         if now >= self._next_gain:
-            self._next_gain += RESTLESS
-            self._drift_gain = 1.0 + self._unrest * self._restless.uniform(-1.0, 1.0)
+            self._next_gain += EXPOSURE_PERIOD
+            self._drift_gain = 1.0 + self._exposure_jitter * self._exposure_random.uniform(-1.0, 1.0)
         things = []
         for i in range(0 if self.cleared else len(self.robots)):
             things += self.faults.things(i, tuple(moment[i] for moment in self._past))

@@ -36,25 +36,25 @@ class Exposure(NamedTuple):
 class EmulatedCamera:
     """A CameraSource over the emulated mat."""
 
-    def __init__(self, painter: SceneRenderer, pace: FrameTiming, clock: Clock, seed: int) -> None:
-        self.painter, self.pace, self.clock = painter, pace, clock
+    def __init__(self, painter: SceneRenderer, timing: FrameTiming, clock: Clock, seed: int) -> None:
+        self.painter, self.timing, self.clock = painter, timing, clock
         self.due = clock()  # s, when the next exposure ends
         self.frozen = self.stuck = self.gone = False
-        self.more_drops = 0.0
+        self.extra_drops = 0.0
         self.exposed = self.delivered = 0
         self._taken: float | None = None  # s, when the picture in processing was read
         self._random = Random(f"camera {seed}")
         # Without a reader only the newest are kept: those in transit and a few that have arrived.
-        self._in_transit: deque[Exposure] = deque(maxlen=ceil(2.0 * pace.fps * pace.delay) + QUEUE)
+        self._in_transit: deque[Exposure] = deque(maxlen=ceil(2.0 * timing.fps * timing.delay) + QUEUE)
         self.last: CameraFrame | None = None  # the newest delivered frame
 
     def expose(self, scene: CameraScene, middle: float) -> None:
         """End an exposure; `middle` is the middle of its time, s."""
-        pace, random = self.pace, self._random
+        timing, random = self.timing, self._random
         self.exposed += 1
-        self.due += 1.0 / pace.fps
-        lost = random.random() < pace.drops + self.more_drops
-        arrives = middle + max(0.5 * pace.delay, random.gauss(pace.delay, pace.jitter))
+        self.due += 1.0 / timing.fps
+        lost = random.random() < timing.drops + self.extra_drops
+        arrives = middle + max(0.5 * timing.delay, random.gauss(timing.delay, timing.jitter))
         if self._in_transit:
             arrives = max(arrives, self._in_transit[-1].arrives)
         if not (lost or self.frozen or self.gone):
@@ -79,7 +79,7 @@ class EmulatedCamera:
             return None
         self.delivered += 1
         self._taken = self.clock()
-        captured = taken.arrives - self.pace.delay
+        captured = taken.arrives - self.timing.delay
         if self.stuck and self.last is not None:
             self.last = CameraFrame(self.last.image, captured, taken.scene.number)
         else:

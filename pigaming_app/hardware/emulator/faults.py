@@ -102,7 +102,7 @@ class FaultInjector:
             aim = (lens.aim[0] + BUMP, lens.aim[1])
             arena.camera.painter.look_through(Optics(replace(lens, aim=aim)) if on else arena.optics)
         elif name == "frames_dropped":
-            arena.camera.more_drops = 0.67 * on
+            arena.camera.extra_drops = 0.67 * on
         elif name == "exposure_step":
             arena.gain = DARKER if on else 1.0
         elif name == "radio_lossy":
@@ -157,7 +157,7 @@ class FaultInjector:
         if robot in self._robots["upside_down"]:
             return [FlatObject(underside(), LID_HEIGHT + height, poses)]
         seen = [
-            FlatObject(body(), BODY_HEIGHT + height, poses[-1:], dull=True),
+            FlatObject(body(), BODY_HEIGHT + height, poses[-1:], dark=True),
             FlatObject(lid(self._worn(robot)), LID_HEIGHT + height, poses),
         ]
         if robot in self._robots["marker_covered"]:

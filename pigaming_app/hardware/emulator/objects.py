@@ -27,11 +27,11 @@ Placing = tuple[float, float, float]  # mm, mm, rad
 class FlatObject(NamedTuple):
     """A print at a height, with its poses during the exposure."""
 
-    look: Print
+    texture: Print
     height: float  # mm
     poses: tuple[Placing, ...]
     reach: float = 50.0  # mm, radius
-    dull: bool = False  # so dark that the light projected onto it may be taken from the mat beside it
+    dark: bool = False  # so dark that the light projected onto it may be taken from the mat beside it
 
 
 @lru_cache(maxsize=8)

@@ -8,7 +8,7 @@ from pigaming_app.hardware.emulator.optics import CANVAS
 
 
 class Projector:
-    """Projector over an arena. `see` takes the window's pixels, (height, width, 4) BGRA, of any size.
+    """Projector over an arena. `project` takes the window's pixels, (height, width, 4) BGRA, of any size.
 
     It has the canvas's aspect ratio: from a window with another one it shows the centre, without the bars.
     """
@@ -16,7 +16,7 @@ class Projector:
     def __init__(self, arena: EmulatedArena) -> None:
         self.arena = arena
 
-    def see(self, pixels: NDArray[np.uint8]) -> None:
+    def project(self, pixels: NDArray[np.uint8]) -> None:
         import cv2
 
         height, width = pixels.shape[:2]

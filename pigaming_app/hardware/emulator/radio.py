@@ -31,25 +31,25 @@ class RadioChannel:
     soonest: float = 0.002  # s in the air
     latest: float = 0.008
     loss: float = 0.0  # share of packets, for each robot independently
-    doubled: float = 0.0
+    duplicates: float = 0.0
     broken: float = 0.0  # share of packets with a wrong bit on the robot's line
     garbage: float = 0.0  # random bytes/s on the computer's line and on each robot's
 
 
-MODERATE = RadioChannel(loss=0.005, doubled=0.005, broken=0.002)
+MODERATE = RadioChannel(loss=0.005, duplicates=0.005, broken=0.002)
 
 
 class EmulatedRadio:
     """The computer's end of the radio, a SerialPort. `dead`: nothing goes through; `unplugged`: the port is gone."""
 
-    def __init__(self, firmwares: list[Firmware], air: RadioChannel, clock: Clock, seed: int) -> None:
-        self.firmwares, self.air, self.clock = firmwares, air, clock
+    def __init__(self, firmwares: list[Firmware], channel: RadioChannel, clock: Clock, seed: int) -> None:
+        self.firmwares, self.channel, self.clock = firmwares, channel, clock
         self.dead = self.unplugged = False
-        self.extra_loss = self.extra_garbage = 0.0  # in addition to those of `air`
+        self.extra_loss = self.extra_garbage = 0.0  # in addition to those of `channel`
         self.frames = 0  # valid frames from the computer
         self._random = Random(f"radio {seed}")
         self._lock = Lock()
-        self._receiver = xbee.FrameReceiver(air.mode == API_ESCAPED)
+        self._receiver = xbee.FrameReceiver(channel.mode == API_ESCAPED)
         self._events: list[tuple[float, int, int, bytes]] = []  # s, order, robot, data
         self._order = 0
         self._out_free = self._in_free = self._last = clock()
@@ -82,11 +82,11 @@ class EmulatedRadio:
         """Write bytes to the line. Raises OSError when unplugged or when the queue is full."""
         self._require_port()
         with self._lock:
-            byte = 10.0 / self.air.baud
+            byte = 10.0 / self.channel.baud
             self._out_free = max(self._out_free, self.clock())
             if (self._out_free - self.clock()) / byte + len(data) > LINE_HOLDS:
                 raise OSError("the line is full")
-            if self.air.mode == TRANSPARENT:
+            if self.channel.mode == TRANSPARENT:
                 self._out_free += len(data) * byte
                 self._send(xbee.BROADCAST, bytes(data), self._out_free + SILENCE * byte)
                 return len(data)
@@ -129,7 +129,7 @@ class EmulatedRadio:
         elif frame[0] == xbee.AT and len(frame) >= 4:
             name, given = frame[2:4], frame[4:]
             known = name in PARAMETERS
-            value = self.air.mode if name == b"AP" else 0
+            value = self.channel.mode if name == b"AP" else 0
             answer = b"" if given or not known else value.to_bytes(max(1, PARAMETERS[name]), "big")
             self._answer(bytes([xbee.AT_ANSWER, frame[1], *name, 0 if known else 2]) + answer, now + 0.002)
 
@@ -141,24 +141,24 @@ class EmulatedRadio:
         for robot, firmware in enumerate(self.firmwares):
             if to in (xbee.BROADCAST, firmware.address) and not self._lost(to):
                 reached = reached or firmware.robot.alive
-                for _ in range(2 if self._random.random() < self.air.doubled else 1):
+                for _ in range(2 if self._random.random() < self.channel.duplicates else 1):
                     self._deliver(robot, data, now + self._flight())
         return reached
 
     def _deliver(self, robot: int, data: bytes, now: float) -> None:
         """Queue data for a robot's controller, due at the end of its last byte."""
-        if self._random.random() < self.air.broken:
+        if self._random.random() < self.channel.broken:
             at = self._random.randrange(len(data))
             data = data[:at] + bytes([data[at] ^ 1 << self._random.randrange(8)]) + data[at + 1 :]
         self._order += 1
-        heappush(self._events, (now + len(data) * 10.0 / self.air.baud, self._order, robot, data))
+        heappush(self._events, (now + len(data) * 10.0 / self.channel.baud, self._order, robot, data))
 
     def _report(self, robot: int, data: bytes, now: float) -> None:
         """Send a report of a robot to the computer."""
         if self.dead or self._lost(0):
             return
-        leaves = now + (len(data) + SILENCE) * 10.0 / self.air.baud + self._flight()
-        if self.air.mode == TRANSPARENT:
+        leaves = now + (len(data) + SILENCE) * 10.0 / self.channel.baud + self._flight()
+        if self.channel.mode == TRANSPARENT:
             self._line(data, leaves)
             return
         strength = 38 + 2 * robot + self._random.randrange(6)  # -dBm
@@ -166,18 +166,18 @@ class EmulatedRadio:
         self._answer(bytes([xbee.RX16, 0, address, strength, 0]) + data, leaves)
 
     def _answer(self, data: bytes, now: float) -> None:
-        self._line(xbee.framed(data, self.air.mode == API_ESCAPED), now)
+        self._line(xbee.framed(data, self.channel.mode == API_ESCAPED), now)
 
     def _line(self, data: bytes, now: float) -> None:
         """Queue bytes on the line to the computer."""
         self._in_free = max(self._in_free, now)
         for value in data:
-            self._in_free += 10.0 / self.air.baud
+            self._in_free += 10.0 / self.channel.baud
             self._incoming.append((self._in_free, value))
 
     def _add_garbage(self, seconds: float) -> None:
         """Put random bytes on the lines, for `seconds` of time."""
-        random, garbage = self._random, self.air.garbage + self.extra_garbage
+        random, garbage = self._random, self.channel.garbage + self.extra_garbage
         for line in range(1 + len(self.firmwares)):
             if garbage and random.random() < garbage * seconds:
                 noise = random.randbytes(1)
@@ -189,7 +189,7 @@ class EmulatedRadio:
     def _lost(self, to: int) -> bool:
         """True if a packet is lost; the radio tries acknowledged packets four times."""
         tries = 1 if to == xbee.BROADCAST else 4
-        return all(self._random.random() < self.air.loss + self.extra_loss for _ in range(tries))
+        return all(self._random.random() < self.channel.loss + self.extra_loss for _ in range(tries))
 
     def _flight(self) -> float:
-        return self._random.uniform(self.air.soonest, self.air.latest)
+        return self._random.uniform(self.channel.soonest, self.channel.latest)

@@ -45,13 +45,13 @@ class ImageRegion(NamedTuple):
         """Slices of rows and columns."""
         return slice(self.top, self.bottom), slice(self.left, self.right)
 
-    def meets(self, other: "ImageRegion") -> bool:
+    def overlaps(self, other: "ImageRegion") -> bool:
         """True if the regions overlap."""
         return (
             self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
         )
 
-    def joined(self, other: "ImageRegion") -> "ImageRegion":
+    def union(self, other: "ImageRegion") -> "ImageRegion":
         """The bounding rectangle of both."""
         return ImageRegion(
             min(self.top, other.top),
@@ -113,7 +113,7 @@ class SceneRenderer:
         light = self._lit(scene, self._floor, window, room)
         cv2.multiply(light, self._mat[window.cut()], dst=light)
         for thing, place in sorted(things, key=lambda pair: pair[0].height):
-            if place.meets(window):
+            if place.overlaps(window):
                 self._lay(scene, thing, place, window, room, light)
         cv2.multiply(light, self._shade[window.cut()], dst=light, scale=scene.gain)
         height, width = light.shape
@@ -138,15 +138,15 @@ class SceneRenderer:
             min(place.right, window.right),
         )
         x, y = self.optics.plane(thing.height, *part.cut())
-        look = _look(thing.look, x, y, thing.poses if thing.poses[0] != thing.poses[-1] else thing.poses[:1])
+        texture = _look(thing.texture, x, y, thing.poses if thing.poses[0] != thing.poses[-1] else thing.poses[:1])
         rows = slice(part.top - window.top, part.bottom - window.top)
         columns = slice(part.left - window.left, part.right - window.left)
         region = light[rows, columns]
-        if thing.dull:
-            region *= 1.0 + look[..., 0] - look[..., 1]
+        if thing.dark:
+            region *= 1.0 + texture[..., 0] - texture[..., 1]
             return
         lit = self._lit(scene, self._lids if thing.height else self._floor, part, room[rows, columns])
-        region += look[..., 0] * lit - look[..., 1] * region
+        region += texture[..., 0] * lit - texture[..., 1] * region
 
     def _lit(self, scene: CameraScene, maps: tuple[Map, Map], window: ImageRegion, room: Floats) -> Floats:
         """Light on white paper, in grey levels."""
@@ -177,16 +177,16 @@ class SceneRenderer:
         return ImageRegion(top, left, min(max(int(bottom), top + 1), high), min(max(int(right), left + 1), wide))
 
 
-def _look(look: Print, x: Map, y: Map, poses: tuple[Placing, ...]) -> Floats:
+def _look(texture: Print, x: Map, y: Map, poses: tuple[Placing, ...]) -> Floats:
     """A print sampled at points of its plane and averaged over its poses, (rows, columns, 2)."""
     import cv2
 
-    middle = len(look) / 2 - 0.5
+    middle = len(texture) / 2 - 0.5
     whole = np.zeros((*x.shape, 2), dtype=np.float32)
     for at_x, at_y, heading in poses:
         c, s = np.float32(TEXELS * cos(heading)), np.float32(TEXELS * sin(heading))
         over, down = np.float32(middle + at_x * s - at_y * c), np.float32(middle + at_x * c + at_y * s)
-        seen = cv2.remap(look, y * c - x * s + over, down - x * c - y * s, cv2.INTER_LINEAR)
+        seen = cv2.remap(texture, y * c - x * s + over, down - x * c - y * s, cv2.INTER_LINEAR)
         cv2.accumulate(seen, whole)
     whole *= np.float32(1.0 / (255.0 * len(poses)))
     return whole
@@ -196,12 +196,12 @@ def _merged(windows: list[ImageRegion]) -> list[ImageRegion]:
     """Merge overlapping windows."""
     merged: list[ImageRegion] = []
     for window in windows:
-        overlapping = [other for other in merged if other.meets(window)]
+        overlapping = [other for other in merged if other.overlaps(window)]
         while overlapping:
             for other in overlapping:
                 merged.remove(other)
-                window = window.joined(other)
-            overlapping = [other for other in merged if other.meets(window)]
+                window = window.union(other)
+            overlapping = [other for other in merged if other.overlaps(window)]
         merged.append(window)
     return merged
 

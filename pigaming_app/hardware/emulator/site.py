@@ -24,7 +24,7 @@ HEADING = -1.2  # rad, of a robot put down by hand
 class EmulatedCameraSource:
     """The camera over the emulated mat; it can be closed and opened repeatedly."""
 
-    trouble: None = None
+    fault: None = None
 
     def __init__(self, arena: EmulatedArena) -> None:
         self.arena = arena
@@ -62,9 +62,9 @@ class EmulatedCalibrationSite:
         if self.stepped:
             self.arena.advance(seconds)
 
-    def see(self, pixels: NDArray[np.uint8]) -> None:
+    def project(self, pixels: NDArray[np.uint8]) -> None:
         """Project the pixels of the window."""
-        self.projector.see(pixels)
+        self.projector.project(pixels)
 
     def clear(self, off: bool) -> None:
         """Take the robots off the mat, or put them back. A cleared mat is rendered completely in every picture."""

@@ -27,17 +27,17 @@ class Emergency(NamedTuple):
 
     begin: Callable[[FigureEight, int], None]
     end: Callable[[FigureEight, int], None]
-    says: tuple[str, ...]  # fault names of `safety`, at least one of which must be reported
+    reports: tuple[str, ...]  # fault names of `safety`, at least one of which must be reported
     everyone: bool = False  # True: all robots must stop
     allowed: float = 0.0  # s that the rules of `safety` allow before a reaction
 
 
-def fault(name: str, *says: str, everyone: bool = False, allowed: float = 0.0) -> Emergency:
+def fault(name: str, *reports: str, everyone: bool = False, allowed: float = 0.0) -> Emergency:
     """A fault of the emulated arena as an emergency."""
     return Emergency(
         lambda trail, robot: trail.bed.arena.faults.switch(name, True, robot),
         lambda trail, robot: trail.bed.arena.faults.switch(name, False, robot),
-        says,
+        reports,
         everyone,
         allowed,
     )
@@ -80,7 +80,7 @@ class StopResult(NamedTuple):
     """Result of an emergency."""
 
     seconds: float  # from the fault, or the end of `allowed`, until the last affected motor stopped
-    said: bool  # True if the fault was reported
+    reported: bool  # True if the fault was reported
 
 
 def stop(trail: FigureEight, name: str, robot: int = 1) -> StopResult:
@@ -89,15 +89,15 @@ def stop(trail: FigureEight, name: str, robot: int = 1) -> StopResult:
     settle(trail)
     began = arena.clock() + emergency.allowed
     emergency.begin(trail, robot)
-    said = False
+    reported = False
     for tick in range(round((emergency.allowed + 1.6) * HZ)):
         trail.tick()
-        said = said or any(fault.name in emergency.says for fault in trail.plant.faults)
-        if said and tick > (emergency.allowed + ENOUGH) * HZ:
+        reported = reported or any(fault.name in emergency.reports for fault in trail.plant.faults)
+        if reported and tick > (emergency.allowed + ENOUGH) * HZ:
             break
-    last = max(arena.ran) if emergency.everyone else arena.ran[robot]
+    last = max(arena.last_driven) if emergency.everyone else arena.last_driven[robot]
     emergency.end(trail, robot)
-    return StopResult(max(0.0, last - began), said)
+    return StopResult(max(0.0, last - began), reported)
 
 
 def settle(trail: FigureEight) -> None:
@@ -106,7 +106,7 @@ def settle(trail: FigureEight) -> None:
     for _ in range(20 * HZ):
         trail.tick()
         now = trail.bed.arena.clock()
-        moving = all(now - ran < 0.1 for ran in trail.bed.arena.ran)
+        moving = all(now - ran < 0.1 for ran in trail.bed.arena.last_driven)
         calm = calm + 1 if moving and not trail.plant.faults else 0
         if calm > HZ / 2:
             return
@@ -120,7 +120,7 @@ def hang(trail: FigureEight) -> float:
     for _ in range(HZ):
         trail.bed.link.pump()
         trail.bed.arena.advance(DT)
-    return max(trail.bed.arena.ran) - began
+    return max(trail.bed.arena.last_driven) - began
 
 
 def leave(trail: FigureEight) -> float:
@@ -129,7 +129,7 @@ def leave(trail: FigureEight) -> float:
     began = trail.bed.arena.clock()
     trail.bed.rig.close()
     trail.bed.arena.advance(1.0)
-    return max(trail.bed.arena.ran) - began
+    return max(trail.bed.arena.last_driven) - began
 
 
 DRIVER = """
@@ -162,7 +162,7 @@ def kill(seed: int) -> float:
             driver.kill()
             driver.wait()
         _wait_until(lambda: all(firmware.stopped for firmware in arena.firmwares))
-        return max(arena.ran) - killed
+        return max(arena.last_driven) - killed
 
 
 def _wait_until(condition: Callable[[], bool], timeout: float = 20.0) -> None:

@@ -16,7 +16,7 @@ from pigaming_app.hardware.signals import CameraFrame, Fix
 from pigaming_app.hardware.tracking.tracker import Tracker
 from pigaming_app.sim.world import ROBOTS
 
-UNREST = 0.15  # size of the exposure steps, as a share
+EXPOSURE_JITTER = 0.15  # size of the exposure steps, as a share
 DELAY = 0.060  # latency of frames, s; with tick, serial line and radio the dead time is 80 ms
 
 
@@ -26,10 +26,10 @@ class TimedTracker(Tracker):
     seconds = 0.0
     pictures = complete = 0
 
-    def see(self, frame: CameraFrame) -> list[Fix]:
+    def process(self, frame: CameraFrame) -> list[Fix]:
         """Process a frame; returns the accepted fixes."""
         began = thread_time()
-        fixes = super().see(frame)
+        fixes = super().process(frame)
         self.seconds += thread_time() - began
         self.pictures += 1
         self.complete += len({fix.robot for fix in fixes}) == ROBOTS
@@ -40,16 +40,21 @@ class Testbed:
     """A calibrated arena with a rig. `drops`: share of lost frames; `ground`: skips the calibration if given."""
 
     def __init__(
-        self, seed: int, fps: float, drops: float = 0.0, air: RadioChannel = MODERATE, ground: GroundPlane | None = None
+        self,
+        seed: int,
+        fps: float,
+        drops: float = 0.0,
+        channel: RadioChannel = MODERATE,
+        ground: GroundPlane | None = None,
     ) -> None:
         self.lighting = Lighting(seed)
         self.session = EmulatedSession(
             seed,
             False,
             lighting=self.lighting,
-            pace=FrameTiming(fps, DELAY, drops=drops),
-            air=air,
-            unrest=UNREST,
+            timing=FrameTiming(fps, DELAY, drops=drops),
+            channel=channel,
+            exposure_jitter=EXPOSURE_JITTER,
             ground=ground,
             tracker=TimedTracker,
         )

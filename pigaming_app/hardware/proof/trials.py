@@ -161,7 +161,7 @@ def play(bed: Testbed, match: PlayableMatch, seconds: float) -> MatchResult:
 
 def _clear_faults(plant: RealPlant) -> int:
     """Clear the lasting faults that wait for an operator; returns their number."""
-    waiting = plant.safety.lasting
+    waiting = plant.safety.latched
     for robot in waiting:
         plant.clear_fault(robot)
     return len(waiting)

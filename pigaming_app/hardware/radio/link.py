@@ -55,13 +55,13 @@ class Link:
         return self._protocol.quality(robot, self._clock())
 
     @property
-    def trouble(self) -> OperatorMessage | None:
+    def fault(self) -> OperatorMessage | None:
         """Present fault of the link, or None."""
         if self._thread is not None and not self._thread.is_alive() and not self._closing.is_set():
             return radio_message("program", self._line.name)
-        if self._line.trouble is not None or not self._line.is_open:
-            return self._line.trouble
-        fault = self._protocol.trouble(self._listened)
+        if self._line.fault is not None or not self._line.is_open:
+            return self._line.fault
+        fault = self._protocol.fault(self._listened)
         return radio_message(fault[0], self._line.name, fault[1]) if fault else None
 
     def pump(self) -> None:

@@ -33,5 +33,5 @@ class RadioProtocol(Protocol):
     def quality(self, robot: int, now: float) -> LinkQuality:
         """Reception quality of a robot."""
 
-    def trouble(self, now: float) -> tuple[str, str] | None:
+    def fault(self, now: float) -> tuple[str, str] | None:
         """Reason and detail (see `serial_line.radio_message`) of a fault on an open line, or None."""

@@ -1,6 +1,6 @@
 """A serial line to a radio that may be absent, in use, denied or unplugged at any time.
 
-A `SerialLine` never raises: it reports faults as `trouble` and reopens a lost port with exponential backoff. A write
+A `SerialLine` never raises: it reports faults as `fault` and reopens a lost port with exponential backoff. A write
 that times out because this computer or the radio is busy leaves the port open; only STUCK seconds without a successful
 write are a fault. pyserial is imported when a port is opened, not before.
 """
@@ -88,7 +88,7 @@ def serial_port(device: str, baud: int = BAUD, stop_bits: int = 1) -> OpenPort:
     return open_port
 
 
-def trouble_of(error: Exception, port: str) -> OperatorMessage:
+def failure_message(error: Exception, port: str) -> OperatorMessage:
     """Operator message for an error in opening a port."""
     if isinstance(error, ImportError):
         return radio_message("missing", port)
@@ -105,7 +105,7 @@ class SerialLine:
     """A port that opens when possible and reopens after it is lost."""
 
     def __init__(self, open_port: OpenPort, clock: Clock, name: str) -> None:
-        self.trouble: OperatorMessage | None = None
+        self.fault: OperatorMessage | None = None
         self.name = name
         self._open_port, self._clock = open_port, clock
         self._port: SerialPort | None = None
@@ -125,12 +125,12 @@ class SerialLine:
         try:
             self._port = self._open_port()
         except CANNOT_OPEN as error:
-            reason = trouble_of(error, self.name)
+            reason = failure_message(error, self.name)
             gone = self._was_open and reason.key in ("radio_absent", "radio_dead")
-            self.trouble = radio_message("unplugged", self.name) if gone else reason
+            self.fault = radio_message("unplugged", self.name) if gone else reason
             self._wait()
             return False
-        self.trouble, self._was_open, self._pause, self._blocked_since = None, True, FIRST, None
+        self.fault, self._was_open, self._pause, self._blocked_since = None, True, FIRST, None
         return True
 
     def read(self) -> bytes:
@@ -155,7 +155,7 @@ class SerialLine:
             else:
                 self._lose()
             return
-        self._blocked_since = self.trouble = None
+        self._blocked_since = self.fault = None
 
     def close(self) -> None:
         """Close the port; `open` may reopen it."""
@@ -170,7 +170,7 @@ class SerialLine:
         if self._blocked_since is None:
             self._blocked_since = now
         if now - self._blocked_since >= STUCK:
-            self.trouble = radio_message("stuck", self.name)
+            self.fault = radio_message("stuck", self.name)
         if isinstance(port, BufferedPort):
             try:
                 port.reset_output_buffer()
@@ -179,7 +179,7 @@ class SerialLine:
 
     def _lose(self) -> None:
         self.close()
-        self.trouble = radio_message("unplugged", self.name)
+        self.fault = radio_message("unplugged", self.name)
         self._wait()
 
     def _wait(self) -> None:

@@ -75,7 +75,7 @@ class StockProtocol:
         share = self._replies / self._queries if self._queries and robot == self._robot else 0.0
         return LinkQuality(share, None, None)
 
-    def trouble(self, now: float) -> tuple[str, str] | None:
+    def fault(self, now: float) -> tuple[str, str] | None:
         """A foreign device, or no replies."""
         if self._name and not self._is_stock:
             return "stranger", ascii(self._name.decode("latin-1"))

@@ -98,7 +98,7 @@ class XBeeProtocol:
         fresh = sum(time > now - WINDOW for time in tuple(self._reported[robot]))
         return LinkQuality(min(1.0, fresh / expected), self._strength.get(robot), self._echo.get(robot))
 
-    def trouble(self, now: float) -> tuple[str, str] | None:
+    def fault(self, now: float) -> tuple[str, str] | None:
         """A radio in another mode, noise, or silence."""
         if self._wrong_mode:
             return "mode", self._wrong_mode

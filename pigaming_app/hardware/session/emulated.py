@@ -5,7 +5,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable, new_rig, trouble_of
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of, new_rig
 from pigaming_app.sim.world import DT, HZ
 
 if TYPE_CHECKING:
@@ -35,7 +35,8 @@ class EmulatedSession:
 
     `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
-    `show`. `pace`, `air` and `unrest` (size of exposure steps, as a share) set the quality of camera and radio.
+    `show`. `timing`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of camera and
+    radio.
     """
 
     emulated = True
@@ -46,15 +47,15 @@ class EmulatedSession:
         live: bool = True,
         projection: Callable[[], str | None] = lambda: None,
         lighting: "Lighting | None" = None,
-        pace: "FrameTiming | None" = None,
-        air: "RadioChannel | None" = None,
-        unrest: float = 0.0,
+        timing: "FrameTiming | None" = None,
+        channel: "RadioChannel | None" = None,
+        exposure_jitter: float = 0.0,
         ground: "GroundPlane | None" = None,
         tracker: "type[Tracker] | None" = None,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
         self.mm = 0.0
-        self._pace, self._air, self._unrest, self._tracker = pace, air, unrest, tracker
+        self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._arena: EmulatedArena | None = None
         self._made = ground
         self._rig: Rig | None = None
@@ -62,8 +63,8 @@ class EmulatedSession:
         self._lit = self._now = -1.0  # s of the arena's clock: last projection, and last `advance`
 
     @property
-    def trouble(self) -> OperatorMessage | None:
-        return trouble_of(self._rig) if self._rig else None
+    def fault(self) -> OperatorMessage | None:
+        return fault_of(self._rig) if self._rig else None
 
     @property
     def arena(self) -> "EmulatedArena":
@@ -73,8 +74,8 @@ class EmulatedSession:
 
             try:
                 opencv()
-            except OpenCVMissing as trouble:
-                raise RobotsUnavailable(trouble.message) from trouble
+            except OpenCVMissing as error:
+                raise RobotsUnavailable(error.message) from error
             self._arena = self._new_arena()
         if self.live and self._time is None:
             from pigaming_app.hardware.emulator.paced import PacedArena
@@ -141,7 +142,7 @@ class EmulatedSession:
                 return
         raise RuntimeError("the tracker does not find all robots")
 
-    def listen(self) -> "Link | None":
+    def open_link(self) -> "Link | None":
         """Always None: without an arena there is no radio either."""
         return None
 
@@ -171,7 +172,7 @@ class EmulatedSession:
             self._lit = self._arena.clock()
             from pigaming_app.hardware.emulator.projector import Projector
 
-            Projector(self._arena).see(pixels())
+            Projector(self._arena).project(pixels())
 
     def close(self) -> None:
         """Stop the robots and release camera and radio; the arena keeps running."""
@@ -195,7 +196,9 @@ class EmulatedSession:
         from pigaming_app.hardware.emulator.radio import MODERATE
 
         refresh = WHOLE if self.live else QUICK
-        arena = EmulatedArena(self.seed, self._pace or FrameTiming(FPS), self._air or MODERATE, refresh, self._unrest)
+        arena = EmulatedArena(
+            self.seed, self._timing or FrameTiming(FPS), self._channel or MODERATE, refresh, self._exposure_jitter
+        )
         self._made = self._made or calibrated(arena)
         arena.project(np.zeros(DARK, np.uint8))  # until the window renders
         return arena
@@ -219,14 +222,14 @@ def calibrated(arena: "EmulatedArena") -> "GroundPlane":
     site = EmulatedCalibrationSite(arena=arena)
     work = Calibration(site, 0, site.measures, "emulated")
     pictures = {board: board.picture() for board in (BOARD, HELD_OUT)}
-    while not work.over:
+    while not work.finished:
         if work.board is not None:
             arena.project(pictures[work.board])
-            work.shown(work.board)
+            work.mark_shown(work.board)
         site.advance(DT)
         work.pump()
     work.close()
     if work.ground is None or work.residuals is None:
-        assert work.trouble is not None
-        raise CalibrationError(work.trouble)
+        assert work.fault is not None
+        raise CalibrationError(work.fault)
     return with_verification(work.ground, work.residuals)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable, new_rig, trouble_of
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of, new_rig
 from pigaming_app.sim.world import DT
 from pigaming_app.storage.settings import Settings
 
@@ -36,10 +36,10 @@ class RealSession:
         self._next = time.monotonic()  # s, time of the next tick
 
     @property
-    def trouble(self) -> OperatorMessage | None:
+    def fault(self) -> OperatorMessage | None:
         if self._rig is not None:
-            return trouble_of(self._rig)
-        return self._link.trouble if self._link else None
+            return fault_of(self._rig)
+        return self._link.fault if self._link else None
 
     @property
     def site(self) -> "CalibrationSite":
@@ -62,15 +62,15 @@ class RealSession:
                 except BaseException:
                     camera.close()
                     raise
-            except OperatorError as trouble:
-                raise RobotsUnavailable(trouble.message) from trouble
-            except (DrivetrainError, ImportError) as trouble:
-                raise RobotsUnavailable(OperatorMessage("robots_file", detail=trouble)) from trouble
+            except OperatorError as error:
+                raise RobotsUnavailable(error.message) from error
+            except (DrivetrainError, ImportError) as error:
+                raise RobotsUnavailable(OperatorMessage("robots_file", detail=error)) from error
             rig.channels = tuple(radio - 1 for radio in self.settings.radios)
             self.mm, self._rig = ground.mm, rig.start()
         return self._rig
 
-    def listen(self) -> "Link | None":
+    def open_link(self) -> "Link | None":
         if self._link is None:
             self._link = self._new_link().start()
         return self._link
@@ -93,7 +93,7 @@ class RealSession:
         self.close()
 
     def _new_link(self) -> "Link":
-        """The link of the settings, not started. A port that does not open is reported as its `trouble`."""
+        """The link of the settings, not started. A port that does not open is reported as its `fault`."""
         from pigaming_app.hardware.radio.link import Link
         from pigaming_app.hardware.radio.serial_line import ports, serial_port
         from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
@@ -114,9 +114,9 @@ class SizedCamera:
         self._misfit: OperatorMessage | None = None
 
     @property
-    def trouble(self) -> OperatorMessage | None:
+    def fault(self) -> OperatorMessage | None:
         """Fault of the camera, or of its frame size."""
-        return self.camera.trouble or self._misfit
+        return self.camera.fault or self._misfit
 
     def newest(self) -> "CameraFrame | None":
         """The newest frame, once; None if there is none since the last call, or if it has the wrong size."""

@@ -32,7 +32,7 @@ class RobotSession(Protocol):
     emulated: bool
 
     @property
-    def trouble(self) -> OperatorMessage | None:
+    def fault(self) -> OperatorMessage | None:
         """Fault of camera or radio; None if there is none, or if they are not in use."""
 
     @property
@@ -46,7 +46,7 @@ class RobotSession(Protocol):
     def open(self) -> "Rig":
         """Start camera, tracker and radio, or return the running rig. Raises RobotsUnavailable."""
 
-    def listen(self) -> "Link | None":
+    def open_link(self) -> "Link | None":
         """The radio alone, for use when `open` raises; None if there is none either."""
 
     def tick(self) -> None:
@@ -80,7 +80,7 @@ def new_rig(
     return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm)
 
 
-def unfit(settings: "Settings") -> OperatorMessage | None:
+def settings_problem(settings: "Settings") -> OperatorMessage | None:
     """Operator message if these settings forbid matches (factory firmware has no deadman), else None."""
     if settings.radio != "stock":
         return None
@@ -89,13 +89,13 @@ def unfit(settings: "Settings") -> OperatorMessage | None:
     return NO_DEADMAN
 
 
-def trouble_of(rig: "Rig") -> OperatorMessage | None:
+def fault_of(rig: "Rig") -> OperatorMessage | None:
     """Fault of a rig's camera, or else of its radio."""
-    return rig.camera.trouble or rig.link.trouble
+    return rig.camera.fault or rig.link.fault
 
 
 def cause_of(rig: "Rig", fault: str) -> OperatorMessage | None:
     """Message of the camera or radio behind a fault of `safety`, or None."""
     if fault == "camera":
-        return rig.camera.trouble
-    return rig.link.trouble if fault == "radio" else None
+        return rig.camera.fault
+    return rig.link.fault if fault == "radio" else None

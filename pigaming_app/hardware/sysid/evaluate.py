@@ -11,7 +11,7 @@ import numpy as np
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.recordings import Floats, Recording, RobotRecording
-from pigaming_app.hardware.sysid.identify import identify, placed, shifted, track
+from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, twist
 from pigaming_app.sim.plant import SimPlant
 from pigaming_app.sim.robot import RADIUS
@@ -67,8 +67,8 @@ def measure(run: Recording, nominal: Drivetrain = NOMINAL) -> list[Identificatio
             lengths = {"seconds": f"{end - begin:.0f}", "needed": f"{SHORTEST:.0f}"}
             raise RecordingTooShort(OperatorMessage("run_short", robot=robot + 1, **lengths))
         cut = end - HELD_OUT * (end - begin)
-        identified = identify(course.between(begin, cut), nominal) if drove(course) else None
-        if identified is None or not sensible(identified, nominal):
+        identified = identify(course.between(begin, cut), nominal) if has_moved(course) else None
+        if identified is None or not is_plausible(identified, nominal):
             continue
         rest = course.between(cut, end + 1.0)
         before, after = errors(rest, nominal, run.mm), errors(rest, identified, run.mm)
@@ -78,13 +78,13 @@ def measure(run: Recording, nominal: Drivetrain = NOMINAL) -> list[Identificatio
     return verdicts
 
 
-def drove(course: RobotRecording) -> bool:
+def has_moved(course: RobotRecording) -> bool:
     """True if a robot moved and turned enough for its wheels to be identified."""
     way = np.hypot(*np.diff(course.poses[::10, :2], axis=0).T).sum()
     return bool(way > WAY and np.ptp(course.poses[:, 2]) > TURN)
 
 
-def sensible(drivetrain: Drivetrain, nominal: Drivetrain) -> bool:
+def is_plausible(drivetrain: Drivetrain, nominal: Drivetrain) -> bool:
     """True if the parameters are plausible for a robot."""
     left, right = drivetrain.left, drivetrain.right
     ratios = left.speed / nominal.left.speed, right.speed / nominal.right.speed, drivetrain.base / nominal.base
@@ -116,8 +116,8 @@ def predictions(course: RobotRecording, drivetrain: Drivetrain, horizon: float) 
         if middle - first < FEWEST or last <= middle or times[last - 1] < now + horizon - 0.1:
             continue
         only = np.array([0])  # a single piece
-        _, move = placed(there[first:middle], course.poses[first:middle], only)
-        predicted = shifted(there[first:last], only, move)[middle - first :]
+        _, move = fit_pieces(there[first:middle], course.poses[first:middle], only)
+        predicted = move_pieces(there[first:last], only, move)[middle - first :]
         ahead.append(Prediction(times[middle:last], course.poses[middle:last], predicted))
     return ahead
 

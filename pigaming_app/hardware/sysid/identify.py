@@ -60,7 +60,7 @@ def track(course: RobotRecording, drivetrain: Drivetrain, begin: float, end: flo
     return Trajectory(times, np.column_stack([x, y, heading]))
 
 
-def placed(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
+def fit_pieces(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
     """Move each piece of a track (m, 3) rigidly to its best fit with the fixes (m, 3); pieces start at `firsts` (w,).
 
     Returns the poses (m, 3) and the moves (w, 3): new position of each piece's first point, and the turn about it.
@@ -69,7 +69,7 @@ def placed(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
     move = seen[firsts].copy()
     move[:, 2] = np.add.reduceat(seen[:, 2] - there[:, 2], firsts) / counts
     for _ in range(3):
-        moved = shifted(there, firsts, move)
+        moved = move_pieces(there, firsts, move)
         rest = (seen - moved) / NOISE**2
         dx, dy = (moved - np.repeat(move, counts, axis=0))[:, :2].T
         slope = np.column_stack([rest[:, 0], rest[:, 1], rest[:, 2] + dx * rest[:, 1] - dy * rest[:, 0]])
@@ -80,11 +80,11 @@ def placed(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floats]:
         normal[:, 1, 2] = normal[:, 2, 1] = near * np.add.reduceat(dx, firsts)
         normal[:, 2, 2] = near * np.add.reduceat(dx * dx + dy * dy, firsts) + turn * counts
         move = move + np.linalg.solve(normal, np.add.reduceat(slope, firsts)[:, :, None])[:, :, 0]
-    return shifted(there, firsts, move), move
+    return move_pieces(there, firsts, move), move
 
 
-def shifted(there: Floats, firsts: Index, move: Floats) -> Floats:
-    """Pieces of a track (m, 3) that start at `firsts` (w,), moved by `move` (w, 3) as in `placed`."""
+def move_pieces(there: Floats, firsts: Index, move: Floats) -> Floats:
+    """Pieces of a track (m, 3) that start at `firsts` (w,), moved by `move` (w, 3) as in `fit_pieces`."""
     counts = np.diff(np.append(firsts, len(there)))
     begin, to = np.repeat(there[firsts], counts, axis=0), np.repeat(move, counts, axis=0)
     c, s = np.cos(to[:, 2]), np.sin(to[:, 2])
@@ -121,7 +121,7 @@ def _residual(course: RobotRecording, drivetrain: Drivetrain) -> Floats:
     if not len(seen):
         return np.zeros(1)
     firsts = np.flatnonzero(np.diff(window, prepend=-1))
-    fitted, _ = placed(whole.at(course.pose_times[usable]), seen, firsts)
+    fitted, _ = fit_pieces(whole.at(course.pose_times[usable]), seen, firsts)
     return np.asarray(((seen - fitted) / NOISE).ravel())
 
 

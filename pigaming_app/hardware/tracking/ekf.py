@@ -48,7 +48,7 @@ class PoseFilter:
         self.drivetrain, self.mm = drivetrain, mm
         self._commands: deque[tuple[float, float, float]] = deque()  # time sent, left and right wheel in px/s
         self._motion = MotionState(0.0, 0.0, 0.0)
-        self.wear = NEW
+        self.correction = NEW
         self._covariance = START.copy()
         self._seen = self._surprised = -inf
         self._implausible: list[Fix] = []  # fixes rejected lately, consistent with each other
@@ -76,7 +76,7 @@ class PoseFilter:
             if self._seen > -inf:
                 until = min(time, self._seen + COAST)
                 for left, right, dt in self._acting(at, until):
-                    motion.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
+                    motion.roll(left, right, self.correction, self.drivetrain.base, self.drivetrain.lag, dt)
                 at = max(at, until)
             poses.append(Sighting(motion.x, motion.y, wrap(motion.heading % tau), self.unseen(time)))
         return poses
@@ -104,7 +104,7 @@ class PoseFilter:
 
     def _acting(self, since: float, until: float) -> Iterator[tuple[float, float, float]]:
         """Commands in effect during this time, as (left px/s, right px/s, duration s) of at most STEP s each."""
-        dead, commands = self.drivetrain.dead_time + self.wear.late, self._commands
+        dead, commands = self.drivetrain.dead_time + self.correction.late, self._commands
         at = since
         for i in range(-1, len(commands)):
             left, right = commands[i][1:] if i >= 0 else (0.0, 0.0)
@@ -118,10 +118,10 @@ class PoseFilter:
         """Advance `motion` to a time; returns the Jacobian of the state (8, 8) since the newest correction."""
         rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
         for row in rows:
-            row += [0.0] * len(self.wear)
+            row += [0.0] * len(self.correction)
         for left, right, dt in self._acting(self._seen, until):
             before = motion.copy()
-            motion.roll(left, right, self.wear, self.drivetrain.base, self.drivetrain.lag, dt)
+            motion.roll(left, right, self.correction, self.drivetrain.base, self.drivetrain.lag, dt)
             self._step(rows, before, motion, dt)
         flow = np.eye(NUMBERS)
         flow[:3] = rows
@@ -129,13 +129,19 @@ class PoseFilter:
 
     def _step(self, rows: list[list[float]], before: MotionState, after: MotionState, dt: float) -> None:
         """Propagate the Jacobian rows of x, y and heading through one step, to first order in `dt`."""
-        wear, way = self.wear, 0.5 * dt
+        correction, way = self.correction, 0.5 * dt
         left, right = way * (before.left + after.left), way * (before.right + after.right)
-        faster_left, faster_right = wear.left * (after.left - before.left), wear.right * (after.right - before.right)
-        stuck_left, stuck_right = wear.left * after.left_way * dt, wear.right * after.right_way * dt
+        faster_left, faster_right = (
+            correction.left * (after.left - before.left),
+            correction.right * (after.right - before.right),
+        )
+        stuck_left, stuck_right = (
+            correction.left * after.left_way * dt,
+            correction.right * after.right_way * dt,
+        )
         ahead = (left, right, 0.0, -faster_left - faster_right, -stuck_left - stuck_right)
         turn = (left, -right, 0.0, faster_right - faster_left, stuck_right - stuck_left)
-        c, s, t = 0.5 * cos(before.heading), 0.5 * sin(before.heading), wear.turning / self.drivetrain.base
+        c, s, t = 0.5 * cos(before.heading), 0.5 * sin(before.heading), correction.turning / self.drivetrain.base
         dx, dy = after.x - before.x, after.y - before.y
         x, y, heading = rows
         for i in range(2, NUMBERS):
@@ -145,7 +151,7 @@ class PoseFilter:
             x[i] += c * forward
             y[i] += s * forward
             heading[i] += t * sideways
-        heading[5] += (after.heading - before.heading) / wear.turning
+        heading[5] += (after.heading - before.heading) / correction.turning
 
     def _begin(self, fix: Fix) -> None:
         """Reset the pose to a fix, at rest; the wheel parameters are kept."""
@@ -182,7 +188,7 @@ class PoseFilter:
         change = gain @ innovation
         x, y, heading = change[:3].tolist()
         motion.x, motion.y, motion.heading = motion.x + x, motion.y + y, motion.heading + heading
-        self.wear = WheelCorrection(*np.clip(change[3:] + self.wear, LOW, HIGH).tolist())
+        self.correction = WheelCorrection(*np.clip(change[3:] + self.correction, LOW, HIGH).tolist())
         self._covariance = covariance - gain @ covariance[:3, :]
 
     def _forget_pose(self) -> None:

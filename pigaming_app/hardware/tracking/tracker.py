@@ -1,7 +1,7 @@
 """Present poses of all robots, predicted from delayed camera fixes and the commands sent since.
 
 Every frame corrects the robots' filters at its capture time; `sense` then replays the commands sent since. The tracker
-never moves or stops a robot: `safety` judges ages, `doubled` and `looked`.
+never moves or stops a robot: `safety` judges ages, `duplicates` and `last_captured`.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.signals import CameraFrame, Clock, DetectedMarker, Fix
 from pigaming_app.hardware.tracking.ekf import COAST, PoseFilter
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, mean_edge, same
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, is_known, mean_edge
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
@@ -40,36 +40,36 @@ class Tracker:
     ) -> None:
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
-        self.looked = -inf  # s, capture time of the newest processed frame
+        self.last_captured = -inf  # s, capture time of the newest processed frame
         self.drift = drift  # gets the same frames, for the corner markers
         self._markers = MarkerDetector(ROBOT_IDS)
         self._filters = [PoseFilter(drivetrain, ground.mm) for drivetrain in drivetrains or [NOMINAL] * ROBOTS]
-        self._refused: dict[tuple[int, str], float] = {}  # s, by robot and reason
+        self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
         self._glanced = self._searched = -inf
         self._dim = False  # mode of the last quick search
         self._edge = self._expected_edge()
 
-    def sent(self, time: float, twists: Sequence[Twist | None]) -> None:
+    def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None:
         """Record the twists sent to the robots at a time, px/s and rad/s; None: stop."""
         for pose_filter, twist in zip(self._filters, twists, strict=True):
             pose_filter.record_command(time, (0.0, 0.0) if twist is None else twist)
 
-    def see(self, frame: CameraFrame) -> list[Fix]:
+    def process(self, frame: CameraFrame) -> list[Fix]:
         """Process a frame; returns the accepted fixes."""
         if self.drift is not None:
-            self.drift.see(frame)
-        return self.correct(self._markers.exact(frame.image, self._find(frame)), frame.captured)
+            self.drift.process(frame)
+        return self.correct(self._markers.refine(frame.image, self._find(frame)), frame.captured)
 
     def correct(self, marks: Sequence[DetectedMarker], captured: float) -> list[Fix]:
         """Correct the filters with the markers of one frame; returns the accepted fixes."""
-        if captured <= self.looked:
+        if captured <= self.last_captured:
             return []
-        self.looked = captured
+        self.last_captured = captured
         accepted = []
         credible = self._credible(marks, captured)
         for robot, (pose_filter, fixes) in enumerate(zip(self._filters, credible, strict=True)):
             if len(fixes) > 1:
-                self._refused[robot, "doubled"] = captured
+                self._rejections[robot, "duplicate"] = captured
             elif fixes and pose_filter.correct(fixes[0]):
                 accepted.append(fixes[0])
         return accepted
@@ -83,31 +83,31 @@ class Tracker:
         both = [robot.along((now, now + more)) for robot, more in zip(self._filters, ahead, strict=True)]
         return _apart([at for at, _ in both]), _apart([later for _, later in both])
 
-    def wear(self, robot: int) -> WheelCorrection:
+    def wheel_correction(self, robot: int) -> WheelCorrection:
         """Estimated wheel correction of a robot."""
-        return self._filters[robot].wear
+        return self._filters[robot].correction
 
-    def doubled(self) -> set[int]:
+    def duplicates(self) -> set[int]:
         """Robots whose marker was seen twice in one frame within the last REMEMBERED s."""
-        return {robot for robot, reason in self._lately() if reason == "doubled"}
+        return {robot for robot, reason in self._lately() if reason == "duplicate"}
 
     @property
-    def refused(self) -> dict[int, str]:
+    def rejections(self) -> dict[int, str]:
         """Reason for the latest rejection of each robot's marker.
 
-        `doubled`: seen twice; `size`: too near or too far, as in a hand; `tilted`; `outside` of the mat.
+        `duplicate`: seen twice; `size`: too near or too far, as in a hand; `tilted`; `outside` of the mat.
         """
         return dict(self._lately())
 
     def _lately(self) -> list[tuple[int, str]]:
         now = self.clock()
-        return [key for key, time in self._refused.items() if now - time < REMEMBERED]
+        return [key for key, time in self._rejections.items() if now - time < REMEMBERED]
 
     def _find(self, frame: CameraFrame) -> list[DetectedMarker]:
         """Search near predictions, and the whole image periodically, more often while a robot is missing."""
         marks = []
         for robot, spot in self._spots(frame.captured).items():
-            mark = self._markers.near(frame.image, spot, ROBOT_IDS[robot])
+            mark = self._markers.detect_in(frame.image, spot, ROBOT_IDS[robot])
             if mark is not None:
                 marks.append(mark)
         seen = {ROBOT_IDS.index(mark.number) for mark in marks}
@@ -121,9 +121,9 @@ class Tracker:
         """Search the whole image for markers that are not in `known`."""
         if missing and frame.captured - self._searched > THOROUGH:
             self._searched = frame.captured
-            return [mark for mark in self._markers.everywhere(frame.image) if not same(mark, known)]
+            return [mark for mark in self._markers.detect(frame.image) if not is_known(mark, known)]
         self._dim = not self._dim
-        return self._markers.glance(frame.image, self._edge, known, self._dim)
+        return self._markers.detect_quickly(frame.image, self._edge, known, self._dim)
 
     def _spots(self, time: float) -> dict[int, SearchWindow]:
         """Search windows of the robots' markers in a frame captured at `time`."""
@@ -132,7 +132,7 @@ class Tracker:
         if not poses:
             return {}
         corners = np.array([_outline(pose, self.ground.marker / self.ground.mm) for pose in poses.values()])
-        seen = self.ground.pose_times(corners.reshape(-1, 2), self.ground.lid).reshape(-1, 4, 2)
+        seen = self.ground.to_camera(corners.reshape(-1, 2), self.ground.lid).reshape(-1, 4, 2)
         spots = {}
         for (robot, pose), square in zip(poses.items(), seen, strict=True):
             (x, y), edge = square.mean(axis=0).tolist(), mean_edge(square)
@@ -143,7 +143,7 @@ class Tracker:
     def _expected_edge(self) -> float:
         """Edge of a marker in the middle of the arena, camera px."""
         middle = Sighting(WIDTH / 2.0, HEIGHT / 2.0, 0.0, 0.0)
-        return mean_edge(self.ground.pose_times(_outline(middle, self.ground.marker / self.ground.mm), self.ground.lid))
+        return mean_edge(self.ground.to_camera(_outline(middle, self.ground.marker / self.ground.mm), self.ground.lid))
 
     def _credible(self, marks: Sequence[DetectedMarker], captured: float) -> list[list[Fix]]:
         """Plausible fixes by robot; rejections are recorded with their reason."""
@@ -151,9 +151,9 @@ class Tracker:
         for mark, fix in zip(marks, self.ground.fixes(marks, captured), strict=True):
             robot = ROBOT_IDS.index(mark.number)
             if isinstance(fix, str):
-                self._refused[robot, fix] = captured
+                self._rejections[robot, fix] = captured
             elif not (-OUTSIDE < fix.x < WIDTH + OUTSIDE and -OUTSIDE < fix.y < HEIGHT + OUTSIDE):
-                self._refused[robot, "outside"] = captured
+                self._rejections[robot, "outside"] = captured
             else:
                 fixes[robot].append(fix)
         return fixes

@@ -1,7 +1,7 @@
 """Camera capture in a thread that keeps only the newest frame.
 
 Health is judged by the age of the newest frame, since drivers repeat frames, block and report wrong states. A camera
-that fails is reported as `trouble` and reopened. Exposure, white balance, gain and focus are locked after they settle,
+that fails is reported as `fault` and reopened. Exposure, white balance, gain and focus are locked after they settle,
 because automatic corrections look to the tracker like changes of the arena.
 """
 
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Self
 
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, Clock
-from pigaming_app.hardware.vision.discovery import why_not
+from pigaming_app.hardware.vision.discovery import unavailable_reason
 from pigaming_app.hardware.vision.markers import opencv
 
 SETTLE = 2.0  # s after opening at which exposure, white balance, focus and gain are locked
@@ -33,7 +33,7 @@ class CaptureSettings(NamedTuple):
 
 
 class Camera:
-    """The camera with this device number; a context manager. `trouble` is its present fault, or None.
+    """The camera with this device number; a context manager. `fault` is its present fault, or None.
 
     `open_capture` returns a `cv2.VideoCapture` for a number. Raises OpenCVMissing.
     """
@@ -50,8 +50,8 @@ class Camera:
         self._cv = opencv()
         self.number, self.wanted, self.clock, self.settle = number, wanted or CaptureSettings(), clock, settle
         self.fresh = fresh  # True: restart automatic exposure etc.; False: keep the values that a calibration locked
-        self.trouble: OperatorMessage | None = OperatorMessage("yet", number=number)
-        self.loose: Sequence[str] = ()  # properties that could not be locked
+        self.fault: OperatorMessage | None = OperatorMessage("yet", number=number)
+        self.unlocked: Sequence[str] = ()  # properties that could not be locked
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: CameraFrame | None = None
         self._count = 0
@@ -96,13 +96,13 @@ class Camera:
             capture.release()
         except (self._cv.error, OSError):
             pass
-        self.trouble = why_not(self.number)
+        self.fault = unavailable_reason(self.number)
         return None
 
     def _configure(self, capture: Any) -> None:
         cv, wanted = self._cv, self.wanted
         if self.fresh:
-            free(cv, capture)
+            restore_automatic(cv, capture)
         capture.set(cv.CAP_PROP_FOURCC, cv.VideoWriter_fourcc(*"MJPG"))  # raw 1080p does not fit through USB 2
         capture.set(cv.CAP_PROP_FRAME_WIDTH, wanted.width)
         capture.set(cv.CAP_PROP_FRAME_HEIGHT, wanted.height)
@@ -123,12 +123,12 @@ class Camera:
                 last = now
                 self._store(capture, picture)
             elif now - last > STALE:
-                self.trouble = OperatorMessage("stopped", number=self.number)
+                self.fault = OperatorMessage("stopped", number=self.number)
                 return
             else:
                 self._closing.wait(0.005)
             if not locked and now - opened > self.settle:
-                locked, self.loose = True, lock(self._cv, capture)
+                locked, self.unlocked = True, lock_exposure(self._cv, capture)
 
     def _store(self, capture: Any, picture: Any) -> None:
         grey = picture if picture.ndim == 2 else self._cv.cvtColor(picture, self._cv.COLOR_BGR2GRAY)
@@ -137,19 +137,19 @@ class Camera:
         captured = stamp if 0.0 < now - stamp < PLAUSIBLE else now - ASSUMED
         with self._lock:
             self._count += 1
-            self._newest, self.trouble = CameraFrame(grey, captured, self._count), None
+            self._newest, self.fault = CameraFrame(grey, captured, self._count), None
 
 
-def free(cv: Any, capture: Any) -> None:
+def restore_automatic(cv: Any, capture: Any) -> None:
     """Restart automatic exposure, white balance and focus: drivers keep a lock when the camera is closed."""
     automatic = 3.0 if sys.platform.startswith("linux") else 0.75  # V4L2 and DirectShow use different codes
     for name, on in ((cv.CAP_PROP_AUTO_EXPOSURE, automatic), (cv.CAP_PROP_AUTO_WB, 1.0), (cv.CAP_PROP_AUTOFOCUS, 1.0)):
         capture.set(name, on)
 
 
-def lock(cv: Any, capture: Any) -> list[str]:
+def lock_exposure(cv: Any, capture: Any) -> list[str]:
     """Lock exposure, white balance, focus and gain at their present values; returns those that stay automatic."""
-    loose = []
+    unlocked = []
     gain = capture.get(cv.CAP_PROP_GAIN)
     manual = 1.0 if sys.platform.startswith("linux") else 0.25  # V4L2 and DirectShow use different codes
     for name, automatic, off, value in (
@@ -159,7 +159,7 @@ def lock(cv: Any, capture: Any) -> list[str]:
     ):
         now = capture.get(value)
         if not capture.set(automatic, off):
-            loose.append(name)
+            unlocked.append(name)
         capture.set(value, now)
     capture.set(cv.CAP_PROP_GAIN, gain)
-    return loose
+    return unlocked

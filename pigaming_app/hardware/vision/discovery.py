@@ -31,7 +31,7 @@ def cameras() -> list[CameraInfo]:
     return sorted(connected)
 
 
-def why_not(number: int) -> OperatorMessage:
+def unavailable_reason(number: int) -> OperatorMessage:
     """Operator message for a camera that could not be opened."""
     if not sys.platform.startswith("linux"):
         return OperatorMessage("unusable", number=number)

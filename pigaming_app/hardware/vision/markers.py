@@ -50,8 +50,8 @@ class SearchWindow(NamedTuple):
 class MarkerDetector:
     """Detector of the markers with these ids. Raises OpenCVMissing.
 
-    Corners are accurate to 1-2 px before `exact`. Every method but `near` may return the same id twice; the caller
-    decides what that means.
+    Corners are accurate to 1-2 px before `refine`. Every method but `detect_in` may return the same id twice;
+    the caller decides how to treat duplicates.
     """
 
     def __init__(self, ids: Iterable[int]) -> None:
@@ -59,11 +59,11 @@ class MarkerDetector:
         self._cv = opencv()
         self._detectors: dict[tuple[tuple[int, int], float, float], Any] = {}
 
-    def everywhere(self, image: Image) -> list[DetectedMarker]:
+    def detect(self, image: Image) -> list[DetectedMarker]:
         """All markers in the whole image, by three threshold windows: thorough and slow."""
         return self._look(self._detector((3, 23), 0.03, 4.0), image)
 
-    def glance(
+    def detect_quickly(
         self, image: Image, edge: float, known: Sequence[DetectedMarker] = (), dim: bool = True
     ) -> list[DetectedMarker]:
         """Markers in the downscaled image that are not in `known`. `edge`: expected edge in the full image, px.
@@ -79,12 +79,12 @@ class MarkerDetector:
         marks = []
         for mark in self._look(detector, self._dimmed(small, FAR) if dim else small):
             rough = DetectedMarker(mark.number, (mark.corners + 0.5) / scale - 0.5)
-            if not same(rough, known):
+            if not is_known(rough, known):
                 x, y = rough.corners.mean(axis=0).tolist()
-                marks.append(self.near(image, SearchWindow(x, y, 1.5 * edge, edge), mark.number))
+                marks.append(self.detect_in(image, SearchWindow(x, y, 1.5 * edge, edge), mark.number))
         return [mark for mark in marks if mark is not None]
 
-    def near(self, image: Image, spot: SearchWindow, number: int) -> DetectedMarker | None:
+    def detect_in(self, image: Image, spot: SearchWindow, number: int) -> DetectedMarker | None:
         """The marker with this id in the search window, or None; large markers are downscaled first."""
         left, top = max(0, round(spot.x - spot.half)), max(0, round(spot.y - spot.half))
         part = image[top : max(0, round(spot.y + spot.half)), left : max(0, round(spot.x + spot.half))]
@@ -102,12 +102,12 @@ class MarkerDetector:
                     return DetectedMarker(number, (mark.corners + 0.5) * fold - 0.5 + np.array((left, top)))
         return None
 
-    def exact(self, image: Image, marks: Sequence[DetectedMarker]) -> list[DetectedMarker]:
+    def refine(self, image: Image, marks: Sequence[DetectedMarker]) -> list[DetectedMarker]:
         """The same markers with corners accurate to a few hundredths of a pixel."""
         corners, _ = refined(self._cv, image, _stacked(marks))
         return [DetectedMarker(mark.number, corner) for mark, corner in zip(marks, corners, strict=True)]
 
-    def still(self, image: Image, marks: Sequence[DetectedMarker]) -> list[DetectedMarker]:
+    def recheck(self, image: Image, marks: Sequence[DetectedMarker]) -> list[DetectedMarker]:
         """Markers still within a few px of these positions, with exact corners; their ids are not read again."""
         corners, valid = refined(self._cv, image, _stacked(marks))
         return [
@@ -131,7 +131,7 @@ class MarkerDetector:
         return np.asarray(self._cv.addWeighted(part, 1.0 + SHARPER, soft, -SHARPER, 0.0))
 
     def _look(self, detector: Any, image: Image) -> list[DetectedMarker]:
-        corners, ids = listed(*detector.detectMarkers(np.ascontiguousarray(image))[:2])
+        corners, ids = detections(*detector.detectMarkers(np.ascontiguousarray(image))[:2])
         pairs = zip(ids.tolist(), corners, strict=True)
         return [DetectedMarker(number, corner) for number, corner in pairs if number in self.ids]
 
@@ -154,7 +154,7 @@ def _stacked(marks: Sequence[DetectedMarker]) -> NDArray[np.float64]:
     return np.array([mark.corners for mark in marks]).reshape(-1, 4, 2)
 
 
-def same(mark: DetectedMarker, known: Sequence[DetectedMarker]) -> bool:
+def is_known(mark: DetectedMarker, known: Sequence[DetectedMarker]) -> bool:
     """True if a marker is among the known ones: same id, centres less than half an edge apart."""
     for other in known:
         away = mark.corners.mean(axis=0) - other.corners.mean(axis=0)
@@ -180,7 +180,7 @@ def opencv() -> Any:
     return cv2
 
 
-def listed(corners: Any, ids: Any) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def detections(corners: Any, ids: Any) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Corners (n, 4, 2) and ids (n,) from the output of any OpenCV from 4.7 to 5."""
     numbers = np.zeros(0, np.int64) if ids is None else np.asarray(ids, np.int64).reshape(-1)
     if not len(numbers):

@@ -11,7 +11,7 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import NamedTuple, TypeVar
 
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -112,11 +112,11 @@ def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
     one, two, three, four = (Seat("normal", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.name, goal)
-    bed = Testbed(job.seed, job.fps, LOST, RadioChannel(loss=LOST, doubled=LOST / 2, broken=LOST / 4), ground)
+    bed = Testbed(job.seed, job.fps, LOST, RadioChannel(loss=LOST, duplicates=LOST / 2, broken=LOST / 4), ground)
     match = Match(setup, lambda world: RealPlant(world, bed.rig))
     for seat in range(ROBOTS):
         seed = ROBOTS * job.seed + seat
-        match.sit(seat, ButtonMasher(seed) if job.mashed else make(job.game, "normal", seed))
+        match.sit(seat, ButtonMasher(seed) if job.mashed else make_brain(job.game, "normal", seed))
         if job.carried:
             robot = match.state.robots[seat]
             bed.arena.place(seat, (robot.x, robot.y, robot.heading))
@@ -162,8 +162,8 @@ def _stops(stopped: dict[float, Future[dict[str, StopResult]]], note: Callable[[
     for fps, future in stopped.items():
         for name, run in _result(future, f"emergencies at {fps:.0f} fps").items():
             note(f"{name} at {fps:.0f} fps: motors stood after {1e3 * run.seconds:.0f} ms")
-            if not run.said:
-                raise Unproven(f"{name}: the game did not say what had happened")
+            if not run.reported:
+                raise Unproven(f"{name}: the fault was not reported")
             stops[f"{name} {fps}"] = run.seconds
     return stops
 

@@ -13,12 +13,12 @@ from typing import Any
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.storage.parsing import quote
 
-MOST_WHOLE = 2**63 - 1
+MAX_INTEGER = 2**63 - 1
 DEFAULT_GAME = "pitanks"
 AIS = "idle, random, easy, normal, hard, or another of the game"
 
 
-def whole(low: int = 1, high: int = MOST_WHOLE) -> Callable[[str], int]:
+def integer(low: int = 1, high: int = MAX_INTEGER) -> Callable[[str], int]:
     """Whole numbers from `low` to `high`."""
 
     def parse(text: str) -> int:
@@ -35,7 +35,7 @@ def whole(low: int = 1, high: int = MOST_WHOLE) -> Callable[[str], int]:
     return parse
 
 
-def real(low: float, high: float) -> Callable[[str], float]:
+def decimal(low: float, high: float) -> Callable[[str], float]:
     """Numbers from `low` to `high`."""
 
     def parse(text: str) -> float:
@@ -66,28 +66,28 @@ def word(text: str) -> str:
 
 SHARED: dict[str, dict[str, Any]] = {
     "--arena": {"help": "name, or path of a .toml file; default: the game's first"},
-    "--minutes": {"type": real(0.0, 3600.0), "help": "length of a match; default: the game's own"},
+    "--minutes": {"type": decimal(0.0, 3600.0), "help": "length of a match; default: the game's own"},
     "--variant": {"help": "set of rules; default: the game's first"},
-    "--laps": {"type": whole(), "metavar": "NUMBER", "help": "length of a race"},
-    "--pallets": {"type": whole(), "metavar": "NUMBER", "help": "pallets that win the factory"},
-    "--seed": {"type": whole(-MOST_WHOLE), "metavar": "NUMBER", "default": 1, "help": "random seed; default 1"},
+    "--laps": {"type": integer(), "metavar": "NUMBER", "help": "length of a race"},
+    "--pallets": {"type": integer(), "metavar": "NUMBER", "help": "pallets that win the factory"},
+    "--seed": {"type": integer(-MAX_INTEGER), "metavar": "NUMBER", "default": 1, "help": "random seed; default 1"},
     "--json": {"action": "store_true", "help": "print the result as one JSON object"},
     "--kiosk": {"action": "store_true", "help": "only the operator can leave"},
     "--display": {
-        "type": whole(high=64),
+        "type": integer(high=64),
         "metavar": "NUMBER",
         "help": "display, from 1; default: that of the settings",
     },
     "--emulate": {
-        "type": whole(0),
+        "type": integer(0),
         "nargs": "?",
         "const": 1,
         "metavar": "SEED",
         "help": "emulated robots, camera and projector, no hardware; default seed 1",
     },
-    "--camera": {"type": whole(0), "metavar": "NUMBER", "help": "camera above the mat, from 0"},
+    "--camera": {"type": integer(0), "metavar": "NUMBER", "help": "camera above the mat, from 0"},
     "--port": {"type": word, "help": "serial port of the radio; empty: the first one"},
-    "--baud": {"type": whole(), "metavar": "NUMBER", "help": "baud rate of the radio"},
+    "--baud": {"type": integer(), "metavar": "NUMBER", "help": "baud rate of the radio"},
     "--radio": {"metavar": "MODE", "help": "api2, api1, transparent, or stock (a robot on a cable)"},
 }
 MATCH = ("--arena", "--minutes", "--variant", "--laps", "--pallets", "--seed")
@@ -114,7 +114,7 @@ def game_option(parser: ArgumentParser, required: bool = False, more: tuple[str,
 def duel_options(parser: ArgumentParser) -> None:
     """Declare the matches of a pair of AIs."""
     parser.add_argument(
-        "--matches", type=whole(), metavar="NUMBER", default=100, help="matches of each pair; default 100"
+        "--matches", type=integer(), metavar="NUMBER", default=100, help="matches of each pair; default 100"
     )
     shared(parser, *MATCH, "--json")
 

@@ -74,14 +74,14 @@ class BrainOverlay:
         self.rose = [old + part * (new - old) for old, new in zip(self.rose, thoughts.rose, strict=True)]
         current: Mapping[str, float] = self.wishes
         self.wishes = {
-            name: (old := current.get(name, 0.0)) + part * (new - old) for name, new in thoughts.wishes.items()
+            name: (old := current.get(name, 0.0)) + part * (new - old) for name, new in thoughts.utilities.items()
         }
 
     def _floor(self, screen: pygame.Surface, state: Any, seat: int, blend: float) -> None:
         others = [self.view.pose(other, blend) for other in self.view.seats if other != seat]
         marks = FloorMarks(self.view.pose(seat, blend), others, PLAYERS[seat], self.clock)
-        marks.sights(state, self.thoughts.sights)
-        marks.rose(self.rose, self.thoughts.sights)
+        marks.sights(state, self.thoughts.percepts)
+        marks.rose(self.rose, self.thoughts.percepts)
         screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
         screen.fblits(marks.light, ADD)
         screen.set_clip(None)
@@ -92,8 +92,8 @@ class BrainOverlay:
         left, right, w = LEFT, clock.right + 8, clock.left - 8 - LEFT
         cards.blank(screen, LEFT - 12, clock.left + GLOW)
         cards.blank(screen, clock.right - GLOW, LEFT + int(WIDTH) + 12)
-        doing = self.words(f"brain.{thoughts.doing}", **thoughts.names)
-        because = self.words(f"brain.because_{thoughts.because}", **thoughts.names) if thoughts.because else ""
+        doing = self.words(f"brain.{thoughts.behaviour}", **thoughts.names)
+        because = self.words(f"brain.because_{thoughts.reason}", **thoughts.names) if thoughts.reason else ""
         cards.draw_words(screen, left, w, seat, doing, because)
         if thoughts.moves:
             sure = f"{thoughts.names.get('percent', 0)} %", self.words("brain.sure")

@@ -48,12 +48,12 @@ class BoardsPage:
         """Poll the camera; switch to the result when done."""
         self.site.advance(seconds)
         self.work.pump()
-        if not self.work.over:
+        if not self.work.finished:
             return None
         self.on_leave()
         work = self.work
         finding = CalibrationResult(
-            self.site, self.number, self.measures, work.ground, work.residuals, work.trouble, work.small
+            self.site, self.number, self.measures, work.ground, work.residuals, work.fault, work.small
         )
         self.context.sounds.play("accept" if finding.good else "back")
         if finding.good and not self.measures.height:
@@ -72,7 +72,7 @@ class BoardsPage:
             screen.fill((0, 0, 0))
             return
         self._draw_progress(screen)
-        self.work.shown(board)
+        self.work.mark_shown(board)
 
     def _retry(self) -> Scene:
         """A page that repeats the calibration."""

@@ -68,8 +68,8 @@ class DriftPage:
         words, work = self.context.words, self.work
         screen.fill((0, 0, 0))
         text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
-        if work.trouble is not None:
-            for i, line in enumerate(paragraph(words.sentence(work.trouble), ROOM, 4, ALARM, "c")):
+        if work.fault is not None:
+            for i, line in enumerate(paragraph(words.sentence(work.fault), ROOM, 4, ALARM, "c")):
                 line.draw(screen, 960, 480 + 60 * i)
         elif work.mm is None:
             text(words("calibrate.looking_for"), LABEL, MIST, "body", room=ROOM).draw(screen, 960, 480)
@@ -78,7 +78,7 @@ class DriftPage:
         try:
             draw_corners(screen)
         except OpenCVMissing as missing:
-            work.trouble = missing.message
+            work.fault = missing.message
         self._draw_spot(screen)
         self.prompts.draw(screen)
 

@@ -59,9 +59,7 @@ class HeightPage:
             return None
         self.on_leave()
         ground = work.found or self.finding.ground
-        result = replace(
-            self.finding, ground=ground, trouble=work.trouble, marker_mm=work.marker_mm, picture=work.small
-        )
+        result = replace(self.finding, ground=ground, trouble=work.fault, marker_mm=work.marker_mm, picture=work.small)
         return Swap(ResultPage(self.context, result, self.retry))
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -81,7 +79,7 @@ class HeightPage:
         text(words("calibrate.outline"), LABEL, ICE, "head").draw(screen, 960, 560)
         text(words("calibrate.count", place=place + 1, places=len(PLACES)), LABEL, MIST, "head").draw(screen, 960, 640)
         self.prompts.draw(screen)
-        self.work.shown(place)
+        self.work.mark_shown(place)
 
 
 @cached

@@ -133,8 +133,8 @@ class CalibrationPage:
         if preview is None:
             return
         room, below = dials.PANEL.w - 40, PICTURE.bottom + 40
-        if preview.trouble is not None or preview.small is None:
-            sentence = preview.trouble or OperatorMessage("yet")
+        if preview.fault is not None or preview.small is None:
+            sentence = preview.fault or OperatorMessage("yet")
             lines = paragraph(words.sentence(sentence), room - 40, 5, align="c")
             for i, line in enumerate(lines):
                 line.draw(screen, PICTURE.centerx, PICTURE.centery + 52 * i - 26 * (len(lines) - 1))

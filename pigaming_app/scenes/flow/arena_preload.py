@@ -2,7 +2,7 @@
 
 from contextlib import suppress
 
-from pigaming_app.ai.registry import seated
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -34,4 +34,4 @@ def prepare(game: str, name: str) -> None:
         rules.default_goal,
     )
     with suppress(ArenaError):
-        seated(setup)
+        new_match(setup)

@@ -56,7 +56,9 @@ class ArenaView:
         if not self.seats:
             self.jobs = PrewarmQueue(jobs(state))
         walls = (state.walls[i] for i in range(state.wall_count))
-        self.walls = [(wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.whole, wall.health) for wall in walls]
+        self.walls = [
+            (wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.initial_health, wall.health) for wall in walls
+        ]
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         poses = [(robot.x, robot.y, robot.heading) for robot in state.robots]
         self.before = self.blended() or poses
@@ -151,11 +153,11 @@ class ArenaView:
 
 def jobs(state: Any) -> Iterator[Job]:
     """Prewarm jobs: wall damage states, robots and shots in every heading."""
-    for health in range(max(wall.whole for wall in state.walls), -1, -1):
+    for health in range(max(wall.initial_health for wall in state.walls), -1, -1):
         for i in range(state.wall_count):
             wall = state.walls[i]
-            if wall.whole != SOLID:
-                yield partial(small_wall, wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.whole, health)
+            if wall.initial_health != SOLID:
+                yield partial(small_wall, wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.initial_health, health)
     for seat in (0, 1):
         for turn in range(HEADINGS):
             yield partial(small_tank, seat, turn)
@@ -216,7 +218,7 @@ class _Wall:
     """Wall in the form `wall_sprite` needs."""
 
     def __init__(self, ax: float, ay: float, bx: float, by: float, half: float, whole: int) -> None:
-        self.ax, self.ay, self.bx, self.by, self.half, self.whole = ax, ay, bx, by, half, whole
+        self.ax, self.ay, self.bx, self.by, self.half, self.initial_health = ax, ay, bx, by, half, whole
 
 
 @cached

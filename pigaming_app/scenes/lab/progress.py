@@ -41,7 +41,7 @@ class Progress:
         self.measures: list[Measure] = []
         self.plan: list[Direction | None] = [None] * PETALS
         self.checkpoints: dict[int, Checkpoint] = {}
-        self.snapshot = TrainingState(training.look(), 0, training.matches, knowing(training))
+        self.snapshot = TrainingState(training.snapshot(), 0, training.matches, knowing(training))
         self._exam: Evaluation | None = None
         self._exam_start = -1.0  # matches at the start of the last evaluation
         self._exam_time = self._last_frame = self._last_direction = perf_counter()
@@ -78,7 +78,7 @@ class Progress:
             self._last_frame = now
             training = self.training
             self.snapshot = TrainingState(
-                training.look(), self.snapshot.number + 1, training.matches, knowing(training)
+                training.snapshot(), self.snapshot.number + 1, training.matches, knowing(training)
             )
         if now - self._last_direction >= PETAL:
             self._last_direction = now

@@ -216,9 +216,9 @@ class Lab:
         now.speed, now.focus, now.held = trainer.speed, self.focus.name, self.held
         now.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = trainer.progress.plan
-        scale = max([MIN_SCALE] + [abs(entry.worth) for entry in plan if entry])
-        now.levels = [level(entry.worth / scale) if entry else 0 for entry in plan]
-        now.signs = [entry.deed if entry else SIGNS[-1] for entry in plan]
+        scale = max([MIN_SCALE] + [abs(entry.value) for entry in plan if entry])
+        now.levels = [level(entry.value / scale) if entry else 0 for entry in plan]
+        now.signs = [entry.action if entry else SIGNS[-1] for entry in plan]
 
     def _celebrate(self, progress: Progress) -> None:
         """Celebrate once per training that it overtook the hand-made robot."""

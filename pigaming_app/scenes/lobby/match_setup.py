@@ -188,7 +188,7 @@ class MatchSetupPage:
         now.variant = names[(names.index(now.variant) + delta) % len(names)]
         fit_choice(self.variant, now)
         self.rows = rows(self.game, self.variant)
-        self.focus.place([FocusSpot(name, box) for name, box in self.rows.items()])
+        self.focus.set_spots([FocusSpot(name, box) for name, box in self.rows.items()])
 
     def _click(self, event: InputEvent) -> StackOperation:
         """Handle a click on the arrows or chips of a row, the preview (next arena) or the start button."""

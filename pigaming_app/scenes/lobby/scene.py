@@ -13,7 +13,7 @@ from pigaming_app.ai.registry import RIVALS, STRENGTHS
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.session.robot_session import unfit
+from pigaming_app.hardware.session.robot_session import settings_problem
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import choice_summary, last_choice
@@ -43,7 +43,7 @@ class Lobby:
         team_mode = games()[game].variants[last_choice(context, game).variant].team_mode
         self.seats = Seats(context.settings.strength, team_mode=team_mode, rivals=RIVALS[game], mat=context.robots)
         for seat, place in enumerate(self.seats.places):
-            place.real = seat + 1 in context.settings.real and not unfit(context.settings)
+            place.real = seat + 1 in context.settings.real and not settings_problem(context.settings)
         for seat, driver in enumerate(drivers):
             if driver is not None:
                 self.seats.seat(seat, driver)
@@ -225,7 +225,7 @@ class Lobby:
 
     def _swap(self, seat: int) -> None:
         """Toggle between the real and the simulated robot of a seat, and save it as the default."""
-        if reason := unfit(self.context.settings):
+        if reason := settings_problem(self.context.settings):
             self._say(self.context.words.sentence(reason), "error")
             return
         self.seats.swap(seat)

@@ -14,7 +14,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.ai.brain.kind import HumanPlayer
-from pigaming_app.ai.registry import make, seated
+from pigaming_app.ai.registry import make_brain, new_match
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
@@ -63,7 +63,7 @@ class MatchScene:
         self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
-        self.match = seated(setup, plant)
+        self.match = new_match(setup, plant)
         self.runner = MatchRunner(context, self.match)
         self.countdown = Countdown(lead=LEAD_SECONDS)
         self.countdown_at = CENTRE
@@ -303,7 +303,7 @@ class MatchScene:
         brain = (
             HumanPlayer(lambda: self._read(seat, device))
             if device
-            else make(self.setup.game, SUBSTITUTE_BRAIN, new_seed())
+            else make_brain(self.setup.game, SUBSTITUTE_BRAIN, new_seed())
         )
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else SUBSTITUTE_BRAIN

@@ -58,14 +58,14 @@ class FaultPage:
         if admitted is None:
             return None
         event = admitted
-        lasting = self.match.plant.safety.lasting
-        event = self.prompts.as_button(self.repair_prompts.as_button(event) if lasting else event)
+        latched = self.match.plant.safety.latched
+        event = self.prompts.as_button(self.repair_prompts.as_button(event) if latched else event)
         if event.button is Button.X:
             self._simulate()
-        elif lasting and event.button is Button.FIRE and not self.match.plant.safety.stopped:
+        elif latched and event.button is Button.FIRE and not self.match.plant.safety.stopped:
             return Push(PairAgain(self.match))
-        elif lasting and event.button is Button.Y:
-            for robot in lasting:
+        elif latched and event.button is Button.Y:
+            for robot in latched:
                 self.match.plant.clear_fault(robot)
             self.context.sounds.play("accept")
         elif event.button is Button.STOP:
@@ -105,7 +105,7 @@ class FaultPage:
             image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)
             screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
         self.prompts.draw(screen)
-        if self.match.plant.safety.lasting:
+        if self.match.plant.safety.latched:
             self.repair_prompts.draw(screen)
         self.match.draw_overlay(screen)
 
@@ -136,7 +136,7 @@ class FaultPage:
         title = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
         sheet_title(layer, first.robot, title, ICE)
         sign(layer.glow, first.name, *ICON, 76, ALARM)
-        if not self.match.plant.safety.lasting:
+        if not self.match.plant.safety.latched:
             ending = words("mat.goes_on")
             layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
         fire = words.key_name(self.context.controls.label(self.match.access.hint_device, Button.FIRE))

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.radio.serial_line import ports
-from pigaming_app.hardware.session.robot_session import unfit
+from pigaming_app.hardware.session.robot_session import settings_problem
 from pigaming_app.hardware.vision.discovery import cameras
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
@@ -54,7 +54,11 @@ class FleetPage:
         self.flood = FloodLight()
         self.flood.level = 0.0
         self.names = (
-            ROWS if not context.session.emulated else ("radio", *EMULATED) if unfit(context.settings) else EMULATED
+            ROWS
+            if not context.session.emulated
+            else ("radio", *EMULATED)
+            if settings_problem(context.settings)
+            else EMULATED
         )
         self.focus = Focus(dials.spots(self.names), "pair")
         self.reopen_in, self.age = 0.0, EVERY
@@ -181,7 +185,7 @@ class FleetPage:
 
     def _line(self) -> str:
         """Description of the focused row, or the reason why matches reject its value."""
-        reason = unfit(self.context.settings) if self.focus.name == "radio" else None
+        reason = settings_problem(self.context.settings) if self.focus.name == "radio" else None
         return self.context.words.sentence(reason) if reason else self.context.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
@@ -193,7 +197,7 @@ class FleetPage:
 
     def _fault(self) -> str | None:
         """Fault message of camera or radio."""
-        message = self.check.session.trouble
+        message = self.check.session.fault
         return self.context.words.sentence(message) if message else None
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:

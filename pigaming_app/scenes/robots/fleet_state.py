@@ -63,7 +63,7 @@ class FleetState:
         except RobotsUnavailable as error:
             log.warning("%s", english().long_sentence(error.message))
             self.refusal = error.message
-            self.rig, self.link = None, self.session.listen()
+            self.rig, self.link = None, self.session.open_link()
 
     def end(self) -> None:
         """Stop the robots and release camera and radio."""
@@ -94,7 +94,7 @@ class FleetState:
         self.pairing, self.shake, self._todo, self._next_job = None, None, [], None
         if self.rig is not None:
             self.rig.recorder = None
-            self.rig.tell([None] * ROBOTS)
+            self.rig.send([None] * ROBOTS)
 
     def pair(self) -> bool:
         """Search for all robots, then spin one after the other; False if none reports."""
@@ -121,7 +121,7 @@ class FleetState:
             elif self.shake is not None:
                 done = self._shake_on(self.shake) or done
             else:
-                self.rig.tell([None] * ROBOTS)
+                self.rig.send([None] * ROBOTS)
         return done
 
     def heard(self, robot: int) -> bool:
@@ -157,8 +157,8 @@ class FleetState:
 
     def _count(self, rig: Rig, seconds: float) -> None:
         self._counted += seconds
-        if rig.tracker.looked != self._newest:
-            self._newest = rig.tracker.looked
+        if rig.tracker.last_captured != self._newest:
+            self._newest = rig.tracker.last_captured
             self._pictures += 1
         if self._counted >= RATE:
             self.rate = self._pictures / self._counted

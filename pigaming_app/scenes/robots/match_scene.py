@@ -10,7 +10,7 @@ import pygame
 from pigaming_app.games.game import Setup
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault, Response
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, unfit
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, settings_problem
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
@@ -52,7 +52,7 @@ class RealMatch(MatchScene):
         match_of: MatchOf,
         game_choice: SceneFactory | None = None,
     ) -> None:
-        if reason := unfit(context.settings):
+        if reason := settings_problem(context.settings):
             raise RobotsUnavailable(reason)
         rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
@@ -200,14 +200,14 @@ class RealMatch(MatchScene):
                 self._begin()
                 break
         self._report_faults()
-        if self.plant.safety.stopped or self.plant.safety.lasting:
+        if self.plant.safety.stopped or self.plant.safety.latched:
             return Push(FaultPage(self))
         return Home() if self.context.idle > IDLE else None
 
     def _missing(self) -> list[int]:
         """Robots that cannot reach their start positions on their own."""
         troubled = {fault.robot for fault in self.plant.faults if fault.pauses}
-        late = [place for place in self.plant.places if not place.there]
+        late = [place for place in self.plant.places if not place.arrived]
         return [place.robot for place in late if not place.moving or {None, place.robot} & troubled]
 
     def _begin(self) -> None:
@@ -246,4 +246,4 @@ class RealMatch(MatchScene):
 
     def _reportable(self, fault: Fault) -> bool:
         """False for a robot that is only briefly hard to see."""
-        return fault.does is not Response.HALF and (fault.pauses or fault.name in REPORTED_ONLY)
+        return fault.response is not Response.HALF and (fault.pauses or fault.name in REPORTED_ONLY)

@@ -46,7 +46,7 @@ class PairAgain:
         if event.button is Button.FIRE and self.sentence:
             self.pairing, self.sentence, self.clock = None, "", 0.0
         elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.STOP):
-            self.match.plant.rig.tell([None] * ROBOTS)
+            self.match.plant.rig.send([None] * ROBOTS)
             if event.button is Button.STOP:
                 self.match.plant.safety.all_stop()
             self.context.sounds.play("back")

@@ -87,11 +87,11 @@ class TakePlaces:
         seen = self.plant.rig.sense()
         for place in places:
             self._outline(screen, place)
-            if not place.there and place.distance < UNSEEN:
+            if not place.arrived and place.distance < UNSEEN:
                 self._draw_path(screen, place, (LEFT + seen[place.robot].x, TOP + seen[place.robot].y))
         for place in places:
             self._caption(screen, place)
-        there = sum(place.there for place in places)
+        there = sum(place.arrived for place in places)
         text(words("mat.places"), LABEL, ICE, "head", "l", 900).draw(screen, 176, TITLE_Y)
         if places:
             progress = words("mat.there", there=there, all=len(places))
@@ -111,8 +111,8 @@ class TakePlaces:
     def _outline(self, screen: pygame.Surface, place: HomingProgress) -> None:
         x, y, heading = place.pose
         color = place.robot
-        level = 8 if place.there else round(6 + 2 * math.cos(math.tau * self.clock))
-        outline(color, place.there).draw(screen, LEFT + x, TOP + y, 1.0 if level > 0 else 0.0)
+        level = 8 if place.arrived else round(6 + 2 * math.cos(math.tau * self.clock))
+        outline(color, place.arrived).draw(screen, LEFT + x, TOP + y, 1.0 if level > 0 else 0.0)
         blit_sprite(screen, pointer(color, step(heading, HEADINGS)), LEFT + x, TOP + y)
         if place.distance > 2 * MOAT:
             blit_sprite(screen, tag(color), LEFT + x, TOP + y)
@@ -134,7 +134,7 @@ class TakePlaces:
     def _caption(self, screen: pygame.Surface, place: HomingProgress) -> None:
         """Caption with the manual action for a robot that cannot drive there itself."""
         words, robot = self.context.words, place.robot
-        if place.there or place.moving or self.clock < MISSING:
+        if place.arrived or place.moving or self.clock < MISSING:
             return
         key = "mat.carry" if place.distance > UNSEEN else "mat.waits"
         sheet = caption(words(key, robot=robot + 1), PLAYERS[robot], size=BODY, player=robot)

@@ -7,7 +7,7 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.ai.registry import STRENGTHS, seated
+from pigaming_app.ai.registry import STRENGTHS, new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games
@@ -104,7 +104,7 @@ class DemoMatch:
         one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
         setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.default.name, rules.default.default_goal)
-        self.runner = MatchRunner(context, seated(setup), loud=False)
+        self.runner = MatchRunner(context, new_match(setup), loud=False)
         self.prewarmed = False
         self.over = 0.0
 

@@ -13,7 +13,7 @@ from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.ai.race import racer
-from pigaming_app.ai.registry import BRAINS, make
+from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.factory.state import INPUT, RAW, A
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -45,7 +45,7 @@ def play(game: str, *brains: str, seed: int = 1, variant: str | None = None) -> 
     setup = Setup(game, "", (one, two, three, four), 2.0, seed, variant or rules.name, rules.default_goal)
     match = Match(setup, arena=load(game))
     for seat, brain in enumerate(brains):
-        match.sit(seat, make(game, brain, seed * ROBOTS + seat))
+        match.sit(seat, make_brain(game, brain, seed * ROBOTS + seat))
     return match
 
 
@@ -100,18 +100,18 @@ def test_everything_told_is_plain_finite_and_has_words(game, name):
 
 
 def check(told: Thoughts, words: dict[str, str]) -> None:
-    words[f"brain.{told.doing}"].format(**told.names)
-    if told.because:
-        words[f"brain.because_{told.because}"].format(**told.names)
+    words[f"brain.{told.behaviour}"].format(**told.names)
+    if told.reason:
+        words[f"brain.because_{told.reason}"].format(**told.names)
     assert len(told.rose) == PETALS
     assert all(-1.0 <= value <= 1.0 for value in told.rose)
-    assert all(0.0 <= value <= 1.0 for value in told.wishes.values())
+    assert all(0.0 <= value <= 1.0 for value in told.utilities.values())
     assert all(-1.0 <= value <= 1.0 for value in told.moves.values())
     assert all(isfinite(value) for value in told.facts.values())
-    assert all(isfinite(sight.x) and isfinite(sight.y) for sight in told.sights)
-    assert not (told.wishes and told.moves)
+    assert all(isfinite(sight.x) and isfinite(sight.y) for sight in told.percepts)
+    assert not (told.utilities and told.moves)
     if told.chosen:
-        assert told.chosen in told.wishes or told.chosen in told.moves
+        assert told.chosen in told.utilities or told.chosen in told.moves
 
 
 def test_no_text_is_written_that_no_brain_says():
@@ -131,7 +131,7 @@ def test_no_text_is_written_that_no_brain_says():
 def test_before_its_first_look_nobody_knows_anything():
     for game, name in ALL:
         if name not in ("idle", "random"):
-            assert thoughts(play(game, name, "easy")).doing == "starts"
+            assert thoughts(play(game, name, "easy")).behaviour == "starts"
 
 
 def test_a_rose_points_where_it_is_told_to():
@@ -145,17 +145,17 @@ def test_a_rose_points_where_it_is_told_to():
 # ------------------------------------------------------------------------------------------------------------ PiTanks
 
 
-@pytest.mark.parametrize(("lead", "state", "because"), [(3, fsm.DEFEND, "ahead"), (-3, fsm.ATTACK, "behind")])
-def test_who_leads_hides_and_who_is_behind_hunts(lead, state, because):
+@pytest.mark.parametrize(("lead", "state", "reason"), [(3, fsm.DEFEND, "ahead"), (-3, fsm.ATTACK, "behind")])
+def test_who_leads_hides_and_who_is_behind_hunts(lead, state, reason):
     match = play("pitanks", "normal", "idle", variant="plain")
     match.state.robots[0].score = lead
     run(match, 20)
     told = thoughts(match)
     assert told.facts["state"] == state
     assert told.facts["lead"] == lead
-    assert told.because == because
+    assert told.reason == reason
     assert told.chosen == ("cover" if lead > 0 else "attack")
-    assert told.wishes[str(told.chosen)] == 1.0
+    assert told.utilities[str(told.chosen)] == 1.0
 
 
 def test_the_pull_out_of_cover_grows_while_nobody_shows():
@@ -163,16 +163,16 @@ def test_the_pull_out_of_cover_grows_while_nobody_shows():
     mind = match.brains[0].mind
     for waited, pull in ((0, 0.0), (mind.patience // 2, 0.5), (mind.patience, 1.0), (3 * mind.patience, 1.0)):
         mind.unseen = waited
-        wishes = thoughts(match).wishes
-        assert (wishes["attack"], wishes["cover"]) == pytest.approx((pull, 1.0 - pull))
+        utilities = thoughts(match).utilities
+        assert (utilities["attack"], utilities["cover"]) == pytest.approx((pull, 1.0 - pull))
     mind.seen, mind.state, mind.unseen = 0, fsm.ATTACK, mind.patience + 1
-    assert (thoughts(match).doing, thoughts(match).because) == ("hunt", "nobody")
+    assert (thoughts(match).behaviour, thoughts(match).reason) == ("hunt", "nobody")
 
 
 def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_be():
     match = run(play("pitanks", "hard", "hard", seed=2), 60)
     mind, told = match.brains[0].mind, thoughts(match)
-    seen = {sight.kind: sight for sight in told.sights}
+    seen = {sight.kind: sight for sight in told.percepts}
     assert (seen[OPPONENT].x, seen[OPPONENT].y) == (mind.obs.others[0].x, mind.obs.others[0].y)
     if GOAL in seen:
         assert (seen[GOAL].x, seen[GOAL].y) == (mind.senses.route.goal_x, mind.senses.route.goal_y)
@@ -187,7 +187,7 @@ def test_it_says_that_it_dodges_exactly_when_it_would():
         action = match.state.actions[0]
         action.linear = 0.25
         before = digest(match.state)
-        said.append((thoughts(match).doing == "dodge", thoughts(match).rose[petal(bearing)] < 0.5))
+        said.append((thoughts(match).behaviour == "dodge", thoughts(match).rose[petal(bearing)] < 0.5))
         assert digest(match.state) == before
         fsm.dodge(view, action)
         assert said[-1][0] == (action.linear != 0.25)
@@ -197,11 +197,11 @@ def test_it_says_that_it_dodges_exactly_when_it_would():
 def test_it_knows_that_it_is_stuck():
     match = run(play("pitanks", "normal", "idle"), 20)
     mind = match.brains[0].mind
-    mind.held_up = fsm.HELD_UP_TICKS // 2
-    assert thoughts(match).wishes["free"] == pytest.approx(0.5)
+    mind.stuck_ticks = fsm.STUCK_TICKS // 2
+    assert thoughts(match).utilities["free"] == pytest.approx(0.5)
     mind.state = fsm.BREAK_FREE
     told = thoughts(match)
-    assert (told.doing, told.because, told.chosen) == ("free", "stuck", "free")
+    assert (told.behaviour, told.reason, told.chosen) == ("free", "stuck", "free")
 
 
 # --------------------------------------------------------------------------------------------------------------- race
@@ -212,25 +212,25 @@ def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
     mind = match.brains[0].mind
     mind.obs.past, mind.obs.return_x, mind.obs.return_y = 2 * racer.SLACK, 321.0, 123.0
     told = thoughts(match)
-    assert (told.doing, told.because, told.chosen) == ("return", "missed", "back")
-    assert [(sight.x, sight.y) for sight in told.sights if sight.kind == GOAL] == [(321.0, 123.0)]
+    assert (told.behaviour, told.reason, told.chosen) == ("return", "missed", "back")
+    assert [(sight.x, sight.y) for sight in told.percepts if sight.kind == GOAL] == [(321.0, 123.0)]
 
 
 def test_who_has_finished_is_not_stuck_though_nothing_moves_it_any_more():
     match = run(play("race", "hard", "easy"), 100)
     mind = match.brains[0].mind
     mind.obs.finished, mind.state = 1, racer.BREAK_FREE
-    assert (thoughts(match).doing, thoughts(match).because) == ("done", "finish")
+    assert (thoughts(match).behaviour, thoughts(match).reason) == ("done", "finish")
 
 
 def test_a_driver_makes_way_to_the_side_on_which_it_passes():
     match = run(play("race", "hard", "easy"), 100)
     mind = match.brains[0].mind
     mind.obs.past, own = -100.0, mind.line * mind.obs.ahead.ideal
-    for aside, doing in ((-60.0, "pass_left"), (60.0, "pass_right"), (0.0, None)):
+    for aside, behaviour in ((-60.0, "pass_left"), (60.0, "pass_right"), (0.0, None)):
         mind.lane = own + aside
         told = thoughts(match)
-        assert (told.doing == doing) if doing else not told.doing.startswith("pass")
+        assert (told.behaviour == behaviour) if behaviour else not told.behaviour.startswith("pass")
 
 
 # ------------------------------------------------------------------------------------------------------------ factory
@@ -249,8 +249,8 @@ def test_who_carries_a_raw_pallet_goes_to_a_machine_a():
             told.append(thoughts(match))
     assert told
     for one in told:
-        assert (one.doing, one.because, one.chosen, one.names["machine"]) == ("bring", "raw", "put", "A")
-        goal = [sight for sight in one.sights if sight.kind == GOAL]
+        assert (one.behaviour, one.reason, one.chosen, one.names["machine"]) == ("bring", "raw", "put", "A")
+        goal = [sight for sight in one.percepts if sight.kind == GOAL]
         assert len(goal) == 1
 
 
@@ -258,8 +258,8 @@ def test_a_frozen_driver_waits():
     match = run(play("factory", "normal", "normal", "normal", "normal"), 60)
     match.brains[0].mind.obs.frozen = 50
     told = thoughts(match)
-    assert (told.doing, told.because, told.chosen) == ("frozen", "bumped", "wait")
-    assert told.wishes["wait"] == 1.0
+    assert (told.behaviour, told.reason, told.chosen) == ("frozen", "bumped", "wait")
+    assert told.utilities["wait"] == 1.0
     assert max(told.rose) <= 0.0, "it wants to go nowhere"
     assert foreman.PERIOD == 5
 
@@ -274,14 +274,14 @@ def test_a_table_shows_its_state_its_values_and_the_move_it_drew():
     told = thoughts(match)
     mind = match.brains[0].mind
     assert told.chosen == tuple(int(part) for part in MOVES[mind.move])
-    assert told.doing == "shoot"
+    assert told.behaviour == "shoot"
     assert told.moves[(1, 1, 1)] == 1.0
     assert len(told.moves) == ACTIONS
     here = state(*(int(told.facts[name]) for name in ("opponent", "wall", "bullet")))
     assert here == mind.state
     assert told.facts["bullet"] == NONE
-    assert {sight.kind for sight in told.sights} == {OPPONENT, WALL}
-    assert (told.because, told.names["count"]) == ("tried", 7)
+    assert {sight.kind for sight in told.percepts} == {OPPONENT, WALL}
+    assert (told.reason, told.names["count"]) == ("tried", 7)
     assert told.names["percent"] == 100, "10 against 9 at a temperature of 1/50"
 
 
@@ -291,7 +291,7 @@ def test_what_a_table_has_never_seen_it_says():
     empty.weights.n[:] = [0] * len(empty.weights.n)
     match.sit(0, empty)
     told = thoughts(run(match, 6))
-    assert told.because == "new"
+    assert told.reason == "new"
     assert set(told.moves.values()) == {0.0}
     assert told.rose == [0.0] * SECTORS
     assert told.names["percent"] == round(100 / ACTIONS)
@@ -318,5 +318,5 @@ def test_a_bullet_that_comes_is_among_what_a_table_sees():
     kinds = set()
     for _ in range(1500):
         match.tick()
-        kinds |= {sight.kind for sight in thoughts(match).sights}
+        kinds |= {sight.kind for sight in thoughts(match).percepts}
     assert BULLET in kinds

@@ -45,7 +45,7 @@ def test_both_bodies_learn_the_same_table_to_the_last_bit(recipe):
         one.run(4000)
     assert plain.experiences > 500
     assert digest(plain._tables[0]) == digest(fast._tables[0])
-    assert digest(plain.look()) == digest(fast.look())
+    assert digest(plain.snapshot()) == digest(fast.snapshot())
 
 
 @pytest.mark.parametrize("fast", BODIES)
@@ -55,7 +55,7 @@ def test_matches_follow_each_other_and_the_table_goes_on(fast):
     assert (course.matches, course.experiences, course.match.over) == (1, 120, 1)
     course.run(450)
     assert (course.matches, course.experiences) == (2, 240 + 2 * 29)
-    assert course.look().tick == 150
+    assert course.snapshot().tick == 150
     assert 0.02 < course.temperature < 0.5
     assert 0 < course.visited <= course.table.pairs < course.experiences
 

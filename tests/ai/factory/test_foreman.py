@@ -5,7 +5,7 @@ from math import hypot
 
 import pytest
 
-from pigaming_app.ai.registry import STRENGTHS, make
+from pigaming_app.ai.registry import STRENGTHS, make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (
@@ -40,7 +40,7 @@ def begun(brains, floor="hall", seed=1, pallets=4, minutes=5.0):
     match = Match(Setup("factory", floor, (one, two, three, four), minutes, seed, "standard", pallets))
     for seat, brain in enumerate(brains):
         if brain != "off":
-            match.sit(seat, make("factory", brain, seed * 4 + seat))
+            match.sit(seat, make_brain("factory", brain, seed * 4 + seat))
     return match
 
 
@@ -123,7 +123,7 @@ def test_the_same_seed_is_the_same_match():
 @pytest.mark.parametrize("strength", STRENGTHS)
 def test_it_thinks_without_changing_anything_but_its_action(strength):
     match = begun((strength,) * 4)
-    brain = make("factory", strength, 1)
+    brain = make_brain("factory", strength, 1)
     before = digest(match.state)
     for tick in (0, 5, 10, 15):
         match.state.tick = tick
@@ -140,7 +140,7 @@ def test_it_thinks_without_changing_anything_but_its_action(strength):
 
 def first_aim(shop, seat=0, strength="hard", seconds=0.6):
     """Target slot of a driver after `seconds`."""
-    shop.match.sit(seat, make("factory", strength, seat))
+    shop.match.sit(seat, make_brain("factory", strength, seat))
     shop.tick(round(seconds * HZ))
     return shop.loads[seat].aim - 1
 
@@ -298,6 +298,6 @@ def test_somebody_else_can_take_over_at_any_time():
         match.tick()
         if match.state.tick % (4 * HZ) == 0:
             changes += 1
-            match.sit(2 * (changes % 2), make("factory", STRENGTHS[changes % 3], changes))
+            match.sit(2 * (changes % 2), make_brain("factory", STRENGTHS[changes % 3], changes))
     assert match.state.winner == 1 + ICE
     assert total(match, "spoiled") == 0

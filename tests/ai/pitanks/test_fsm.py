@@ -6,7 +6,7 @@ from math import hypot
 import pytest
 
 from pigaming_app.ai.experiments.league import duel, wilson
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -34,7 +34,7 @@ def test_fsm_beats_random():
 def test_every_strength_thinks_without_changing_anything_but_its_action(strength):
     one, two, three, four = (Seat(strength, team) for team in range(4))
     match = Match(Setup("pitanks", "classic", (one, two, three, four), 1.0, 1, "pickups"))
-    brain = make("pitanks", strength, 1)
+    brain = make_brain("pitanks", strength, 1)
     action = match.state.actions[0]
     before = digest(match.state)
     brain.think(match.state, 0)
@@ -52,7 +52,7 @@ def stuck(arena, seed, strengths):
     match = Match(Setup("pitanks", arena, (one, two, three, four), 1.0, seed, "pickups"))
     for seat, brain in enumerate(strengths):
         if brain != "off":
-            match.sit(seat, make("pitanks", brain, seed * 4 + seat))
+            match.sit(seat, make_brain("pitanks", brain, seed * 4 + seat))
     trails = [deque(maxlen=round(STUCK_SECONDS * HZ)) for _ in range(4)]
     times = []
     while not match.over:

@@ -213,7 +213,7 @@ def test_a_kernel_reads_the_same_numbers_as_a_recipe_has():
 
 def experience(table, state, move, worth, here):
     mind = LearnerMind()
-    mind.state, mind.move, mind.worth = state, move, worth
+    mind.state, mind.move, mind.reward = state, move, worth
     update(table, mind, here)
 
 

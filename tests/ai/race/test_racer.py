@@ -7,7 +7,7 @@ from math import hypot, pi
 import pytest
 
 from pigaming_app.ai.experiments.league import duel
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -26,7 +26,7 @@ def race(brains, track="classic", seed=1, laps=3):
     match = Match(Setup("race", track, (one, two, three, four), 10.0, seed, "standard", laps))
     for seat, brain in enumerate(brains):
         if brain != "off":
-            match.sit(seat, make("race", brain, seed * 4 + seat))
+            match.sit(seat, make_brain("race", brain, seed * 4 + seat))
     return match
 
 
@@ -77,7 +77,7 @@ def test_courses_can_be_driven_anticlockwise(track):
     one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("hard", "normal", "easy", "hard")))
     match = Match(Setup("race", track, (one, two, three, four), 10.0, 1, "standard", 2), arena=arena)
     for seat, brain in enumerate(("hard", "normal", "easy", "hard")):
-        match.sit(seat, make("race", brain, seat))
+        match.sit(seat, make_brain("race", brain, seat))
     while not match.over:
         match.tick()
         assert not any(racer.missed for racer in match.state.racers)
@@ -110,7 +110,7 @@ def test_nobody_misses_a_line_or_is_stuck_and_all_finish(track, mixture):
 @pytest.mark.parametrize("strength", TARGETS)
 def test_every_strength_thinks_without_changing_anything_but_its_action(strength):
     match = race((strength,) * 4)
-    brain = make("race", strength, 1)
+    brain = make_brain("race", strength, 1)
     action = match.state.actions[0]
     before = digest(match.state)
     brain.think(match.state, 0)

@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.rules import may_lift
 from pigaming_app.games.factory.state import (
@@ -120,7 +120,7 @@ def test_invariants_hold_while_drivers_of_all_kinds_play(floor, pallets, brains)
     match = Match(Setup("factory", floor, (one, two, three, four), 5.0, pallets, "standard", pallets))
     for seat, brain in enumerate(brains):
         if brain != "off":
-            match.sit(seat, make("factory", brain, seat + 10 * pallets))
+            match.sit(seat, make_brain("factory", brain, seat + 10 * pallets))
     watch = Watch(match.state)
     assert len(watch.there) == 2 * pallets
     while not match.over and match.seconds < 75.0:

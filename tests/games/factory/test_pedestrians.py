@@ -7,7 +7,16 @@ from typing import Annotated
 import pytest
 
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.factory.pedestrians import CLOSE, NEARLY, THERE, TURN, Motion, send, track_motion, walk
+from pigaming_app.games.factory.pedestrians import (
+    ARRIVED,
+    ARRIVED_NEAR_ROBOT,
+    RESTING_CLEARANCE,
+    TURN_RATE,
+    Motion,
+    send,
+    track_motion,
+    walk,
+)
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import in_wall
@@ -32,8 +41,8 @@ class Walker:
     walking: int
     side: int
     route: Route
-    least: float
-    held_up: int
+    closest: float
+    stuck_ticks: int
 
 
 @record
@@ -101,7 +110,7 @@ def far_off(who):
 def test_it_walks_straight_where_nothing_is_in_the_way_and_stays_there():
     """300 px, less the 6 px within which it has arrived, at 130 px/s."""
     who = walker(200.0, 450.0, (500.0, 450.0))
-    assert go(floor(), who, 5.0) == pytest.approx((300.0 - THERE) / PACE, abs=2 * DT)
+    assert go(floor(), who, 5.0) == pytest.approx((300.0 - ARRIVED) / PACE, abs=2 * DT)
     assert who.y == 450.0
     place = who.x, who.y
     assert go(floor(), who, 1.0) == 0.0
@@ -114,7 +123,7 @@ def test_sent_elsewhere_on_the_way_it_turns_back():
     assert who.x == pytest.approx(200.0 + 2.0 * PACE, abs=PACE * DT)
     send(who, 200.0, 450.0)
     assert go(world, who, 3.0) is not None
-    assert far_off(who) < THERE
+    assert far_off(who) < ARRIVED
 
 
 def test_it_turns_the_way_it_walks_but_not_at_once():
@@ -123,9 +132,9 @@ def test_it_turns_the_way_it_walks_but_not_at_once():
     before, turned = who.heading, 0
     while abs(turn_to(who.heading - pi)) > 0.05:
         walk(world, who, PACE, GIRTH)
-        assert abs(turn_to(who.heading - before)) <= TURN * DT + 1e-9
+        assert abs(turn_to(who.heading - before)) <= TURN_RATE * DT + 1e-9
         before, turned = who.heading, turned + 1
-    assert turned * DT == pytest.approx((pi - 0.15) / TURN, abs=0.03)
+    assert turned * DT == pytest.approx((pi - 0.15) / TURN_RATE, abs=0.03)
 
 
 def test_it_finds_the_way_out_of_a_u_and_round_it():
@@ -134,7 +143,7 @@ def test_it_finds_the_way_out_of_a_u_and_round_it():
     took = go(floor(walls=U), who, 15.0)
     assert took is not None
     assert 7.0 < took < 12.0
-    assert far_off(who) < THERE
+    assert far_off(who) < ARRIVED
 
 
 @pytest.mark.parametrize("place", [("factory", name) for name in arenas("factory")] + [("pitanks", "classic")])
@@ -155,7 +164,7 @@ def test_it_gets_from_anywhere_to_anywhere(place):
         took = go(world, who, 30.0)
         assert took is not None, f"from {start} to {goal}"
         assert took < (crow + 900.0) / PACE, f"a long way round from {start} to {goal}"
-        assert far_off(who) < THERE
+        assert far_off(who) < ARRIVED
 
 
 def test_an_unreachable_goal_is_never_reported_as_reached():
@@ -180,15 +189,15 @@ def test_it_walks_round_a_robot_that_stands_in_the_way_without_touching_it(way, 
     for _ in range(round(600.0 / PACE * 1.33 * HZ)):
         if walk(world, who, PACE, GIRTH):
             break
-        assert hypot(who.x - robot.x, who.y - robot.y) >= RADIUS + GIRTH + CLOSE - 1e-9
-    assert far_off(who) < THERE
+        assert hypot(who.x - robot.x, who.y - robot.y) >= RADIUS + GIRTH + RESTING_CLEARANCE - 1e-9
+    assert far_off(who) < ARRIVED
 
 
 def test_robots_that_are_not_there_are_in_nobodys_way():
     world = floor(poses=[(800.0, 450.0, 0.0)])
     world.robots[0].present = 0
     who = walker(600.0, 450.0, (1000.0, 450.0))
-    assert go(world, who, 5.0) == pytest.approx((400.0 - THERE) / PACE, abs=2 * DT)
+    assert go(world, who, 5.0) == pytest.approx((400.0 - ARRIVED) / PACE, abs=2 * DT)
     assert who.y == 450.0
 
 
@@ -214,7 +223,7 @@ def test_it_lets_a_robot_drive_past_before_it_goes_on(late, speed):
     took, least = crossing(world, who, 8.0)
     assert least > RADIUS + GIRTH, "they touched"
     assert took is not None
-    assert took > (1.5 * PACE + 200.0 - THERE) / PACE + 0.1, "it did not wait"
+    assert took > (1.5 * PACE + 200.0 - ARRIVED) / PACE + 0.1, "it did not wait"
 
 
 def test_it_does_not_wait_for_a_robot_that_drives_away():
@@ -222,7 +231,7 @@ def test_it_does_not_wait_for_a_robot_that_drives_away():
     at_speed(world, 260.0)
     who = walker(600.0, 450.0, (1000.0, 450.0))
     took, _ = crossing(world, who, 6.0)
-    assert took == pytest.approx((400.0 - THERE) / PACE, abs=2 * DT)
+    assert took == pytest.approx((400.0 - ARRIVED) / PACE, abs=2 * DT)
 
 
 def test_it_steps_out_of_the_way_of_what_has_come_too_near():
@@ -230,7 +239,7 @@ def test_it_steps_out_of_the_way_of_what_has_come_too_near():
     world = floor(poses=[(800.0, 450.0, 0.0)])
     who = walker(850.0, 450.0, (1100.0, 450.0))
     assert go(world, who, 4.0) is not None
-    assert far_off(who) < THERE
+    assert far_off(who) < ARRIVED
 
 
 def test_it_never_walks_into_a_robot_wherever_robots_stand():
@@ -249,7 +258,7 @@ def test_it_never_walks_into_a_robot_wherever_robots_stand():
             if walk(world, who, PACE, GIRTH):
                 arrived += 1
                 break
-            assert all(hypot(who.x - a, who.y - b) >= RADIUS + GIRTH + CLOSE - 1e-9 for a, b, _ in poses)
+            assert all(hypot(who.x - a, who.y - b) >= RADIUS + GIRTH + RESTING_CLEARANCE - 1e-9 for a, b, _ in poses)
     assert arrived >= 10, "most get there"
 
 
@@ -259,7 +268,7 @@ def test_with_a_robot_on_the_goal_it_arrives_as_near_as_it_can(off):
     world = floor(poses=[(1000.0 + off, 450.0, 0.0)])
     who = walker(600.0, 450.0, (1000.0, 450.0))
     assert go(world, who, 10.0) is not None
-    assert far_off(who) < NEARLY
+    assert far_off(who) < ARRIVED_NEAR_ROBOT
 
 
 # ----------------------------------------------------------------------------------------------- what really moves
@@ -291,7 +300,7 @@ def test_a_stick_to_and_fro_twelve_times_a_second_is_no_driving():
         drive_on(world)
         if walk(world, who, PACE, GIRTH):
             break
-    assert far_off(who) < NEARLY
+    assert far_off(who) < ARRIVED_NEAR_ROBOT
 
 
 def test_a_robot_that_is_pushed_sideways_is_waited_for():
@@ -314,7 +323,7 @@ def test_a_robot_that_drives_at_a_wall_is_not_expected_behind_it():
     world = floor(walls, [(800.0, 450.0, 0.0)])
     at_speed(world, 260.0)
     who = walker(980.0, 200.0, (980.0, 700.0))
-    assert go(world, who, 5.0) == pytest.approx((500.0 - THERE) / PACE, abs=2 * DT)
+    assert go(world, who, 5.0) == pytest.approx((500.0 - ARRIVED) / PACE, abs=2 * DT)
 
 
 def test_what_is_carried_off_has_not_driven():
@@ -336,15 +345,15 @@ def test_a_walker_on_a_detour_is_not_held_up_and_an_enclosed_one_is(walls):
     for _ in range(15 * HZ):
         if walk(world, who, PACE, GIRTH):
             break
-        longest = max(longest, who.held_up)
+        longest = max(longest, who.stuck_ticks)
     assert longest < HZ
     ring = [(500.0 + 70.0 * cos(k * pi / 2), 450.0 + 70.0 * sin(k * pi / 2), 0.0) for k in range(4)]
     world, who = floor((), ring), walker(500.0, 450.0, (1200.0, 450.0))
     for _ in range(4 * HZ):
         walk(world, who, PACE, GIRTH)
-    assert who.held_up > 3 * HZ
+    assert who.stuck_ticks > 3 * HZ
     send(who, 520.0, 450.0)
-    assert who.held_up == 0
+    assert who.stuck_ticks == 0
 
 
 @pytest.mark.parametrize("y", [70.0, 830.0])

@@ -263,17 +263,17 @@ def test_the_output_is_kept_for_what_the_machine_has_until_that_is_collected():
     shop = Shop()
     p = shop.carry(0, entry(shop, ICE), shop.input_of(A))
     machine = shop.state.machines[shop.slots[shop.input_of(A)].machine]
-    assert machine.keeps == 0
+    assert machine.reserved == 0
     shop.until(lambda: shop.pallets[p].place == IN_MACHINE)
-    assert machine.keeps == p + 1
+    assert machine.reserved == p + 1
     assert shop.press(1, entry(shop, FIRE))
     assert not shop.press(1, shop.output_of(A)), "nobody else gets in between"
     shop.until(lambda: shop.pallets[p].state == HALF)
     shop.tick(HZ)
-    assert machine.keeps == p + 1
+    assert machine.reserved == p + 1
     assert shop.press(0, shop.output_of(A))
     shop.tick()
-    assert machine.keeps == 0
+    assert machine.reserved == 0
 
 
 def test_the_worker_goes_on_with_the_next_pallet_that_lies_ready():
@@ -317,7 +317,7 @@ def test_with_three_at_work_the_fourth_machine_waits_for_the_first_who_is_free()
         shop.give(p, HALF, s)
     shop.until(lambda: len(busy(shop, WORKING)) == 3, 20.0)
     assert sum(1 for slot in shop.slots if slot.kind == INPUT and slot.pallet) == 1
-    shop.until(lambda: sum(machine.keeps > 0 for machine in shop.state.machines) == 4, 20.0)
+    shop.until(lambda: sum(machine.reserved > 0 for machine in shop.state.machines) == 4, 20.0)
 
 
 def test_a_worker_who_has_nothing_to_do_goes_home():

@@ -4,7 +4,7 @@ from math import atan2, hypot
 
 import pytest
 
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (
@@ -54,7 +54,7 @@ def begun(floor, brains, minutes=5.0):
     match = Match(Setup("factory", floor, (one, two, three, four), minutes, 1, "standard", 4))
     for seat, brain in enumerate(brains):
         if brain:
-            match.sit(seat, make("factory", brain, 4 + seat) if isinstance(brain, str) else brain)
+            match.sit(seat, make_brain("factory", brain, 4 + seat) if isinstance(brain, str) else brain)
     return match
 
 

@@ -10,7 +10,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -93,7 +93,7 @@ class Wild:
     """A driver that alternates between random manoeuvres and a competent AI."""
 
     def __init__(self, seat, seed):
-        self.random, self.able = Random(seed * 7 + seat), make("race", "hard", seed)
+        self.random, self.able = Random(seed * 7 + seat), make_brain("race", "hard", seed)
         self.left, self.mood = 0, "race"
         self.x = self.y = 0.0
 

@@ -4,7 +4,7 @@ from math import pi
 
 import pytest
 
-from pigaming_app.ai.registry import make
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -22,7 +22,7 @@ def race(brains=("idle",) * 4, arena="classic", laps=3, minutes=10.0, seed=1):
     match = Match(Setup("race", arena, (one, two, three, four), minutes, seed, "standard", laps))
     for i, brain in enumerate(brains):
         if brain != "off":
-            match.sit(i, make("race", brain, seed * 4 + i))
+            match.sit(i, make_brain("race", brain, seed * 4 + i))
     return match
 
 
@@ -159,7 +159,7 @@ def test_times_are_interpolated_within_the_tick():
     began = ride.state.tick
     tick_at(ride, 0, own + 6.0)
     racer = ride.racers[0]
-    assert racer.lap_began == pytest.approx(began - 1 + 0.25, abs=0.01)
+    assert racer.lap_start == pytest.approx(began - 1 + 0.25, abs=0.01)
     ride.along(0, own + 6.0, own + ride.course.length - 6.0)
     tick_at(ride, 0, own - 6.0)
     ended = ride.state.tick

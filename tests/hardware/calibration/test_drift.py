@@ -28,7 +28,7 @@ def projected(shift=(0.0, 0.0), without=()):
 def watched(pictures, every=0.1):
     drift = DriftMonitor(GROUND)
     for number, picture in enumerate(pictures):
-        drift.see(CameraFrame(picture, number * every, number))
+        drift.process(CameraFrame(picture, number * every, number))
     return drift
 
 

@@ -20,7 +20,7 @@ def edge_on(ground, robot, x, y, height, edge=50.0):
     """The detection of an upright marker, `edge` mm wide, `height` mm above a place."""
     half = 0.5 * edge / ground.mm
     corners = np.array([(x + half, y - half), (x + half, y + half), (x - half, y + half), (x - half, y - half)])
-    return DetectedMarker(robot, ground.pose_times(corners, height))
+    return DetectedMarker(robot, ground.to_camera(corners, height))
 
 
 def test_straightening_undoes_bending_all_over_the_picture():
@@ -37,14 +37,14 @@ def test_a_lens_that_bends_inwards_shows_straight_points_nearer_to_its_centre():
 def test_a_lid_is_seen_beside_its_place_by_the_height_rule():
     """Similar triangles: 70 mm up under a camera at 2500 mm, 1000 px away, appears 1000 * 70 / 2430 px further out."""
     ground = replace(nominal(), foot=(0.0, 0.0), height=2500.0)
-    apparent = ground.on_mat(ground.pose_times(np.array([[1000.0, 0.0]]), 70.0))[0]
+    apparent = ground.on_mat(ground.to_camera(np.array([[1000.0, 0.0]]), 70.0))[0]
     assert apparent == pytest.approx([1000.0 + 1000.0 * 70.0 / 2430.0, 0.0])
 
 
 def test_what_is_seen_comes_back_to_where_it_is():
     ground = replace(nominal(), lens=BENT)
     places = np.array([[10.0, 20.0], [1590.0, 30.0], [800.0, 450.0], [15.0, 880.0]])
-    assert np.abs(ground.at_height(ground.pose_times(places, 70.0), 70.0) - places).max() < 1e-3
+    assert np.abs(ground.at_height(ground.to_camera(places, 70.0), 70.0) - places).max() < 1e-3
 
 
 def test_a_marker_on_a_lid_is_a_robot_and_its_top_is_ahead():

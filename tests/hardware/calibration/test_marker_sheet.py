@@ -32,7 +32,7 @@ def painted(boxes, scale=2.0):
 
 @pytest.mark.parametrize("edge", [50.0, 40.0])
 def test_the_markers_are_as_large_as_they_should_be(edge):
-    found = sorted(MarkerDetector(range(50)).everywhere(painted(filled(sheet(edge)))), key=lambda mark: mark.number)
+    found = sorted(MarkerDetector(range(50)).detect(painted(filled(sheet(edge)))), key=lambda mark: mark.number)
     assert [mark.number for mark in found] == list(ROBOT_IDS)
     for mark in found:
         sides = np.sqrt(((mark.corners - np.roll(mark.corners, 1, axis=0)) ** 2).sum(axis=1))

@@ -55,7 +55,7 @@ def test_two_swapped_markers_are_found_and_driven_the_right_way_round():
     assert cases(pairing)[2] == (1, PairingCase.SWAPPED)
     mat.rig.channels = pairing.channels
     wheels = [None, mat.rig.kinematics[1].wheels((100.0, 0.0)), None, None]
-    mat.rig.tell(wheels)
+    mat.rig.send(wheels)
     mat.pass_time(0.5)
     assert mat.robots[1].linear > 50.0
     assert abs(mat.robots[2].linear) < 1e-6
@@ -77,7 +77,7 @@ def test_two_robots_at_one_radio_turn_together():
 
 def test_a_marker_that_is_worn_twice_is_found():
     mat = Mat()
-    mat.robots[1].doubled = True
+    mat.robots[1].duplicate = True
     assert cases(paired(mat, [1])) == {1: (None, PairingCase.TWICE)}
 
 

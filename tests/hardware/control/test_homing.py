@@ -89,7 +89,7 @@ def test_a_robot_in_its_place_stays_when_it_is_nudged_and_comes_back_when_it_is_
     plant.take_places()
     mat.robots[0].x += 15.0
     plant.take_places()
-    assert plant.places[0].there
+    assert plant.places[0].arrived
     mat.robots[0].x += 100.0
     for _ in range(1500):
         if plant.take_places():

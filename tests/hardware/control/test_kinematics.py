@@ -23,7 +23,7 @@ def test_on_average_the_wheels_run_as_asked_though_the_radio_knows_63_levels(des
 @pytest.mark.parametrize("desired", DESIRED)
 def test_what_is_learnt_of_the_wheels_is_made_up_for(desired):
     kinematics = Kinematics(UNMEASURED)
-    kinematics.wear = WORN
+    kinematics.correction = WORN
     ran = [kinematics.expected_twist(kinematics.wheels(desired)) for _ in range(200)]
     assert sum(linear for linear, _ in ran) / 200 == pytest.approx(desired[0], abs=1.0)
     assert sum(angular for _, angular in ran) / 200 == pytest.approx(desired[1], abs=0.02)
@@ -43,5 +43,5 @@ def test_every_share_is_on_a_level_and_rest_is_rest():
 
 def test_an_absurd_gain_is_not_believed():
     kinematics = Kinematics(NOMINAL)
-    kinematics.wear = WheelCorrection(0.01, 0.01, 1.0, 0.0, 0.0)
+    kinematics.correction = WheelCorrection(0.01, 0.01, 1.0, 0.0, 0.0)
     assert kinematics.expected_twist(kinematics.wheels((100.0, 0.0)))[0] == pytest.approx(100.0, rel=0.1)

@@ -122,7 +122,7 @@ def test_weak_uneven_and_late_robots_are_no_false_alarm(left, right, lag, dead_t
 
 def test_it_lasts_until_somebody_has_looked():
     run = Wired([(800.0, 450.0, 0.0), (800.0, 750.0, 0.0), *ASIDE], "held").drive(ahead(200.0), 5.0)
-    assert run.plant.safety.lasting == {0}
+    assert run.plant.safety.latched == {0}
     run.plant.clear_fault(0)
     run.mat.robots[0].roll = type(run.mat.robots[0]).roll.__get__(run.mat.robots[0])
     assert run.drive(ahead(200.0), 2.0).plant.faults == []

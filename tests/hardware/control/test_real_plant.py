@@ -82,7 +82,7 @@ def test_two_real_robots_that_race_at_each_other_do_not_touch():
     assert 0.0 < gap < 25.0
 
 
-@pytest.mark.parametrize("what", ["blind", "trouble", "stopped"])
+@pytest.mark.parametrize("what", ["blind", "fault", "stopped"])
 def test_what_concerns_all_stops_all_within_300_ms_and_goes_on_when_it_is_gone(what):
     mat = Mat()
     plant = on_floor(mat)
@@ -109,7 +109,7 @@ def test_what_concerns_all_stops_all_within_300_ms_and_goes_on_when_it_is_gone(w
 
 @pytest.mark.parametrize(
     ("what", "value", "name", "seconds"),
-    [("hidden", True, "unseen", 0.29), ("doubled", True, "twice", 0.1), ("battery", 3.9, "empty", 0.1)],
+    [("hidden", True, "unseen", 0.29), ("duplicate", True, "twice", 0.1), ("battery", 3.9, "empty", 0.1)],
 )
 def test_what_concerns_one_stops_that_one(what, value, name, seconds):
     mat = Mat()
@@ -202,7 +202,7 @@ def test_a_robot_with_a_covered_marker_has_no_place_until_it_is_seen():
     for _ in range(200):
         assert not plant.take_places()
         mat.pass_time()
-    assert [place.there for place in plant.places] == [True, True, True, False]
+    assert [place.arrived for place in plant.places] == [True, True, True, False]
     mat.robots[3].hidden = False
     mat.pass_time()
     assert plant.take_places()

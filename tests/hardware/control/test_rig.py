@@ -33,11 +33,11 @@ class Tracker(Mat):
         self.shown = []
         self.twists = []
 
-    def see(self, frame):
+    def process(self, frame):
         self.shown.append(frame.number)
         return []
 
-    def sent(self, time, twists):
+    def record_commands(self, time, twists):
         self.twists.append(twists)
 
 
@@ -57,7 +57,7 @@ def test_the_tracker_receives_nominal_twists_and_none_for_robots_that_are_off():
     tracker = Tracker()
     rig = Rig(Eye(), tracker, tracker, tracker.clock)
     wheels = rig.kinematics[0].wheels((200.0, 0.5))
-    rig.tell([wheels, WheelCommand(0.0, 0.0), None, None])
+    rig.send([wheels, WheelCommand(0.0, 0.0), None, None])
     (twists,) = tracker.twists
     assert twists[0] == pytest.approx(rig.kinematics[0].nominal_twist(wheels))
     assert twists[1:] == [(0.0, 0.0), None, None]
@@ -67,7 +67,7 @@ def test_what_the_tracker_learns_of_wheels_is_used_to_steer(monkeypatch):
     tracker = Tracker()
     rig = Rig(Eye(picture(1, 10)), tracker, tracker, tracker.clock)
     even = rig.kinematics[2].wheels((260.0, 0.0))
-    monkeypatch.setattr(tracker, "wear", lambda robot: WheelCorrection(0.9, 1.1, 1.0, 0.0, 0.0))
+    monkeypatch.setattr(tracker, "wheel_correction", lambda robot: WheelCorrection(0.9, 1.1, 1.0, 0.0, 0.0))
     rig.pump()
     uneven = rig.kinematics[2].wheels((260.0, 0.0))
     assert even.left == even.right
@@ -78,13 +78,13 @@ def test_a_robot_that_was_never_seen_is_unseen_and_one_that_is_just_late_is_not(
     mat = Mat()
     mat.pass_time(0.5)
     mat.robots[1].seen = -1e9
-    signs = mat.rig.signs({0: 0.0, 1: 0.0}, mat.rig.snapshot())
-    assert signs[0].unseen == 0.0
-    assert signs[1].unseen > 1.0
+    health = mat.rig.health({0: 0.0, 1: 0.0}, mat.rig.snapshot())
+    assert health[0].unseen == 0.0
+    assert health[1].unseen > 1.0
     mat.blind = True
     mat.pass_time(0.1)
-    assert mat.rig.signs({0: 0.0}, mat.rig.snapshot())[0].unseen == 0.0  # no newer picture could have contained it
-    assert mat.rig.signs({0: 0.0}, mat.rig.snapshot())[0].picture == pytest.approx(0.12)
+    assert mat.rig.health({0: 0.0}, mat.rig.snapshot())[0].unseen == 0.0  # no newer picture could have contained it
+    assert mat.rig.health({0: 0.0}, mat.rig.snapshot())[0].picture_age == pytest.approx(0.12)
 
 
 def test_threads_look_and_talk_and_end_when_it_is_closed():
@@ -104,14 +104,14 @@ def test_threads_look_and_talk_and_end_when_it_is_closed():
 
 def test_a_tracker_that_breaks_once_is_logged_and_goes_on_with_the_next_picture(monkeypatch, caplog):
     tracker = Tracker()
-    see = tracker.see
+    process = tracker.process
 
     def broken(frame):
         if frame.number == 1:
             raise RuntimeError("broken")
-        return see(frame)
+        return process(frame)
 
-    monkeypatch.setattr(tracker, "see", broken)
+    monkeypatch.setattr(tracker, "process", broken)
     rig = Rig(Eye(picture(1, 1), picture(2, 2)), tracker, tracker, time.monotonic).start()
     deadline = time.monotonic() + 5.0
     while not tracker.shown and time.monotonic() < deadline:
@@ -131,8 +131,8 @@ def test_time_that_passes_while_signs_are_read_makes_nobody_unseen():
 
     mat.rig.clock = running
     for robot in mat.robots:
-        robot.seen = mat.looked = mat.now - 0.12
+        robot.seen = mat.last_captured = mat.now - 0.12
     for _ in range(20):
-        assert [sign.unseen for sign in mat.rig.signs(dict.fromkeys(range(4), 0.0), mat.rig.snapshot()).values()] == [
-            0.0
-        ] * 4
+        assert [
+            state.unseen for state in mat.rig.health(dict.fromkeys(range(4), 0.0), mat.rig.snapshot()).values()
+        ] == [0.0] * 4

@@ -5,7 +5,7 @@ import pytest
 from pigaming_app.hardware.control.safety import CALM, RULES, Health, Response, Safety
 from pigaming_app.ui.i18n import Words
 
-GOOD = Health(picture=0.09, battery=5.0)
+GOOD = Health(picture_age=0.09, battery=5.0)
 
 
 def judged(sign, others=GOOD, now=1.0):
@@ -20,25 +20,25 @@ def judged(sign, others=GOOD, now=1.0):
     ("sign", "own", "others", "faults"),
     [
         (GOOD, Response.WARN, Response.WARN, []),
-        (GOOD._replace(picture=0.199), Response.WARN, Response.WARN, []),
-        (GOOD._replace(picture=0.201), Response.STOP, Response.STOP, [("camera", None, True)]),
+        (GOOD._replace(picture_age=0.199), Response.WARN, Response.WARN, []),
+        (GOOD._replace(picture_age=0.201), Response.STOP, Response.STOP, [("camera", None, True)]),
         (GOOD._replace(unseen=0.099), Response.WARN, Response.WARN, []),
         (GOOD._replace(unseen=0.101), Response.HALF, Response.WARN, [("unseen", 0, False)]),
         (GOOD._replace(unseen=0.251), Response.STOP, Response.WARN, [("unseen", 0, False)]),
         (GOOD._replace(unseen=1.001), Response.STOP, Response.WARN, [("lost", 0, True), ("unseen", 0, False)]),
         (
-            GOOD._replace(unseen=1.001, refused="size"),
+            GOOD._replace(unseen=1.001, rejection="size"),
             Response.STOP,
             Response.WARN,
             [("held", 0, True), ("unseen", 0, False)],
         ),
         (
-            GOOD._replace(unseen=1.001, refused="outside"),
+            GOOD._replace(unseen=1.001, rejection="outside"),
             Response.STOP,
             Response.WARN,
             [("unseen", 0, False), ("outside", 0, True)],
         ),
-        (GOOD._replace(doubled=True), Response.STOP, Response.WARN, [("twice", 0, True)]),
+        (GOOD._replace(duplicate=True), Response.STOP, Response.WARN, [("twice", 0, True)]),
         (GOOD._replace(outside=0.02), Response.INWARD, Response.WARN, [("outside", 0, False)]),
         (GOOD._replace(outside=3.1), Response.INWARD, Response.WARN, [("outside", 0, True)]),
         (GOOD._replace(silence=1.01), Response.OFF, Response.WARN, [("silent", 0, True)]),
@@ -46,7 +46,7 @@ def judged(sign, others=GOOD, now=1.0):
         (GOOD._replace(battery=4.39), Response.WARN, Response.WARN, [("low", 0, False)]),
         (GOOD._replace(battery=3.99), Response.OFF, Response.WARN, [("empty", 0, True), ("low", 0, False)]),
         (
-            GOOD._replace(battery=4.2, refuses=True),
+            GOOD._replace(battery=4.2, undervoltage=True),
             Response.OFF,
             Response.WARN,
             [("empty", 0, True), ("low", 0, False)],
@@ -70,7 +70,7 @@ def test_of_two_faults_the_stricter_holds_and_both_are_said():
 
 def test_a_match_goes_on_only_when_the_fault_has_been_gone_for_a_moment():
     safety = Safety()
-    safety.judge([GOOD._replace(picture=0.5)] * 4, 10.0)
+    safety.judge([GOOD._replace(picture_age=0.5)] * 4, 10.0)
     assert safety.pauses
     assert safety.faults[0].since == 10.0
     assert safety.judge([GOOD] * 4, 10.1)[0] == Response.STOP
@@ -82,9 +82,9 @@ def test_a_match_goes_on_only_when_the_fault_has_been_gone_for_a_moment():
 
 def test_a_fault_that_comes_back_starts_its_moment_anew():
     safety = Safety()
-    safety.judge([GOOD._replace(doubled=True)], 10.0)
+    safety.judge([GOOD._replace(duplicate=True)], 10.0)
     safety.judge([GOOD], 10.4)
-    safety.judge([GOOD._replace(doubled=True)], 10.45)
+    safety.judge([GOOD._replace(duplicate=True)], 10.45)
     safety.judge([GOOD], 10.8)
     assert safety.pauses
     assert safety.faults[0].since == 10.0

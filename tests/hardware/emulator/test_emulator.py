@@ -147,7 +147,7 @@ def test_the_quick_picture_is_the_whole_one_around_the_robots():
 
 def test_the_same_seed_is_the_same_run():
     def run(seed):
-        arena = EmulatedArena(seed, FrameTiming(drops=0.1), refresh=10, unrest=0.2)
+        arena = EmulatedArena(seed, FrameTiming(drops=0.1), refresh=10, exposure_jitter=0.2)
         for robot in arena.robots:
             robot.left, robot.right = 0.4, 0.3
         frames = [frame for frame in (newest(arena, 0.05) for _ in range(10)) if frame]
@@ -177,7 +177,7 @@ def kept_pictures(arena):
 
 
 def test_an_arena_that_nobody_looks_at_keeps_a_handful_of_pictures():
-    arena = EmulatedArena(pace=FrameTiming(60.0, 0.06))
+    arena = EmulatedArena(timing=FrameTiming(60.0, 0.06))
     for _ in range(600):  # 10 s at 60 pictures/s, the camera closed
         arena.project(np.zeros((1, 1), np.uint8))
         arena.advance(1 / 60)
@@ -204,7 +204,7 @@ def test_however_fast_pictures_come_the_newest_is_shown():
 
 
 def test_after_a_long_time_closed_the_camera_gives_out_its_newest_picture():
-    arena = EmulatedArena(pace=FrameTiming(30.0, 0.06), refresh=1000)
+    arena = EmulatedArena(timing=FrameTiming(30.0, 0.06), refresh=1000)
     arena.project(np.zeros((1080, 1920), np.uint8))
     arena.advance(5.0)
     frame = arena.camera.newest()

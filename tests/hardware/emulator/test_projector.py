@@ -15,7 +15,7 @@ def test_the_picture_fills_the_projector_and_the_bars_are_left_out(size: tuple[i
     window = np.zeros((*size, 4), np.uint8)
     window[bars : size[0] - bars] = 200
     window[bars : bars + 20, :40] = 90  # its upper left corner
-    Projector(arena).see(window)
+    Projector(arena).project(window)
     arena.advance(0.1)
     shown = arena._shown
     assert shown.shape == (1080, 1920)

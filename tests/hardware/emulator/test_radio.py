@@ -49,7 +49,7 @@ def test_a_wrong_checksum_is_refused_and_the_next_frame_heard():
 
 @pytest.mark.parametrize("mode", [TRANSPARENT, API, 2])
 def test_a_broadcast_moves_all_robots_after_its_time_on_the_line(mode):
-    arena = EmulatedArena(1, air=RadioChannel(mode=mode))
+    arena = EmulatedArena(1, channel=RadioChannel(mode=mode))
     arena.radio.write(FORWARD if mode == TRANSPARENT else broadcast(FORWARD, mode == 2))
     arena.advance(0.004)
     assert all(firmware.stopped for firmware in arena.firmwares)
@@ -64,7 +64,7 @@ def test_robots_that_hear_nothing_stop_after_a_quarter_of_a_second():
     assert not any(firmware.stopped for firmware in arena.firmwares)
     arena.advance(0.04)
     assert all(firmware.stopped for firmware in arena.firmwares)
-    assert max(arena.ran) < 0.28
+    assert max(arena.last_driven) < 0.28
 
 
 def test_a_robot_that_is_not_enabled_stands():
@@ -92,7 +92,7 @@ def test_telemetry_comes_five_times_a_second_from_each():
 
 
 def test_status_of_what_was_sent_and_settings_that_were_asked_for():
-    arena = EmulatedArena(1, air=RadioChannel(loss=1.0))
+    arena = EmulatedArena(1, channel=RadioChannel(loss=1.0))
     arena.radio.write(framed(bytes([0x01, 9, 0, 1, 0]) + FORWARD, True))
     arena.radio.write(broadcast(FORWARD, number=10))
     arena.radio.write(framed(b"\x08\x05AP", True))
@@ -104,7 +104,7 @@ def test_status_of_what_was_sent_and_settings_that_were_asked_for():
 
 
 def test_a_lossy_air_loses_its_share():
-    arena = EmulatedArena(3, air=RadioChannel(loss=0.2, doubled=0.1, broken=0.1))
+    arena = EmulatedArena(3, channel=RadioChannel(loss=0.2, duplicates=0.1, broken=0.1))
     for i in range(250):
         arena.radio.write(broadcast(drive(i % 128, *[83] * 8)))
         arena.advance(0.02)

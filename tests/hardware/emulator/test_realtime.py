@@ -52,7 +52,7 @@ def test_robots_stop_when_the_program_that_drives_them_is_killed():
             driver.kill()
             driver.wait()
         until(lambda: all(firmware.stopped for firmware in arena.firmwares))
-        for firmware, ran in zip(arena.firmwares, arena.ran, strict=True):
+        for firmware, ran in zip(arena.firmwares, arena.last_driven, strict=True):
             assert ran - firmware.last_packet <= DEADMAN + STEP
 
 

@@ -275,7 +275,7 @@ def test_the_whole_way_from_the_link_to_the_motors(make_board, end):
     assert board.motors == (duty(32), -256)
     assert link.telemetry[2].battery == pytest.approx(5.0, abs=0.01)
     assert link.quality(2).echo < 0.05
-    assert link.trouble is None
+    assert link.fault is None
     ended = board.at
     if end == "closed":
         link.close()

@@ -35,7 +35,7 @@ def test_a_calibration_is_accepted_and_true(trail):
 def test_in_every_emergency_motors_stand_and_it_is_said_why(trail, name):
     run = stop(trail, name)
     assert run.seconds <= 0.3
-    assert run.said
+    assert run.reported
 
 
 def test_when_the_game_hangs_the_link_stops_the_robots(trail):
@@ -78,7 +78,7 @@ def test_a_robot_that_was_carried_is_followed_where_it_was_put_down(trail):
         for _ in range(50):
             trail.tick()
     assert max(mm for mm, _ in trail.bed.misses()) < 10.0
-    assert trail.plant.safety.lasting <= {2}, "a hand that carries a robot is no motor of its own"
+    assert trail.plant.safety.latched <= {2}, "a hand that carries a robot is no motor of its own"
     trail.plant.clear_fault(2)
 
 

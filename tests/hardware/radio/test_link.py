@@ -60,9 +60,9 @@ def test_a_pump_that_stalled_does_not_catch_up_with_a_burst(link, radio, time):
 def test_silence_while_this_computer_was_held_up_is_not_the_radios(link, time):
     run(link, time, 0.5)
     time.now += 5.0
-    assert link.trouble is None
+    assert link.fault is None
     run(link, time, 0.5)
-    assert link.trouble is None
+    assert link.fault is None
 
 
 def test_without_a_new_command_for_a_tenth_of_a_second_it_says_stop(link, radio, time):
@@ -115,7 +115,7 @@ def test_robots_are_heard_in_every_mode(mode, time):
     quality = link.quality(1)
     assert quality.strength == (None if mode is XBeeMode.TRANSPARENT else -40)
     assert quality.echo == pytest.approx(0.015)
-    assert link.trouble is None
+    assert link.fault is None
 
 
 def test_transparent_packets_are_bare(time):
@@ -151,9 +151,9 @@ def test_how_broadcasts_went_is_counted(radio, time):
 def test_a_radio_that_never_answers_is_named(time):
     link = Link(lambda: Wire(time), time, name="COM3")
     run(link, time, 0.9)
-    assert link.trouble is None
+    assert link.fault is None
     run(link, time, 0.2)
-    assert sentence(link.trouble) == ("No radio answers at COM3: check the port and the baud rate.")
+    assert sentence(link.fault) == ("No radio answers at COM3: check the port and the baud rate.")
 
 
 @pytest.mark.parametrize("mode", XBeeMode)
@@ -165,13 +165,13 @@ def test_garbage_on_the_line_is_named_and_forgotten(mode, time):
         wire.coming += b"\x00\xff\x7e\x12\xd4\xff"
 
     run(link, time, 1.2, noise)
-    assert link.trouble.key == "radio_garbled"
+    assert link.fault.key == "radio_garbled"
     report = report_packet(RobotReport(1, 0, 0, 5000))
     escaped = mode is XBeeMode.API2
     good = packets.frame(packets.encode(ReceivedPacket(1, -30, 0, report)), escaped)
     wire.coming += bytes(200) + (report if mode is XBeeMode.TRANSPARENT else good)
     link.pump()
-    assert link.trouble is None
+    assert link.fault is None
     assert link.telemetry[0].battery == 5.0
 
 
@@ -179,7 +179,7 @@ def test_a_radio_of_the_other_api_mode_is_named(time):
     radio = Radio(time, escaped=True, ap=1)
     link = Link(lambda: radio, time, name="COM3")
     run(link, time, 0.1)
-    assert sentence(link.trouble) == "The radio at COM3 uses AP=1, this program does not: set both the same."
+    assert sentence(link.fault) == "The radio at COM3 uses AP=1, this program does not: set both the same."
 
 
 def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
@@ -190,14 +190,14 @@ def test_a_radio_in_api_mode_on_a_transparent_link_is_named(time):
     radio.say(ReceivedPacket(1, -40, 0, report_packet(RobotReport(1, 0, packets.DEADMAN, 5000))))
     link.pump()
     assert 0 in link.telemetry
-    assert sentence(link.trouble) == "The radio at COM3 uses AP=1 or 2, this program does not: set both the same."
+    assert sentence(link.fault) == "The radio at COM3 uses AP=1 or 2, this program does not: set both the same."
 
 
 def test_a_quiet_transparent_line_is_no_trouble(time):
     """Robots that are switched off send nothing."""
     link = Link(lambda: Wire(time), time, XBeeProtocol(XBeeMode.TRANSPARENT))
     run(link, time, 5.0)
-    assert link.trouble is None
+    assert link.fault is None
 
 
 def test_in_a_thread_it_beats_by_itself_and_ends_within_a_second():
@@ -224,7 +224,7 @@ def test_a_fault_of_the_program_stops_the_robots_and_is_told():
     link.start()
     link._thread.join(timeout=5.0)
     assert crews(radio) == [STOPPED] * 5
-    assert sentence(link.trouble) == "COM3 failed because of a program error: see the log."
+    assert sentence(link.fault) == "COM3 failed because of a program error: see the log."
     link.close()
 
 

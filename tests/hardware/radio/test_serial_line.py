@@ -8,7 +8,14 @@ from contextlib import suppress
 
 import pytest
 
-from pigaming_app.hardware.radio.serial_line import FAILURES, SerialLine, ports, radio_message, serial_port, trouble_of
+from pigaming_app.hardware.radio.serial_line import (
+    FAILURES,
+    SerialLine,
+    failure_message,
+    ports,
+    radio_message,
+    serial_port,
+)
 from tests.hardware.sentences import sentence
 from tests.hardware.wire import Time, Wire
 
@@ -33,9 +40,9 @@ REFUSALS = {  # errors on opening, on Linux, macOS and Windows: expected reason
 
 @pytest.mark.parametrize(("error", "reason"), REFUSALS.values(), ids=REFUSALS)
 def test_why_a_port_does_not_open_is_one_sentence(error, reason):
-    trouble = trouble_of(error, "COM3")
-    assert trouble.key == f"radio_{reason}"
-    told = sentence(trouble)
+    fault = failure_message(error, "COM3")
+    assert fault.key == f"radio_{reason}"
+    told = sentence(fault)
     assert "\n" not in told
     assert told.endswith((".", "?"))
     assert "COM3" in told or reason == "missing"
@@ -54,7 +61,7 @@ def test_ports_that_are_none(device, told):
     pytest.importorskip("serial")
     line = SerialLine(serial_port(device), Time(), device)
     assert not line.open()
-    assert sentence(line.trouble) == told
+    assert sentence(line.fault) == told
 
 
 @POSIX
@@ -79,7 +86,7 @@ def test_bytes_go_both_ways_over_a_terminal_and_its_end_is_noticed(stop_bits):
         line.read()
         if not line.is_open:
             break
-    assert sentence(line.trouble) == f"The radio at {device} was unplugged: plug it in again."
+    assert sentence(line.fault) == f"The radio at {device} was unplugged: plug it in again."
 
 
 @POSIX
@@ -90,7 +97,7 @@ def test_a_port_that_another_program_holds_is_busy():
     first, second = (SerialLine(serial_port(device), Time(), device) for _ in range(2))
     assert first.open()
     assert not second.open()
-    assert sentence(second.trouble) == f"{device} is in use by another program: close that program."
+    assert sentence(second.fault) == f"{device} is in use by another program: close that program."
     first.close()
     os.close(near)
     os.close(far)
@@ -101,7 +108,7 @@ def test_without_pyserial_the_sentence_says_so(monkeypatch):
     monkeypatch.setitem(sys.modules, "serial.tools", None)
     line = SerialLine(serial_port("COM3"), Time(), "COM3")
     assert not line.open()
-    assert sentence(line.trouble) == "The Python package pyserial is missing: install it to use a radio."
+    assert sentence(line.fault) == "The Python package pyserial is missing: install it to use a radio."
     assert ports() == []
 
 
@@ -127,7 +134,7 @@ def test_a_lost_port_is_opened_again_at_longer_and_longer_intervals(kind):
     assert line.read() == b""
     assert wires[0].is_closed
     for _ in range(1000):
-        assert line.trouble == (None if line.is_open else radio_message("unplugged", "COM3"))
+        assert line.fault == (None if line.is_open else radio_message("unplugged", "COM3"))
         line.write(b"nobody hears this")
         line.open()
         time.now += 0.01
@@ -144,7 +151,7 @@ def test_a_write_that_fails_loses_the_port(kind):
     wire.cut = kind(errno.EIO, "Input/output error")
     line.write(b"x")
     assert not line.is_open
-    assert line.trouble.key == "radio_unplugged"
+    assert line.fault.key == "radio_unplugged"
 
 
 def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stays_open():
@@ -155,15 +162,15 @@ def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stay
     wire.cut = serial.SerialTimeoutException("Write timeout")
     for _ in range(49):
         line.write(b"x")
-        assert line.trouble is None
+        assert line.fault is None
         wire.time.now += 0.02
     wire.time.now += 0.03
     line.write(b"x")
-    assert sentence(line.trouble) == "COM3 accepts no more data: unplug the radio and plug it in again."
+    assert sentence(line.fault) == "COM3 accepts no more data: unplug the radio and plug it in again."
     assert line.is_open
     wire.cut = None
     line.write(b"x")
-    assert line.trouble is None
+    assert line.fault is None
 
 
 def test_writes_that_time_out_now_and_then_are_no_trouble():
@@ -176,7 +183,7 @@ def test_writes_that_time_out_now_and_then_are_no_trouble():
         wire.cut = serial.SerialTimeoutException("Write timeout") if i % 10 else None
         line.write(b"x")
         wire.time.now += 0.1
-        assert line.trouble is None
+        assert line.fault is None
         assert line.is_open
 
 
@@ -191,13 +198,13 @@ def test_a_reader_that_pauses_is_not_taken_for_an_unplugged_radio():
     while not line._blocked_since:  # the buffer of the terminal fills up
         line.write(bytes(1000))
     assert line.is_open
-    assert line.trouble is None
+    assert line.fault is None
     with suppress(BlockingIOError):
         while os.read(far, 100_000):
             pass
     line.write(b"\xd0new")
     assert os.read(far, 100_000).endswith(b"\xd0new")
-    assert line.trouble is None
+    assert line.fault is None
     os.close(near)
     os.close(far)
 

@@ -63,7 +63,7 @@ def test_the_robot_drives_tells_its_battery_and_stops_at_the_end(time):
     with Link(lambda: robot, time, StockProtocol(2)) as link:
         run(link, time, 1.0, lambda: link.send([None, None, WheelCommand(0.5, -1.0)]))
         assert (robot.left, robot.right) == (128, -255)
-        assert link.trouble is None
+        assert link.fault is None
         assert link.telemetry[2] == Telemetry(2, 4.75, 0, pytest.approx(time(), abs=0.25))
         assert link.quality(2).share > 0.7
         assert link.quality(0).share == 0.0
@@ -90,13 +90,13 @@ def test_something_else_at_the_line_is_named(time):
     robot = Robot(time, b"v2.041")
     link = Link(lambda: robot, time, StockProtocol(), name="COM3")
     run(link, time, 0.1)
-    assert sentence(link.trouble) == "No 3pi with the stock program at COM3, which sends 'v2.041': choose another port."
+    assert sentence(link.fault) == "No 3pi with the stock program at COM3, which sends 'v2.041': choose another port."
 
 
 def test_nobody_at_the_line_is_named(time):
     link = Link(lambda: Wire(time), time, StockProtocol(), name="COM3")
     run(link, time, 1.2)
-    assert link.trouble.key == "radio_mute"
+    assert link.fault.key == "radio_mute"
 
 
 def test_noise_that_nobody_asked_for_is_no_battery(time):

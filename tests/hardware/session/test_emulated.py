@@ -62,7 +62,7 @@ def test_camera_and_radio_are_closed_once_and_opened_anew(
     session.close()
     session.close()
     assert closed == ["link", "camera"]
-    assert session.trouble is None
+    assert session.fault is None
     assert session.open() is not rig
 
 

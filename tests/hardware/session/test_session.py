@@ -24,7 +24,7 @@ def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
             return all(seen.age < 0.5 for seen in rig.sense()) and len(rig.link.telemetry) == 4
 
         assert soon(known)
-        assert mat.trouble is None
+        assert mat.fault is None
         assert mat.newest is not None
         assert mat.open() is rig
     finally:
@@ -71,13 +71,13 @@ def test_a_computer_without_pyserial_says_so_and_without_a_camera_too(
     monkeypatch.setitem(sys.modules, "serial", None)
     mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     try:
-        link = mat.listen()
+        link = mat.open_link()
         assert link is not None
-        assert soon(lambda: link.trouble is not None)
-        assert sentence(mat.trouble) == "The Python package pyserial is missing: install it to use a radio."
+        assert soon(lambda: link.fault is not None)
+        assert sentence(mat.fault) == "The Python package pyserial is missing: install it to use a radio."
         mat.close()
         mat.open()
-        assert soon(lambda: mat.trouble is not None and "camera 63" in sentence(mat.trouble))
+        assert soon(lambda: mat.fault is not None and "camera 63" in sentence(mat.fault))
     finally:
         mat.end()
     assert soon(lambda: not threads(), 3.0)

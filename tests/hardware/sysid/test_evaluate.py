@@ -11,7 +11,7 @@ from pigaming_app.hardware.recordings import Recording, RecordingError, Recordin
 from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, errors, measure, predictions, replay
 from pigaming_app.hardware.sysid.excitation import ExcitationPattern
-from pigaming_app.hardware.sysid.identify import identify, placed, shifted, track
+from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from tests.floor import floor
 from tests.hardware.mat import TRUE, Mat
@@ -59,8 +59,8 @@ def test_a_track_of_both_wheels_alike_is_straight_and_late():
 def test_a_piece_of_track_is_laid_over_what_was_seen():
     bend = np.linspace(0.0, 1.0, 20)
     there = np.column_stack([100.0 * np.sin(bend), 100.0 * (1.0 - np.cos(bend)), bend])
-    seen = shifted(there, np.array([0]), np.array([[300.0, 200.0, 0.7]]))
-    fitted, move = placed(there, seen, np.array([0]))
+    seen = move_pieces(there, np.array([0]), np.array([[300.0, 200.0, 0.7]]))
+    fitted, move = fit_pieces(there, seen, np.array([0]))
     assert move[0] == pytest.approx([300.0, 200.0, 0.7])
     assert fitted == pytest.approx(seen)
 
@@ -129,8 +129,8 @@ def test_the_result_is_a_file_that_the_simulator_reads():
 def test_a_recorded_run_comes_back_as_it_was(tmp_path):
     recorder = RecordingWriter(tmp_path / "run.jsonl", 1.3)
     for i in range(60):
-        recorder.sent(0.02 * i, [WheelCommand(0.1, 0.2), None, None, None])
-        recorder.seen(0.02 * i + 0.05, 0.02 * i, [Fix(0, 100.0 + i, 200.0, 6.2 + 0.01 * i, 0.02 * i)])
+        recorder.record_commands(0.02 * i, [WheelCommand(0.1, 0.2), None, None, None])
+        recorder.record_fixes(0.02 * i + 0.05, 0.02 * i, [Fix(0, 100.0 + i, 200.0, 6.2 + 0.01 * i, 0.02 * i)])
     recorder.close()
     run = load(tmp_path / "run.jsonl")
     assert run.mm == 1.3
@@ -146,7 +146,7 @@ def test_a_recording_that_breaks_off_leaves_the_one_before(tmp_path):
     path.write_text("the one before")
     for end in (RecordingWriter.discard, RecordingWriter.close):
         recorder = RecordingWriter(path, 1.3)
-        recorder.sent(0.0, [None] * 4)
+        recorder.record_commands(0.0, [None] * 4)
         assert path.read_text() == "the one before"
         end(recorder)
         assert [one.name for one in tmp_path.iterdir()] == ["run.jsonl"]
@@ -182,8 +182,8 @@ def test_a_run_that_broke_off_in_the_middle_of_a_line_is_still_good(tmp_path):
     file = tmp_path / "run.jsonl"
     recorder = RecordingWriter(file, 1.3)
     for i in range(60):
-        recorder.sent(0.02 * i, [None] * 4)
-        recorder.seen(0.02 * i, 0.02 * i, [Fix(1, 5.0, 5.0, 0.0, 0.02 * i)])
+        recorder.record_commands(0.02 * i, [None] * 4)
+        recorder.record_fixes(0.02 * i, 0.02 * i, [Fix(1, 5.0, 5.0, 0.0, 0.02 * i)])
     recorder.close()
     file.write_text(file.read_text() + json.dumps({"kind": "seen"})[:9])
     assert list(load(file).courses) == [1]

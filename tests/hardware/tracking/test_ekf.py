@@ -122,7 +122,7 @@ def test_a_robot_that_is_pushed_is_followed_at_once():
     for frame in range(1, 30):
         robot.correct(fix(500.0 + 7.6 * frame, 400.0, 0.0, frame / 30.0))
     assert robot.at(29 / 30).x == pytest.approx(500.0 + 7.6 * 29, abs=3.0)
-    assert robot.wear == pytest.approx(FRESH, abs=1e-3)
+    assert robot.correction == pytest.approx(FRESH, abs=1e-3)
 
 
 def test_a_robot_that_was_gone_for_long_must_be_seen_three_times():
@@ -206,9 +206,9 @@ def test_poses_are_right_to_3_mm_and_a_degree_and_a_half_at_a_third_of_a_metre_p
 
 def test_what_the_wheels_do_is_learnt_on_the_way():
     found, robot = errors(Stranger(), 30.0)
-    assert robot.wear.left / robot.wear.right == pytest.approx(0.94 / 1.04, abs=0.01)
-    assert robot.wear.stiction == pytest.approx(25.0, abs=5.0)
-    assert robot.wear.turning * robot.wear.left == pytest.approx(0.94 * NOMINAL.base / 65.0, abs=0.03)
+    assert robot.correction.left / robot.correction.right == pytest.approx(0.94 / 1.04, abs=0.01)
+    assert robot.correction.stiction == pytest.approx(25.0, abs=5.0)
+    assert robot.correction.turning * robot.correction.left == pytest.approx(0.94 * NOMINAL.base / 65.0, abs=0.03)
     assert rms(found[found[:, 0] > 10.0, 2]) < 0.8
 
 
@@ -219,7 +219,7 @@ def test_a_robot_that_stands_still_teaches_nothing():
         x, y, heading = random.normal((500.0, 400.0, 1.0), (0.7, 0.7, 0.012)).tolist()
         robot.correct(fix(x, y, heading, frame / 30.0))
         robot.record_command(frame / 30.0, (0.0, 0.0))
-    assert robot.wear == pytest.approx(FRESH, abs=1e-6)
+    assert robot.correction == pytest.approx(FRESH, abs=1e-6)
     assert np.isfinite(robot._covariance).all()
     assert np.linalg.eigvalsh(robot._covariance).min() > -1e-12
 
@@ -231,7 +231,7 @@ def test_a_robot_whose_cells_are_empty_is_not_thought_to_have_lost_its_wheels():
         robot.record_command(frame / 30.0 - 0.033, (260.0, 0.0))
         robot.correct(fix(500.0, 400.0, 0.0, frame / 30.0))
         assert abs(robot.at(frame / 30.0).x - 500.0) < 6.0
-    assert robot.wear == pytest.approx(FRESH, abs=0.1)
+    assert robot.correction == pytest.approx(FRESH, abs=0.1)
 
 
 def test_a_robot_that_is_blocked_again_and_again_keeps_its_wheels():
@@ -240,5 +240,5 @@ def test_a_robot_that_is_blocked_again_and_again_keeps_its_wheels():
     for frame in range(1, 300):
         robot.record_command(frame / 30.0 - 0.033, (260.0 * (frame % 15 < 10), 3.0 * (frame % 20 < 6)))
         robot.correct(fix(500.0, 400.0, 0.0, frame / 30.0))
-    assert robot.wear[:3] == pytest.approx(FRESH[:3], abs=0.2)
-    assert robot.wear.stiction < 30.0
+    assert robot.correction[:3] == pytest.approx(FRESH[:3], abs=0.2)
+    assert robot.correction.stiction < 30.0

@@ -20,7 +20,7 @@ POSES = ((300.0, 200.0, 0.4), (1300.0, 250.0, 2.5), (1200.0, 700.0, 4.0), (250.0
 def marks(poses, height=70.0):
     """Markers as seen by a perfect camera; `poses`: {robot: pose}, or pairs."""
     pairs = poses.items() if isinstance(poses, dict) else poses
-    return [DetectedMarker(robot, GROUND.pose_times(square(pose, EDGE), height)) for robot, pose in pairs]
+    return [DetectedMarker(robot, GROUND.to_camera(square(pose, EDGE), height)) for robot, pose in pairs]
 
 
 def photo(poses, seed=1, height=70.0, noise=2.0):
@@ -49,7 +49,7 @@ class Mat:
             self.frames += 1
             self.clock.now = self.frames / 30.0
             picture = photo(poses, seed=self.frames % 3, **how)
-            fixes = self.tracker.see(CameraFrame(picture, self.clock.now, self.frames))
+            fixes = self.tracker.process(CameraFrame(picture, self.clock.now, self.frames))
         return {fix.robot for fix in fixes}
 
     def away(self, robot, pose):
@@ -71,8 +71,8 @@ def test_they_are_found_again_picture_after_picture_near_where_they_were():
     mat = Mat()
     mat.show(dict(enumerate(POSES)))
     looks = []
-    glance = mat.tracker._markers.glance
-    mat.tracker._markers.glance = lambda *what: looks.append(what) or glance(*what)
+    quick = mat.tracker._markers.detect_quickly
+    mat.tracker._markers.detect_quickly = lambda *what: looks.append(what) or quick(*what)
     for step in range(12):
         driving = (300.0 + 8.0 * step, 200.0, 0.4)
         assert mat.show({0: driving, **dict(enumerate(POSES[1:], 1))}) == {0, 1, 2, 3}
@@ -99,25 +99,25 @@ def test_a_marker_that_comes_twice_is_a_fault_within_a_fifth_of_a_second():
     mat = Mat()
     mat.show({0: POSES[0]}, times=5)
     begun = mat.clock.now
-    while not mat.tracker.doubled():
+    while not mat.tracker.duplicates():
         mat.show([(0, POSES[0]), (0, POSES[2])])
         assert mat.clock.now - begun < 0.2
-    assert mat.tracker.doubled() == {0}
-    assert mat.tracker.refused[0] == "doubled"
+    assert mat.tracker.duplicates() == {0}
+    assert mat.tracker.rejections[0] == "duplicate"
     mat.show({0: POSES[0]}, times=20)
-    assert mat.tracker.doubled() == set()
+    assert mat.tracker.duplicates() == set()
 
 
 def test_one_marker_is_never_counted_twice():
     mat = Mat()
     mat.show(dict(enumerate(POSES)), times=20)
-    assert mat.tracker.doubled() == set()
+    assert mat.tracker.duplicates() == set()
 
 
 def test_a_marker_held_in_a_hand_is_refused_and_named():
     mat = Mat()
     mat.show({0: POSES[0]}, times=4, height=600.0)
-    assert mat.tracker.refused == {0: "size"}
+    assert mat.tracker.rejections == {0: "size"}
     assert mat.tracker.sense(mat.clock.now)[0].age == 1e9
 
 
@@ -129,16 +129,16 @@ def test_a_marker_in_a_hand_does_not_take_the_robot_along():
         mat.clock.now = mat.frames / 30.0
         both = marks({0: POSES[0]}) + marks({0: (700.0, 500.0, 0.0)}, height=600.0)
         picture = speckled(lids([(mark.number, mark.corners) for mark in both], SIZE))
-        mat.tracker.see(CameraFrame(picture, mat.clock.now, mat.frames))
-    assert mat.tracker.refused == {0: "size"}
-    assert mat.tracker.doubled() == set()
+        mat.tracker.process(CameraFrame(picture, mat.clock.now, mat.frames))
+    assert mat.tracker.rejections == {0: "size"}
+    assert mat.tracker.duplicates() == set()
     assert mat.away(0, POSES[0])[0] < 1.0
 
 
 def test_a_marker_beside_the_mat_is_refused():
     mat = Mat()
     mat.tracker.correct(marks({2: (1800.0, 400.0, 0.0)}), 0.0)
-    assert mat.tracker.refused == {2: "outside"}
+    assert mat.tracker.rejections == {2: "outside"}
 
 
 def test_a_robot_just_outside_of_the_arena_is_still_followed():
@@ -150,14 +150,14 @@ def test_a_robot_just_outside_of_the_arena_is_still_followed():
 def test_the_mirror_image_of_a_marker_is_nobody():
     mat = Mat()
     picture = np.ascontiguousarray(photo({0: POSES[0]})[:, ::-1])
-    mat.tracker.see(CameraFrame(picture, 0.0, 1))
+    mat.tracker.process(CameraFrame(picture, 0.0, 1))
     assert mat.tracker.sense(mat.clock.now)[0].age == 1e9
 
 
 def test_an_old_picture_is_not_looked_at_twice():
     mat = Mat()
     assert mat.tracker.correct(marks({0: POSES[0]}), 1.0)
-    assert mat.tracker.looked == 1.0
+    assert mat.tracker.last_captured == 1.0
     assert not mat.tracker.correct(marks({0: POSES[0]}), 1.0)
 
 
@@ -167,7 +167,7 @@ def test_a_robot_that_drives_is_where_its_commands_have_brought_it():
     mat.show({0: (300.0, 450.0, 0.0)}, times=2)
     seen = mat.clock.now
     for tick in range(6):
-        mat.tracker.sent(seen + tick * 0.02, [(200.0, 0.0), None, None, None])
+        mat.tracker.record_commands(seen + tick * 0.02, [(200.0, 0.0), None, None, None])
     ahead = mat.tracker.sense(seen + 0.1)[0]
     assert 300.0 + 5.0 < ahead.x < 300.0 + 200.0 * 0.1
     assert ahead.age == pytest.approx(0.1)
@@ -178,7 +178,7 @@ def test_a_robot_that_drives_into_another_is_not_predicted_to_be_inside_of_it():
     mat = Mat()
     mat.tracker.correct(marks({0: (500.0, 400.0, 0.0), 1: (572.0, 400.0, 0.0)}), 0.0)
     for tick in range(6):
-        mat.tracker.sent(tick * 0.02, [(260.0, 0.0), None, None, None])
+        mat.tracker.record_commands(tick * 0.02, [(260.0, 0.0), None, None, None])
     alone = mat.tracker._filters[0].at(0.1)
     one, other = mat.tracker.sense(0.1)[:2]
     assert alone.x > 505.0
@@ -191,5 +191,5 @@ def test_a_picture_without_robots_costs_nothing_but_time(wide):
     tracker = Tracker(nominal((wide, wide * 9 // 16)), lambda: 0.0)
     noise = np.random.default_rng(1).integers(0, 255, (wide * 9 // 16, wide), dtype=np.uint8)
     for frame in range(3):
-        assert tracker.see(CameraFrame(noise, frame * 0.1, frame)) == []
-    assert tracker.see(CameraFrame(np.zeros((8, 8), np.uint8), 1.0, 9)) == []
+        assert tracker.process(CameraFrame(noise, frame * 0.1, frame)) == []
+    assert tracker.process(CameraFrame(np.zeros((8, 8), np.uint8), 1.0, 9)) == []

@@ -11,7 +11,7 @@ cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.vision import camera as reader  # noqa: E402
 from pigaming_app.hardware.vision import discovery as cameras  # noqa: E402
-from pigaming_app.hardware.vision.camera import Camera, lock  # noqa: E402
+from pigaming_app.hardware.vision.camera import Camera, lock_exposure  # noqa: E402
 from pigaming_app.hardware.vision.markers import OpenCVMissing  # noqa: E402
 from tests.hardware.sentences import refused, sentence  # noqa: E402
 
@@ -81,7 +81,7 @@ def test_the_newest_picture_comes_once_and_older_ones_never():
         assert frame.image.shape == (48, 64)
         assert int(frame.image[0, 0]) == 3
         assert camera.newest() is None
-        assert camera.trouble is None
+        assert camera.fault is None
 
 
 def test_the_driver_knows_when_a_picture_was_taken_and_is_believed_if_that_can_be():
@@ -107,13 +107,13 @@ def test_a_camera_that_is_unplugged_is_said_and_used_again_when_it_is_back(monke
     driver = Driver()
     with Camera(0, open_capture=driver) as camera:
         driver.go.release()
-        wait_for(lambda: camera.trouble is None)
+        wait_for(lambda: camera.fault is None)
         driver.alive = False
-        wait_for(lambda: camera.trouble is not None)
-        assert camera.trouble.key in ("stopped", "no_camera", "other_cameras")
+        wait_for(lambda: camera.fault is not None)
+        assert camera.fault.key in ("stopped", "no_camera", "other_cameras")
         driver.alive = True
         driver.go.release()
-        wait_for(lambda: camera.trouble is None)
+        wait_for(lambda: camera.fault is None)
         assert driver.tries > 1
 
 
@@ -123,7 +123,7 @@ def test_a_driver_that_raises_is_a_camera_that_sends_nothing(monkeypatch):
     driver.raises = True
     with Camera(3, open_capture=driver) as camera:
         wait_for(lambda: driver.tries > 1)
-        assert "\n" not in sentence(camera.trouble)
+        assert "\n" not in sentence(camera.fault)
 
 
 def test_a_busy_camera_is_tried_again(monkeypatch):
@@ -132,7 +132,7 @@ def test_a_busy_camera_is_tried_again(monkeypatch):
     with Camera(0, open_capture=driver) as camera:
         wait_for(lambda: driver.tries == 3)
         driver.go.release()
-        wait_for(lambda: camera.trouble is None)
+        wait_for(lambda: camera.fault is None)
 
 
 def test_closing_takes_less_than_a_second_and_leaves_no_thread():
@@ -149,7 +149,7 @@ def test_exposure_and_the_rest_are_locked_once_they_have_settled():
     with Camera(0, open_capture=driver, settle=0.0) as camera:
         driver.go.release()
         wait_for(lambda: driver.settings.get(cv2.CAP_PROP_AUTOFOCUS) == 0.0)
-    assert camera.loose == []
+    assert camera.unlocked == []
     assert driver.settings[cv2.CAP_PROP_AUTO_WB] == 0
     assert driver.settings[cv2.CAP_PROP_EXPOSURE] == 156.0
     assert driver.settings[cv2.CAP_PROP_GAIN] == 7.0
@@ -158,7 +158,7 @@ def test_exposure_and_the_rest_are_locked_once_they_have_settled():
 def test_what_a_camera_does_not_let_be_locked_is_named():
     driver = Driver()
     driver.refuses = {cv2.CAP_PROP_AUTOFOCUS, cv2.CAP_PROP_AUTO_EXPOSURE}
-    assert lock(cv2, driver) == ["exposure", "focus"]
+    assert lock_exposure(cv2, driver) == ["exposure", "focus"]
 
 
 @pytest.fixture
@@ -185,29 +185,31 @@ def test_cameras_are_listed_by_number_without_their_data_nodes(system):
 
 
 def test_no_such_camera_names_those_that_are_there(system):
-    assert sentence(cameras.why_not(5)) == "There is no camera 5: choose one of 0 (HD Webcam), 10 (Overhead)."
+    assert (
+        sentence(cameras.unavailable_reason(5)) == "There is no camera 5: choose one of 0 (HD Webcam), 10 (Overhead)."
+    )
 
 
 def test_no_camera_at_all(tmp_path, system, monkeypatch):
     monkeypatch.setattr(cameras, "DEVICES", tmp_path / "nothing")
-    assert sentence(cameras.why_not(0)) == "There is no camera 0: plug one in."
+    assert sentence(cameras.unavailable_reason(0)) == "There is no camera 0: plug one in."
 
 
 def test_no_permission_says_what_to_do(system, monkeypatch):
     (system / "dev" / "video0").write_text("")
     monkeypatch.setattr(os, "access", lambda *_: False)
-    assert "group video" in sentence(cameras.why_not(0))
+    assert "group video" in sentence(cameras.unavailable_reason(0))
 
 
 def test_a_busy_camera_is_said_to_be_busy(system):
     (system / "dev" / "video0").write_text("")
-    assert "close other camera programs" in sentence(cameras.why_not(0))
+    assert "close other camera programs" in sentence(cameras.unavailable_reason(0))
 
 
 def test_other_systems_get_one_sentence_too(monkeypatch):
     monkeypatch.setattr(cameras.sys, "platform", "win32")
     assert [known.number for known in cameras.cameras()] == [0, 1, 2]
-    assert sentence(cameras.why_not(1)).endswith(".")
+    assert sentence(cameras.unavailable_reason(1)).endswith(".")
 
 
 def test_without_opencv_there_is_one_sentence(monkeypatch):

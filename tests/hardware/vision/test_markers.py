@@ -6,30 +6,30 @@ import pytest
 cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.signals import DetectedMarker  # noqa: E402
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, listed  # noqa: E402
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, detections  # noqa: E402
 from tests.hardware.pictures import SIZE, lids, speckled, square  # noqa: E402
 
 
 def test_markers_of_others_are_not_looked_at():
     places = ((0, (200.0, 200.0, 0.4)), (17, (800.0, 200.0, 2.0)), (11, (600.0, 500.0, 4.0)))
     picture = speckled(lids([(number, square(pose, 30.0)) for number, pose in places], SIZE))
-    found = MarkerDetector(ROBOT_IDS).everywhere(picture)
+    found = MarkerDetector(ROBOT_IDS).detect(picture)
     assert [mark.number for mark in found] == [0]
 
 
 @pytest.mark.parametrize("edge", [26.0, 30.0, 38.0, 60.0])
-@pytest.mark.parametrize("way", ["glance", "near", "everywhere"])
+@pytest.mark.parametrize("way", ["detect_quickly", "detect_in", "detect"])
 def test_markers_are_found_however_large(edge, way):
     corners = square((400.3, 300.8, 0.7), edge)
     picture = speckled(lids([(3, corners)], SIZE))
     markers = MarkerDetector(ROBOT_IDS)
     found = {
-        "glance": lambda: markers.glance(picture, edge, dim=False),
-        "near": lambda: [markers.near(picture, SearchWindow(405.0, 296.0, 1.3 * edge + 8.0, edge), 3)],
-        "everywhere": lambda: markers.everywhere(picture),
+        "detect_quickly": lambda: markers.detect_quickly(picture, edge, dim=False),
+        "detect_in": lambda: [markers.detect_in(picture, SearchWindow(405.0, 296.0, 1.3 * edge + 8.0, edge), 3)],
+        "detect": lambda: markers.detect(picture),
     }[way]()
     assert [mark.number for mark in found] == [3]
-    assert np.abs(markers.exact(picture, found)[0].corners - corners).max() < 0.4
+    assert np.abs(markers.refine(picture, found)[0].corners - corners).max() < 0.4
 
 
 def striped(corners, bright=210):
@@ -50,9 +50,9 @@ def test_what_is_projected_across_a_marker_does_not_hide_it():
     for i in range(tries):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
         picture = striped(corners)
-        mark = markers.near(picture, SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3)
+        mark = markers.detect_in(picture, SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3)
         near += mark is not None
-        glanced += len(markers.glance(picture, 37.0))
+        glanced += len(markers.detect_quickly(picture, 37.0))
     assert near == tries
     assert glanced >= 0.8 * tries
 
@@ -63,7 +63,7 @@ def test_a_blurred_marker_is_found_where_it_must_be():
     for i in range(10):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
         picture = cv2.GaussianBlur(lids([(3, corners)], SIZE, ground=150.0), (0, 0), 2.2)
-        assert markers.near(speckled(picture), SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
+        assert markers.detect_in(speckled(picture), SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
 
 
 @pytest.mark.parametrize("light", [0.2, 0.5, 1.0])
@@ -72,8 +72,8 @@ def test_markers_are_found_in_dim_light(light):
     for i in range(5):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
         picture = speckled(light * lids([(3, corners)], SIZE, ground=150.0), noise=1.5)
-        assert markers.near(picture, SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
-        assert len(markers.glance(picture, 37.0)) == 1
+        assert markers.detect_in(picture, SearchWindow(402.0 + 2 * i, 298.0 + i, 52.0, 37.0), 3) is not None
+        assert len(markers.detect_quickly(picture, 37.0)) == 1
 
 
 def test_corners_are_exact_to_a_tenth_of_a_pixel():
@@ -82,8 +82,8 @@ def test_corners_are_exact_to_a_tenth_of_a_pixel():
     for i in range(12):
         corners = square((400.3 + 0.37 * i, 300.8 - 0.21 * i, 0.7 + 0.5 * i), 34.0)
         picture = speckled(lids([(3, corners)], SIZE), seed=i)
-        mark = markers.near(picture, SearchWindow(402.0, 298.0, 52.0, 34.0), 3)
-        misses.append(markers.exact(picture, [mark])[0].corners - corners)
+        mark = markers.detect_in(picture, SearchWindow(402.0, 298.0, 52.0, 34.0), 3)
+        misses.append(markers.refine(picture, [mark])[0].corners - corners)
     assert np.sqrt(np.square(misses).mean()) < 0.1
     assert np.abs(np.mean(misses, axis=1)).max() < 0.1  # of the middle
 
@@ -92,17 +92,17 @@ def test_corners_that_cannot_be_made_exact_stay_as_they_are():
     corners = square((400.0, 300.0, 0.2), 34.0)
     for picture in (np.full((720, 1280), 90, np.uint8), np.zeros((720, 1280), np.uint8)):
         assert np.array_equal(
-            MarkerDetector(ROBOT_IDS).exact(picture, [DetectedMarker(0, corners)])[0].corners, corners
+            MarkerDetector(ROBOT_IDS).refine(picture, [DetectedMarker(0, corners)])[0].corners, corners
         )
-    assert MarkerDetector(ROBOT_IDS).exact(picture, []) == []
+    assert MarkerDetector(ROBOT_IDS).refine(picture, []) == []
 
 
 def test_near_the_edge_of_the_picture_a_marker_is_found_if_it_is_all_there():
     corners = square((40.0, 36.0, 0.2), 34.0)
     picture = speckled(lids([(1, corners)], SIZE))
     markers = MarkerDetector(ROBOT_IDS)
-    assert markers.near(picture, SearchWindow(40.0, 36.0, 60.0, 34.0), 1) is not None
-    assert markers.near(picture, SearchWindow(-300.0, 36.0, 60.0, 34.0), 1) is None
+    assert markers.detect_in(picture, SearchWindow(40.0, 36.0, 60.0, 34.0), 1) is not None
+    assert markers.detect_in(picture, SearchWindow(-300.0, 36.0, 60.0, 34.0), 1) is None
 
 
 @pytest.mark.parametrize(
@@ -113,13 +113,13 @@ def test_near_the_edge_of_the_picture_a_marker_is_found_if_it_is_all_there():
     ],
 )
 def test_both_lines_of_opencv_are_read_alike(corners, ids):
-    found, numbers = listed(corners, ids)
+    found, numbers = detections(corners, ids)
     assert found.shape == (1, 4, 2)
     assert numbers.tolist() == [5]
 
 
 @pytest.mark.parametrize(("corners", "ids"), [((), None), ([], np.zeros((0, 1), np.int32))])
 def test_no_markers_are_an_empty_list_in_both(corners, ids):
-    found, numbers = listed(corners, ids)
+    found, numbers = detections(corners, ids)
     assert found.shape == (0, 4, 2)
     assert numbers.shape == (0,)

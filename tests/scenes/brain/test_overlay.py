@@ -5,7 +5,7 @@ from itertools import pairwise
 import pygame
 import pytest
 
-from pigaming_app.ai.registry import make, seated
+from pigaming_app.ai.registry import make_brain, new_match
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.brain import floor_marks as marks
 from pigaming_app.scenes.brain import panels as cards
@@ -44,7 +44,7 @@ def f4(arcade: Arcade) -> None:
 def stage_of(arcade: Arcade, game: str, seed: int = 1) -> MatchRunner:
     brains = SEATS[game]
     wish = make_setup(game, brains, None, 1.0, seed, None, None, brains)
-    return MatchRunner(arcade.context, seated(wish), loud=False)
+    return MatchRunner(arcade.context, new_match(wish), loud=False)
 
 
 def test_f4_cycles_through_the_ais_and_then_hides_the_overlay(arcade: Arcade) -> None:
@@ -231,7 +231,7 @@ def test_bars_follow_wishes_and_do_not_jump(arcade: Arcade) -> None:
         seen.append(max(overlay.wishes.values()))
     steps = [b - a for a, b in pairwise(seen)]
     assert max(steps) < 0.2
-    assert overlay.wishes == pytest.approx(dict(overlay.thoughts.wishes), abs=0.01)
+    assert overlay.wishes == pytest.approx(dict(overlay.thoughts.utilities), abs=0.01)
 
 
 def test_brains_are_queried_a_few_times_a_second_and_never_within_a_tick(
@@ -256,7 +256,7 @@ def test_brains_are_queried_a_few_times_a_second_and_never_within_a_tick(
 
 def test_seats_without_an_explaining_brain_are_skipped(arcade: Arcade) -> None:
     stage = stage_of(arcade, "pitanks")
-    stage.match.sit(0, make("pitanks", "idle", 1))
+    stage.match.sit(0, make_brain("pitanks", "idle", 1))
     kind = stage.match.brains[0].kind
     object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.reset))
     overlay = BrainOverlay(stage.match, stage.view, arcade.context.words)
@@ -284,4 +284,4 @@ def test_every_wish_of_every_brain_has_a_sign(arcade: Arcade) -> None:
             stage.advance(1 / 60)
         for seat in range(4):
             told = stage.match.brains[seat].explain(stage.match.state, seat)
-            assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in told.wishes)
+            assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in told.utilities)

@@ -87,7 +87,7 @@ def test_a_missing_camera_is_replaced_by_a_connected_one(controls: Controls) -> 
     first = arcade.shown(CalibrationPage)
     assert first.number == 3
     assert first.preview is not None
-    until(arcade, lambda: first.preview.small is not None and first.preview.trouble is None)
+    until(arcade, lambda: first.preview.small is not None and first.preview.fault is None)
     assert first.preview.size == (640, 480)
     arcade.press(Button.BACK)
 
@@ -102,15 +102,15 @@ def test_a_camera_that_fails_to_open_is_reported_and_retried(
     arcade.context.words.switch(language)
     first = arcade.shown(CalibrationPage)
     assert first.preview is not None
-    until(arcade, lambda: first.preview.trouble is not None and first.preview.trouble.key != "yet")
-    assert first.preview.trouble is not None
-    assert "3" in arcade.context.words.long_sentence(first.preview.trouble)
+    until(arcade, lambda: first.preview.fault is not None and first.preview.fault.key != "yet")
+    assert first.preview.fault is not None
+    assert "3" in arcade.context.words.long_sentence(first.preview.fault)
     (line,) = [record.getMessage() for record in caplog.records if "camera 3" in record.getMessage()]
-    assert str(first.preview.trouble) in line, "the log has it too, once"
+    assert str(first.preview.fault) in line, "the log has it too, once"
     driver.opens = True
-    until(arcade, lambda: first.preview.trouble is None and first.preview.small is not None)
+    until(arcade, lambda: first.preview.fault is None and first.preview.small is not None)
     driver.sends = False
-    until(arcade, lambda: first.preview.trouble is not None)
+    until(arcade, lambda: first.preview.fault is not None)
     arcade.press(Button.BACK)
 
 
@@ -146,7 +146,7 @@ def test_without_opencv_the_page_says_so_and_the_arcade_goes_on(
     monkeypatch.setattr(boards, "picture", none)
     arcade = real(controls, Driver())
     first = arcade.shown(CalibrationPage)
-    until(arcade, lambda: first.preview is not None and first.preview.trouble is not None)
+    until(arcade, lambda: first.preview is not None and first.preview.fault is not None)
     arcade.begin()
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     assert arcade.shown(ResultPage).finding.trouble == missing.message
@@ -162,7 +162,7 @@ def test_an_exception_in_the_thread_is_reported(controls: Controls, monkeypatch:
     monkeypatch.setattr(looking, "scaled_preview", broken)
     arcade = real(controls, Driver())
     first = arcade.shown(CalibrationPage)
-    until(arcade, lambda: first.preview is not None and first.preview.trouble == looking.BROKEN)
+    until(arcade, lambda: first.preview is not None and first.preview.fault == looking.BROKEN)
     arcade.press(Button.BACK)
 
 
@@ -209,7 +209,7 @@ def test_a_real_camera_over_the_mat_is_calibrated_and_the_file_is_the_real_one(
     mat = EmulatedCalibrationSite(4)
     mat.clear(True)
     arcade = real(controls, Overhead(mat))
-    arcade.context.canvas.watchers.append(lambda window: mat.see(pixels_of(window)))
+    arcade.context.canvas.watchers.append(lambda window: mat.project(pixels_of(window)))
     first = arcade.shown(CalibrationPage)
     first.measures = mat.measures
     arcade.begin()

@@ -5,7 +5,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.ai.registry import seated
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.files import load_replay, save_replay
 from pigaming_app.scenes.play.replay import ReplayScene
@@ -56,7 +56,7 @@ def test_any_input_ends_it(arcade: Arcade, button: Button) -> None:
 
 @pytest.fixture
 def recorded(tmp_path: Path) -> tuple[Path, str]:
-    match = seated(setup("hard easy normal off", 0.1))
+    match = new_match(setup("hard easy normal off", 0.1))
     while not match.over:
         match.tick()
     save_replay(match, tmp_path / "match.replay")

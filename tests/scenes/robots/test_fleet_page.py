@@ -142,7 +142,7 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         page = arcade.shown(FleetPage)
         assert "calibra" in page._state()
         arcade.wait(0.5)
-        arcade.until(lambda: mat.trouble is not None, 5.0)
+        arcade.until(lambda: mat.fault is not None, 5.0)
         assert "A porta /dev/nowhere não existe" in str(page._fault())
         arcade.press(Button.UP)
         arcade.press(Button.LEFT)
@@ -153,4 +153,4 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         arcade.wait(1.5, draw=True)
     finally:
         arcade.press(Button.BACK)
-    assert arcade.context.session.trouble is None
+    assert arcade.context.session.fault is None

@@ -5,7 +5,7 @@ import math
 import pygame
 import pytest
 
-from pigaming_app.ai.registry import seated
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (
@@ -52,7 +52,7 @@ def screen():
 def begun(floor="hall", goal=4, brains=("human",) * 4, teams=(ICE, FIRE, ICE, FIRE)):
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
     setup = Setup("factory", floor, (one, two, three, four), 5.0, 3, "standard", goal)
-    return seated(setup) if "hard" in brains else Match(setup)
+    return new_match(setup) if "hard" in brains else Match(setup)
 
 
 def seen(match, players=HUMANS, taste=None):
@@ -167,7 +167,7 @@ def test_a_machine_shows_how_far_it_is_and_whose_pallet_it_has(screen):
     pictures = {picture(screen, view, state, machine.x, machine.y, 80)}
     for p in (0, MAX_PALLETS):
         feed(state, p, 0, IN_MACHINE)
-        machine.keeps = p + 1
+        machine.reserved = p + 1
         for left in (290, 150, 20):
             machine.left = left
             pictures.add(picture(screen, view, state, machine.x, machine.y, 80))

@@ -405,7 +405,7 @@ def drive_laps(scene, view, seat, laps, first=100):
             racer.best_lap = min(racer.best_lap or 1e9, racer.last_lap)
             racer.best_splits[:] = racer.splits
             robot.score += 1
-        racer.lap_began = float(state.tick)
+        racer.lap_start = float(state.tick)
 
 
 def test_a_ghost_is_where_it_was_on_every_line():
@@ -548,7 +548,7 @@ def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_o
     view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
     assert view.recorder.pose(state, 1.0) is None  # it waits for the line
-    racer.passed, racer.lap_began, state.tick = 1, 100.0, 150
+    racer.passed, racer.lap_start, state.tick = 1, 100.0, 150
     assert view.recorder.pose(state, 1.0) == pytest.approx((400.0, 100.0, 0.0))  # 1 s after line 1
     box = (160 + 400 - 40, 140 + 100 - 40, 80, 80)
     with_ghost = shown(screen, view, state, box)
@@ -563,7 +563,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
     view = seen(scene)
     view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
-    racer.passed, racer.lap_began, state.tick = 1, 100.0, 150
+    racer.passed, racer.lap_start, state.tick = 1, 100.0, 150
     view.watch(state)
     racer.passed, racer.splits[1], state.tick = 2, 90.0, 192  # line 2 follows line 1 after 2 s, 100 ticks
     view.watch(state)

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import pygame
 
-from pigaming_app.ai.registry import seated
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -42,7 +42,7 @@ class BusyFactory:
         rules = games()["factory"].default
         one, two, three, four = (Seat("hard", team) for team in rules.teams)
         setup = Setup("factory", arenas("factory")[0], (one, two, three, four), 8.0, 1, "standard", max(rules.goals))
-        self.match = seated(setup)
+        self.match = new_match(setup)
         self.arena, self.state = self.match.arena, self.match.state
 
     def tick(self) -> None:

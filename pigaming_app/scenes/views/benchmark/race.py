@@ -64,10 +64,10 @@ class BusyRace:
         racer.passed, racer.delta, racer.delta_at = passed, 15.0 * math.sin(state.tick), state.tick
         if passed % LINES == 1:
             if passed > 1:
-                racer.last_lap = state.tick - racer.lap_began
+                racer.last_lap = state.tick - racer.lap_start
                 racer.best_lap = min(racer.best_lap or 1e9, racer.last_lap)
                 state.robots[seat].score += 1
-            racer.lap_began = float(state.tick)
+            racer.lap_start = float(state.tick)
         if passed == 1 + LINES * laps:
             racer.finished, racer.finish = 1, float(state.tick)
             state.first = state.first or state.tick

@@ -24,7 +24,7 @@ class NextStepGuide:
         self.players = players
         self.slots = [-1] * len(players)
 
-    def look(self, state: Factory) -> None:
+    def update(self, state: Factory) -> None:
         """Update the suggestions every EVERY ticks."""
         for seat, robot in enumerate(state.robots):
             if not robot.present or (state.tick + seat) % EVERY:
@@ -79,7 +79,7 @@ def _drop_cost(state: Factory, seat: int, s: int) -> float:
         return 0.0 if slot.kind == ENTRY else -1.0
     if slot.kind == INPUT:
         machine = state.machines[slot.machine]
-        return -1.0 if not fits(machine.kind, pallet.state) else 300.0 if machine.keeps else 0.0
+        return -1.0 if not fits(machine.kind, pallet.state) else 300.0 if machine.reserved else 0.0
     return 0.0 if slot.kind == EXIT and pallet.state == DONE else -1.0
 
 

@@ -62,7 +62,7 @@ class FactoryView(MatchView):
     def watch(self, state: Factory) -> list[SoundCue]:
         self.record_poses(state)
         self.people_before, self.people = self.people, _people(state)
-        self.guide.look(state)
+        self.guide.update(state)
         return react(self.detector.detect(state), state, self.particles, self.pops, self.options)
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
@@ -90,8 +90,8 @@ class FactoryView(MatchView):
         rules = state.rules
         for machine in state.machines:
             x, y = LEFT + machine.x, TOP + machine.y
-            if machine.keeps:
-                put(over, crates.busy(state.pallets[machine.keeps - 1].team, machine.kind), x, y)
+            if machine.reserved:
+                put(over, crates.busy(state.pallets[machine.reserved - 1].team, machine.kind), x, y)
             if machine.pallet:
                 part = round(crates.COUNTS * (1.0 - machine.left / rules.process))
                 put(light, crates.progress(HALF if machine.kind == A else DONE, part), x, y)

@@ -50,7 +50,9 @@ def wall_sprite(part: Any, health: int) -> Sprite:
     """Wall sprite for a given health."""
     length = math.dist((part.ax, part.ay), (part.bx, part.by)) + 2 * part.half - 4
     angle = math.atan2(part.by - part.ay, part.bx - part.ax)
-    return wall(length, 2 * part.half - 4, angle, health, int(part.ax * 7 + part.ay * 13 + part.bx), max(1, part.whole))
+    return wall(
+        length, 2 * part.half - 4, angle, health, int(part.ax * 7 + part.ay * 13 + part.bx), max(1, part.initial_health)
+    )
 
 
 def _box(part: Any, sprite: Sprite) -> pygame.Rect:

@@ -50,7 +50,7 @@ def _numbers(seats: Sequence[int]) -> Iterator[Job]:
 def _walls(state: Any) -> Iterator[Job]:
     for i in range(state.wall_count):
         wall = state.walls[i]
-        for health in range(wall.whole - 1, -1, -1):
+        for health in range(wall.initial_health - 1, -1, -1):
             yield partial(wall_sprite, wall, health)
 
 

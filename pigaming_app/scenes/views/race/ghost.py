@@ -52,7 +52,7 @@ class GhostRecorder:
         racer = state.racers[first]
         if not racer.passed or racer.finished:
             return None
-        return self.ghost.pose(first, (state.tick - 1 + blend - racer.lap_began) * DT)
+        return self.ghost.pose(first, (state.tick - 1 + blend - racer.lap_start) * DT)
 
     def _person(self, seat: int) -> bool:
         return self.players[seat] == "human"
@@ -68,7 +68,7 @@ class GhostRecorder:
     def _best_ever(self, state: Race, seat: int) -> bool:
         """Replace the ghost if the lap just completed is the best ever."""
         racer, notes = state.racers[seat], self.samples[seat]
-        began = racer.lap_began - racer.last_lap
+        began = racer.lap_start - racer.last_lap
         whole = len(notes) > 1 and racer.last_lap == racer.best_lap > 0.0 and notes[0][0] <= began
         if not whole or (self.ghost and racer.last_lap * DT >= self.ghost.seconds):
             return False
