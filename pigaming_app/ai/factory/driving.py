@@ -26,7 +26,7 @@ LOOKS, LEAN = 11, 0.32  # candidate directions around the route, and rad between
 ROBOT_ROOM = 78.0  # px between the centres of two passing robots
 PERSON_ROOM = 70.0  # px between the centres of a robot and a person it passes
 STOP = 96.0  # px; it never backs out towards a person nearer than this
-STUCK_DISTANCE = 16.0  # px; a smaller displacement within HELD_UP_TICKS counts as stuck
+STUCK_DISTANCE = 16.0  # px; a smaller displacement within STUCK_TICKS counts as stuck
 STUCK_TICKS = 45
 FREEING = 25  # ticks of backing out
 NEARER = 10.0  # px that count as progress towards a slot
@@ -172,7 +172,7 @@ def make_detour(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
-    """Start backing out if it has been stuck for HELD_UP_TICKS."""
+    """Start backing out if it has been stuck for STUCK_TICKS."""
     if ticks_stuck(mind, obs.x, obs.y, False, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
         mind.stuck_ticks, mind.freeing = 0, FREEING
         choose_escape(mind, -0.8, 0.7)

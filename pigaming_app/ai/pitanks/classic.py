@@ -130,7 +130,7 @@ def break_free(robot: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def detect_stuck(robot: Any, mind: Any, action: Any) -> None:
-    """Enter BREAK_FREE if the robot drives without moving for HELD_UP_TICKS."""
+    """Enter BREAK_FREE if the robot drives without moving for STUCK_TICKS."""
     if mind.state == BREAK_FREE:
         return
     dx, dy = robot.x - mind.anchor_x, robot.y - mind.anchor_y

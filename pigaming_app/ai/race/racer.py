@@ -146,7 +146,7 @@ def look_ahead(obs: Any) -> float:
 
 @kernel
 def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
-    """Enter BREAK_FREE if the robot drives without moving for HELD_UP_TICKS."""
+    """Enter BREAK_FREE if the robot drives without moving for STUCK_TICKS."""
     if mind.state == BREAK_FREE:
         return
     idle = action.linear == 0.0 and action.angular == 0.0
