@@ -123,7 +123,9 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
     patch.setattr(GlowCanvas, "downscale_steps", noted(GlowCanvas.downscale_steps, lambda ink: [ink]))
     patch.setattr(GlowCanvas, "sprite_steps", noted(GlowCanvas.sprite_steps, lambda ink: [ink]))
     patch.setattr(
-        LayeredCanvas, "lighting", noted(LayeredCanvas.render_steps, lambda page: [page.soft, page.crisp, page.glow])
+        LayeredCanvas,
+        "render_steps",
+        noted(LayeredCanvas.render_steps, lambda page: [page.soft, page.crisp, page.glow]),
     )
     patch.setattr(LitImage, "draw", drawn)
     yield Screen(measured)

@@ -513,7 +513,7 @@ def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp
     drive_laps(scene, view, 0, [600, 500, 550])
     scene.state.tick += 1
     view.watch(scene.state)
-    view.recorder.writing.join()
+    view.recorder.writer.join()
     saved, _ = load_ghost(tmp_path, scene.arena)
     assert saved == view.recorder.ghost
     assert saved.seconds == 10.0
