@@ -51,7 +51,7 @@ class Ending:
         seats = [Seat(brain, team) for brain, team in zip(self.brains.split(), self.teams, strict=True)]
         one, two, three, four = seats
         game = games()[self.game]
-        goal = max(game.goals, default=0)
+        goal = max(game.default.goals, default=0)
         arena = max(arenas(self.game), key=len)
         setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, list(game.variants)[-1], goal)
         devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
