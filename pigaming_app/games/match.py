@@ -13,7 +13,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
-from pigaming_app.sim.world import DT, ROBOTS, Action
+from pigaming_app.sim.world import DT, HZ, ROBOTS, Action
 
 
 class Brain(Protocol):
@@ -62,8 +62,15 @@ class Match:
         return self.state.tick * DT  # type: ignore[no-any-return]
 
     @property
+    def overtime(self) -> bool:
+        """True while the match goes on after its regular time."""
+        return not self.over and self.state.tick >= round(self.setup.minutes * 60 * HZ)
+
+    @property
     def seconds_left(self) -> float:
-        return max(0.0, self.setup.minutes * 60 - self.seconds)
+        """Of the regular time; in overtime, of that."""
+        most = self.game.variants[self.setup.variant].overtime if self.overtime else 0.0
+        return max(0.0, self.setup.minutes * 60 + most - self.seconds)
 
     def tick(self) -> None:
         """Advance by DT (1/50 s)."""
