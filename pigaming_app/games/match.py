@@ -13,7 +13,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
-from pigaming_app.sim.world import DT, HZ, ROBOTS, Action
+from pigaming_app.sim.world import DT, ROBOTS, Action
 
 
 class Brain(Protocol):
@@ -64,7 +64,7 @@ class Match:
     @property
     def overtime(self) -> bool:
         """True while the match goes on after its regular time."""
-        return not self.over and self.state.tick >= round(self.setup.minutes * 60 * HZ)
+        return not self.over and self.state.tick >= self.state.rules.ticks  # type: ignore[no-any-return]
 
     @property
     def seconds_left(self) -> float:
