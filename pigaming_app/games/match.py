@@ -64,7 +64,7 @@ class Match:
     @property
     def overtime(self) -> bool:
         """True while the match goes on after its regular time."""
-        return not self.over and self.state.tick >= self.state.rules.ticks  # type: ignore[no-any-return]
+        return not self.over and self.state.tick >= self.state.rules.ticks
 
     @property
     def seconds_left(self) -> float:
