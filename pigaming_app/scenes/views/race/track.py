@@ -9,7 +9,8 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from pigaming_app.games.race.course import Course, CoursePosition, half_width_at, locate, point_at, segment_at
-from pigaming_app.games.race.start import BEHIND, TrackPlan
+from pigaming_app.games.race.furniture import BEHIND
+from pigaming_app.games.race.start import TrackPlan
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ALARM, BLACK, ICE, PLAYERS, Color, GlowCanvas, Point, badge, dim
 from pigaming_app.ui.draw.frame_budget import Steps
