@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pigaming_app.sim.record import record
+from pigaming_app.sim.record import added, record
 
 HZ = 50  # ticks per second
 DT = 1.0 / HZ  # s
@@ -32,6 +32,10 @@ class Robot:
     requested_angular: float
     gain: float  # share of the speed error that the motors remove in one tick
     turbo: float  # charge of the meter, 0..1
+    recover: int = added()  # 1: the game asks to have it put at rest at the pose below; real robots drive there
+    recover_x: float = added()
+    recover_y: float = added()
+    recover_heading: float = added()
 
 
 @record

@@ -3,11 +3,20 @@
 from typing import Annotated
 
 from pigaming_app.games.race.course import POINTS, Course, CoursePosition
-from pigaming_app.sim.record import record
+from pigaming_app.sim.record import added, record
 from pigaming_app.sim.world import HZ, ROBOTS, World
 
 MAX_LAPS = 9
 LINES = ROBOTS  # one for each seat, taken or not
+PADS = 3
+PAD_HALF = 36.0  # px
+BOXES = 4
+OWN_OILS = 2
+OILS = ROBOTS * OWN_OILS
+NO_ITEM, TURBO, SHIELD, OIL = range(4)  # `Racer.item`
+ITEMS = ("", "turbo", "shield", "oil")
+OFF_COURSE, WRONG_WAY, MISSED_LINE, STUCK = range(1, 5)  # `Racer.lost`
+LOST = ("", "off", "wrong", "missed", "stuck")
 
 
 @record
@@ -25,11 +34,26 @@ class Rules:
     patience: int = 30 * HZ  # left for the others after the first has finished
     roll_on: int = round(1.5 * HZ)  # for which a finisher may still drive, to clear the line
     carried: float = 40.0  # px in a tick: a robot that moved further was carried by hand, and has crossed nothing
+    party: int = added()  # 1: common start and finish line, slipstream, boost pads, items
+    slip_reach: float = added(
+        240.0
+    )  # px between the centres of two robots, up to which the one behind is in the slipstream
+    slip_width: float = added(45.0)  # px by which it may be aside of the other's track
+    slip_refill: float = added(1.0 / (4 * HZ))  # of the turbo meter, per tick and place: twice for the second
+    surge_factor: float = added(1.25)  # of speed, on a boost pad and after it
+    pad_surge: int = added(round(0.7 * HZ))
+    item_surge: int = added(round(1.2 * HZ))  # of the item `turbo`, which also fills the meter
+    shield_life: int = added(10 * HZ)
+    box_pause: int = added(4 * HZ)  # until an item box that was taken is back
+    oil_life: int = added(20 * HZ)
+    oil_radius: float = added(30.0)
+    spin: int = added(round(1.05 * HZ))
+    spin_rate: float = added(6.0)  # a turn of 360 degrees in `spin`
 
 
 @record
 class TimingLine:
-    """A line across the course: start and finish of the seat with the same number, checkpoint of the others."""
+    """A line across the course: start and finish of the racers with this `line`, checkpoint of the others."""
 
     along: float  # px along the course
     ax: float  # its left end, seen in driving direction
@@ -62,6 +86,50 @@ class Racer:
     best_splits: Annotated[list[float], LINES]  # of its best lap
     delta: float  # the last split, or lap, less that of the best lap
     delta_at: int  # tick of the last change of `delta`; 0: none yet
+    line: int = added()  # index of its own line, its start and finish
+    lost: int = added()  # OFF_COURSE .. STUCK: FIRE now asks for the way back (see `Robot.recover`); 0: it is not lost
+    left: float = added()  # px along the course, where it was last on its way
+    still: int = added()  # ticks of driving without getting anywhere
+    still_x: float = added()  # where that began, px
+    still_y: float = added()
+    fire_held: int = added()  # 1: FIRE was down in the previous tick
+    item: int = added()  # TURBO, SHIELD or OIL, which FIRE uses; NO_ITEM
+    shield: int = added()  # ticks left
+    surge: int = added()  # ticks left of the speed of a boost pad
+    slip: int = added()  # 1: in a slipstream
+    spin: int = added()  # ticks left of a spin on oil
+    spin_way: int = added()  # 1: clockwise, -1: anticlockwise
+
+
+@record
+class Pad:
+    """A boost pad on the course: a square of 2 * PAD_HALF px, turned to the course."""
+
+    x: float
+    y: float
+    heading: float
+    along: float  # px along the course
+    aside: float  # px right of its line
+
+
+@record
+class Box:
+    """A place of item boxes on the course."""
+
+    x: float
+    y: float
+    along: float
+    aside: float
+    pause: int  # ticks until it is back; 0: it is there
+
+
+@record
+class Oil:
+    """An oil slick; those of robot k begin at index k * OWN_OILS."""
+
+    alive: int  # ticks left; 0: none
+    x: float
+    y: float
 
 
 @record
@@ -75,3 +143,6 @@ class Race(World):
     first: int  # tick of the first finish; 0: none yet
     ideal: Annotated[list[float], POINTS]  # offset of the fastest line at each point of the course, px
     pace: Annotated[list[float], POINTS]  # speed there, as a share of full speed
+    pads: Annotated[list[Pad], PADS] = added()  # party only
+    boxes: Annotated[list[Box], BOXES] = added()
+    oils: Annotated[list[Oil], OILS] = added()
