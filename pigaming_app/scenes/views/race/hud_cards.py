@@ -10,6 +10,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.hud_parts import PANEL_W, H, Y, number_bits
+from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -214,14 +215,3 @@ def star(x: float, y: float, r: float) -> list[Point]:
         regular_polygon(5, r * 0.45, -math.pi / 2 + math.pi / 5, x, y),
     )
     return [point for pair in zip(outer, inner, strict=True) for point in pair]
-
-
-def flag(ink: GlowCanvas, x: float, y: float, r: float, color: Color) -> None:
-    """Chequered flag on a pole, `r` px to each side."""
-    size = 2 * r / 4
-    ink.line([(x - r, y - r), (x - r, y + r)], color, max(3, r * 0.2))
-    for row in range(3):
-        for column in range(4):
-            if (row + column) % 2 == 0:
-                a, b = x - r + column * size, y - r + row * size
-                ink.fill([(a, b), (a + size, b), (a + size, b + size), (a, b + size)], color)
