@@ -6,6 +6,8 @@ Two invariants hold after every tick if they held before it:
 - No robot is in a wall. One that still touches a wall after the last round returns to its position before the tick.
 - No two robots overlap by more than OVERLAP px. Two that do, and by more than before the tick, both return.
 
+A robot that is put back (`Robot.recover`) jumps, before the tick, to a position at which both hold.
+
 Proof: at the position to which a robot returns the first invariant held already, and two that have both returned are as
 far apart as before; each returns at most once, so the loop ends. A tick moves a robot by at most SHOVE px, so that no
 crush catapults a robot.
@@ -25,14 +27,18 @@ SHOVE = 16.0  # px, the longest step in a tick with contact
 SLOP = 1e-6  # px by which a robot may overlap a wall, for rounding
 CRUSH = 0.5  # px of overlap above which ROUNDS is exceeded
 OVERLAP = 1.5  # px, permitted between two robots
+BERTH = 2.0 * RADIUS + 8.0  # px between the centres of a robot that is put back and any other
 APART = 4.0 * RADIUS * RADIUS  # px^2 between centres, from which two robots do not overlap
 TOO_CLOSE = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)  # px^2, below which OVERLAP is exceeded
 
 
 @kernel
 def drive(world: Any) -> None:
-    """One tick of motion: integrate every present robot, then resolve contacts."""
+    """One tick of motion: fulfil requests to be put back, integrate every present robot, then resolve contacts."""
     robots = world.robots
+    for k in range(ROBOTS):
+        if robots[k].recover:
+            put_back(world, k)
     r0, r1, r2, r3 = robots[0], robots[1], robots[2], robots[3]
     x0, y0, x1, y1 = r0.x, r0.y, r1.x, r1.y
     x2, y2, x3, y3 = r2.x, r2.y, r3.x, r3.y
@@ -63,6 +69,26 @@ def drive(world: Any) -> None:
         back += undo_overlap(r1, x1, y1, r2, x2, y2)
         back += undo_overlap(r1, x1, y1, r3, x3, y3)
         back += undo_overlap(r2, x2, y2, r3, x3, y3)
+
+
+@kernel
+def put_back(world: Any, k: int) -> None:
+    """Put robot k at rest at the pose that the game requests for it, as soon as no other robot stands there."""
+    robot = world.robots[k]
+    if is_free(world, k, robot.recover_x, robot.recover_y):
+        robot.x, robot.y, robot.heading = robot.recover_x, robot.recover_y, robot.recover_heading
+        robot.linear, robot.angular, robot.recover = 0.0, 0.0, 0
+
+
+@kernel
+def is_free(world: Any, k: int, x: float, y: float) -> bool:
+    """True if robot k would touch no other robot at (x, y)."""
+    for j in range(ROBOTS):
+        other = world.robots[j]
+        dx, dy = other.x - x, other.y - y
+        if j != k and other.present and dx * dx + dy * dy < BERTH * BERTH:
+            return False
+    return True
 
 
 @kernel

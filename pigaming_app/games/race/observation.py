@@ -8,6 +8,7 @@ from math import atan2, cos, sin, sqrt
 from typing import Annotated, Any
 
 from pigaming_app.games.race.course import CoursePosition, distance_ahead, locate, point_at, segment_at
+from pigaming_app.games.race.laps import stretch
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -153,10 +154,8 @@ def observe_mark(match: Any, along: float, mark: Any) -> None:
 def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
     """Fill in the distance past the robot's next line, and the waypoint back to it."""
     racer, course = match.racers[seat], match.course
-    behind = racer.passed - 1 - racer.lines_reversed
-    here = match.lines[(seat + behind) % ROBOTS].along
-    ahead = match.lines[(seat + behind + 1) % ROBOTS].along
-    gap, way = distance_ahead(course, here, ahead), distance_ahead(course, here, along)
+    here, gap = stretch(match, racer)
+    way = distance_ahead(course, here, along)
     obs.past = way - gap
     if way > gap and not racer.missed and way - gap > course.length - way:  # not yet at the last one
         obs.past = way - course.length - gap

@@ -3,7 +3,7 @@
 A track file has, besides its title:
 
 [track]
-lines = [0.2, 0.46, 0.71, 0.97]  # the four lines, in the order of the seats, as fractions of a lap
+lines = [0.2, 0.46, 0.71, 0.97]  # the four lines, in driving order, as fractions of a lap
 
 [[corner]]               # of the centre line, in driving order; a lap begins at the start of the first arc
 at = [112, 116]          # px
@@ -13,32 +13,40 @@ width = 200              # px, of the course
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import atan2, tau
 
 from pigaming_app.games.game import ALONE, Setup, Variant, named
 from pigaming_app.games.race.circuit import read_course
-from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
+from pigaming_app.games.race.course import Course, half_width_at, locate, point_at, segment_at
+from pigaming_app.games.race.furniture import BEHIND, common_line, grid, place_boxes, place_pads, pose_at
+from pigaming_app.games.race.laps import progress
 from pigaming_app.games.race.racing_line import fastest_line
 from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, Rules, TimingLine
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
 from pigaming_app.sim.record import copy
-from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.toml_table import TomlTable
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 LAPS = Rules().laps  # the default goal
 GOALS = tuple(range(1, MAX_LAPS + 1))
-VARIANTS = named(Variant("standard", (10,), 10, GOALS, LAPS, ALONE))
-BEHIND = 55.0  # px between a robot's start and its line
+PARTY_LAPS = 5
+PARTY_MUD = 0.5
+VARIANTS = named(
+    Variant("standard", (10,), 10, GOALS, LAPS, ALONE), Variant("party", (10,), 10, GOALS, PARTY_LAPS, ALONE)
+)
 APART = 300.0  # px, least distance between two lines
 
 
 @dataclass(frozen=True)
 class TrackPlan:
-    """A track: its course, and the positions of its lines, px along it."""
+    """A track: its course, and the positions of its lines, px along it; for `party` the common line and the rest."""
 
     course: Course
     lines: tuple[float, ...]
+    common: int  # index of the line that is everybody's start and finish
+    grid: tuple[StartPose, ...]
+    pads: tuple[tuple[float, float], ...]  # (along, aside) px
+    boxes: tuple[tuple[float, float], ...]
 
 
 def read(table: TomlTable) -> Layout:
@@ -46,8 +54,10 @@ def read(table: TomlTable) -> Layout:
     table.only("title", "track", "corner")
     course = read_course(table)
     lines = _lines(table.table("track"), course)
-    starts = tuple(_start(course, along) for along in lines)
-    return Layout((), starts, TrackPlan(course, lines))
+    starts = tuple(pose_at(course, line - BEHIND) for line in lines)
+    common, pads = common_line(course, lines), place_pads(course, lines)
+    boxes = place_boxes(course, lines, pads)
+    return Layout((), starts, TrackPlan(course, lines, common, grid(course, lines[common]), pads, boxes))
 
 
 def _lines(table: TomlTable, course: Course) -> tuple[float, ...]:
@@ -66,16 +76,8 @@ def _lines(table: TomlTable, course: Course) -> tuple[float, ...]:
     return tuple(share * course.length for share in shares)
 
 
-def _start(course: Course, line: float) -> StartPose:
-    """Start pose for a line at `line` px: behind it, heading along the course."""
-    k, _ = segment_at(course, line - BEHIND)
-    x, y = point_at(course, line - BEHIND, 0.0)
-    after = (k + 1) % POINTS
-    return StartPose(x, y, atan2(course.ys[after] - course.ys[k], course.xs[after] - course.xs[k]) % tau)
-
-
 def start(match: Race, arena: Arena, setup: Setup) -> None:
-    """Fill a fresh match: course, lines, robots on their starts, rules, random seed."""
+    """Fill a fresh match: course, lines, robots on the starts that the seed deals them, rules."""
     build(match, arena)
     track: TrackPlan = arena.plan
     match.course = copy(track.course)
@@ -84,11 +86,38 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
     match.ideal[:], match.pace[:] = fastest_line(track.course, match.rules.speed, match.rules.turn_rate)
     for line, along in zip(match.lines, track.lines, strict=True):
         _place_line(line, match.course, along)
-    for i, (robot, racer, seat) in enumerate(zip(match.robots, match.racers, setup.seats, strict=True)):
+    for robot, seat in zip(match.robots, setup.seats, strict=True):
         robot.present, robot.team = int(seat.brain != "off"), seat.team
-        racer.last_x, racer.last_y, racer.rank = robot.x, robot.y, i + 1
-        racer.progress = -BEHIND
+    party = bool(match.rules.party)
+    for place, i in enumerate(_dealt(match, party)):
+        robot, racer, pose = match.robots[i], match.racers[i], (track.grid if party else arena.starts)[place]
+        robot.x, robot.y, robot.heading = pose.x, pose.y, pose.heading
+        racer.line = track.common if party else place
         locate(match.course, robot.x, robot.y, racer.place)
+        racer.last_x, racer.last_y, racer.rank = robot.x, robot.y, (place if party else i) + 1
+        racer.left = racer.place.along
+        racer.progress = progress(match, i)
+    if party:
+        _furnish(match, track)
+
+
+def _dealt(match: Race, party: bool) -> list[int]:
+    """All seats in random order; on a common grid those without a robot come last."""
+    seats = list(range(ROBOTS))
+    for i in range(ROBOTS - 1, 0, -1):
+        j = int(uniform(match) * (i + 1))
+        seats[i], seats[j] = seats[j], seats[i]
+    return sorted(seats, key=lambda seat: not match.robots[seat].present) if party else seats
+
+
+def _furnish(match: Race, track: TrackPlan) -> None:
+    """Put pads and boxes on the course."""
+    for pad, (along, aside) in zip(match.pads, track.pads, strict=True):
+        pose = pose_at(track.course, along, aside)
+        pad.x, pad.y, pad.heading, pad.along, pad.aside = pose.x, pose.y, pose.heading, along, aside
+    for box, (along, aside) in zip(match.boxes, track.boxes, strict=True):
+        box.x, box.y = point_at(track.course, along, aside)
+        box.along, box.aside = along, aside
 
 
 def _place_line(line: TimingLine, course: Course, along: float) -> None:
@@ -100,9 +129,11 @@ def _place_line(line: TimingLine, course: Course, along: float) -> None:
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:
-    """Adapt fresh rules to a setup."""
+    """Adapt fresh rules to a setup. `party`: a common start, and half the speed in mud instead of a third."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     rules.laps = setup.goal or rules.laps
+    if setup.variant == "party":
+        rules.party, rules.mud = 1, PARTY_MUD
 
 
 def ranking_key(match: Race, seat: int) -> float:

@@ -89,6 +89,7 @@ class Racer:
     line: int = added()  # index of its own line, its start and finish
     lost: int = added()  # OFF_COURSE .. STUCK: FIRE now asks for the way back (see `Robot.recover`); 0: it is not lost
     left: float = added()  # px along the course, where it was last on its way
+    backward: int = added()  # ticks of facing against the course
     still: int = added()  # ticks of driving without getting anywhere
     still_x: float = added()  # where that began, px
     still_y: float = added()

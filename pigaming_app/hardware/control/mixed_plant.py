@@ -10,7 +10,7 @@ from typing import Any
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.sim.contact import ROUNDS, SLOP, limit_step, push_out_of_walls, separate
+from pigaming_app.sim.contact import ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
 from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import offset_from_wall
@@ -88,6 +88,9 @@ def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:
 def simulate(world: Any, simulated: Sequence[int]) -> None:
     """One tick of these robots, as in sim.contact; all others are immovable."""
     robots = world.robots
+    for i in simulated:
+        if robots[i].recover:
+            put_back(world, i)
     starts = [(robots[i], robots[i].x, robots[i].y) for i in simulated]
     fixed = [(robot, robot.x, robot.y) for i, robot in enumerate(robots) if i not in simulated]
     for i in simulated:

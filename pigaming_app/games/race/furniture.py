@@ -1,0 +1,124 @@
+"""Layout of `party` on any track: the common start, boost pads, and item boxes. Track files do not mention them.
+
+They lie where the course is straightest, away from the lines and from each other; the starting grid is behind the line
+with the straightest approach.
+"""
+
+from collections.abc import Sequence
+from itertools import accumulate
+from math import atan2, hypot, tau
+
+from pigaming_app.games.race.course import POINTS, Course, half_width_at, point_at, segment_at
+from pigaming_app.games.race.state import BOXES, PADS
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.arena import StartPose
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import ROBOTS
+
+BEHIND = 55.0  # px between a robot's start and its line
+ROW = 110.0  # px between the rows of the grid
+COLUMN = 46.0  # px from the middle of the course to either column
+SPACE = 6.0  # px, least gap between robots on the grid; virtual walls of real robots need 4
+PAD_RUN = 300.0  # px of straight wanted after a pad
+PAD_ASIDE, BOX_ASIDE = 0.4, 0.5  # of half the width
+LINE_SPACE = 120.0  # px from a line to a pad or a box
+PAD_SPACE = 240.0  # px from a pad to a box
+ABREAST = 2  # boxes in a row
+CROWDED = 10.0  # rad of bend, as much worse is a place too near to a line or to something else
+
+
+def heading_at(course: Course, along: float) -> float:
+    """Direction of the course at `along` px."""
+    k, _ = segment_at(course, along)
+    after = (k + 1) % POINTS
+    return atan2(course.ys[after] - course.ys[k], course.xs[after] - course.xs[k]) % tau
+
+
+def pose_at(course: Course, along: float, aside: float = 0.0) -> StartPose:
+    """The pose `along` px along the course and `aside` px to the right of its line, heading along it."""
+    x, y = point_at(course, along, aside)
+    return StartPose(x, y, heading_at(course, along))
+
+
+def common_line(course: Course, lines: Sequence[float]) -> int:
+    """Index of the line with the straightest approach: start and finish of everybody in `party`."""
+    between = Bends(course).between
+    bends = [between(line - BEHIND - 2 * ROW, line) for line in lines]
+    return bends.index(min(bends))
+
+
+def grid(course: Course, line: float) -> tuple[StartPose, ...]:
+    """Four start poses in two rows behind a line at `line` px; the rows are as far apart as a bend requires."""
+    row = ROW
+    while True:
+        poses = []
+        for place in range(ROBOTS):
+            along = line - BEHIND - row * (place // 2)
+            aside = min(COLUMN, half_width_at(course, *segment_at(course, along)) - RADIUS)
+            poses.append(pose_at(course, along, aside if place % 2 else -aside))
+        gaps = [hypot(a.x - b.x, a.y - b.y) for i, a in enumerate(poses) for b in poses[:i]]
+        if min(gaps) >= 2 * RADIUS + SPACE:
+            return tuple(poses)
+        row += 10.0
+
+
+def place_pads(course: Course, lines: Sequence[float]) -> tuple[tuple[float, float], ...]:
+    """Boost pads, each at (along, aside) px, alternately left and right."""
+    spots = _spots(course, lines, (), PADS, -60.0, PAD_RUN)
+    return tuple((along, _aside(course, along, PAD_ASIDE if i % 2 else -PAD_ASIDE)) for i, along in enumerate(spots))
+
+
+def place_boxes(
+    course: Course, lines: Sequence[float], pads: Sequence[tuple[float, float]]
+) -> tuple[tuple[float, float], ...]:
+    """Item boxes, each at (along, aside) px, in rows across the course."""
+    rows = _spots(course, lines, [along for along, _ in pads], BOXES // ABREAST, -80.0, 80.0)
+    return tuple((along, _aside(course, along, side)) for along in rows for side in (-BOX_ASIDE, BOX_ASIDE))
+
+
+def _aside(course: Course, along: float, share: float) -> float:
+    return share * half_width_at(course, *segment_at(course, along))
+
+
+def _spots(
+    course: Course, lines: Sequence[float], pads: Sequence[float], count: int, begin: float, end: float
+) -> list[float]:
+    """`count` places with the least bend between `begin` and `end` px from them, well apart, and away from the rest.
+
+    px along the course, in driving order.
+    """
+    between = Bends(course).between
+    places = [k * course.step for k in range(POINTS)]
+    bends = [between(along + begin, along + end) for along in places]
+    found: list[float] = []
+    for _ in range(count):
+        costs = [
+            cost
+            + CROWDED * sum(_gap(course, along, other) < LINE_SPACE for other in lines)
+            + CROWDED * sum(_gap(course, along, other) < PAD_SPACE for other in pads)
+            + CROWDED * sum(_gap(course, along, other) < course.length / (count + 2) for other in found)
+            for along, cost in zip(places, bends, strict=True)
+        ]
+        found.append(places[costs.index(min(costs))])
+    return sorted(found)
+
+
+def _gap(course: Course, a: float, b: float) -> float:
+    """Distance between two places along the course, the shorter way, px."""
+    return min((a - b) % course.length, (b - a) % course.length)
+
+
+class Bends:
+    """How much a course turns between any two places."""
+
+    def __init__(self, course: Course) -> None:
+        ways = [
+            atan2(course.ys[(k + 1) % POINTS] - course.ys[k], course.xs[(k + 1) % POINTS] - course.xs[k])
+            for k in range(POINTS)
+        ]
+        self.step = course.step
+        self.sums = list(accumulate(abs(turn_to(ways[k % POINTS] - ways[k % POINTS - 1])) for k in range(3 * POINTS)))
+
+    def between(self, start: float, end: float) -> float:
+        """Sum of the absolute turns from `start` to `end`, rad; px along the course, at most a lap out of range."""
+        return self.sums[POINTS + int(end // self.step)] - self.sums[POINTS + int(start // self.step)]
