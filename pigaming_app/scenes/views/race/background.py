@@ -1,8 +1,6 @@
 """Background of a race: road and mud, rendered once per track and cached; lines, signs and start boxes of the race."""
 
-from collections.abc import Sequence
 from functools import cached_property, partial
-from typing import NamedTuple
 
 import pygame
 
@@ -10,7 +8,6 @@ from pigaming_app.games.race.start import TrackPlan
 from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
 from pigaming_app.scenes.views.race.lines import frame, line_signs, line_sprite, post_sprite, sign_post, slot_sprite
-from pigaming_app.scenes.views.race.lines import START as COMMON
 from pigaming_app.scenes.views.race.track import draw_track, edges
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PRE, STEEL, WIDE, GlowCanvas
@@ -23,30 +20,35 @@ CORNER = 44  # px, marks in the corners of the arena
 
 
 class RaceBackground(Background):
-    """The background of one race. `state`: the race before its first tick."""
+    """The background of one race; after the first tick, `state` no longer shows where the start boxes are."""
 
     def __init__(self, track: TrackPlan, state: Race) -> None:
         super().__init__(partial(bare, track))
         self.track, self.signs = track, line_signs(state)
-        numbered = bool(state.rules.party)
-        self.slots = [
-            (seat, robot.x, robot.y, robot.heading, numbered) for seat, robot in enumerate(state.robots) if robot.present
-        ]
+        numbered, present = bool(state.rules.party), [i for i, robot in enumerate(state.robots) if robot.present]
+        starts = [(seat, state.robots[seat]) for seat in present if not state.tick]
+        self.slots = [(seat, robot.x, robot.y, robot.heading, numbered) for seat, robot in starts]
 
     @cached_property
     def surface(self) -> pygame.Surface:
         """The canvas with everything baked in. The HUD is baked above the arena, so `bare` needs no lines."""
-        marks = self._marks()
+        boxes, marks = self._boxes(), self._marks()
         out = self.bare.copy()
+        out.fblits(boxes, ADD)
         out.fblits(marks, PRE)
         return out
 
+    def _boxes(self) -> Batch:
+        """Start boxes."""
+        boxes: Batch = []
+        for seat, x, y, heading, numbered in self.slots:
+            put(boxes, slot_sprite(seat, heading, numbered), LEFT + x, TOP + y)
+        return boxes
+
     def _marks(self) -> Batch:
-        """Start boxes, lines and signs."""
+        """Lines and signs."""
         marks: Batch = []
         course = self.track.course
-        for seat, x, y, heading, numbered in self.slots:
-            put(marks, slot_sprite(seat, heading, numbered), LEFT + x, TOP + y)
         for sign, along in zip(self.signs, self.track.lines, strict=True):
             line, (x, y) = frame(course, along), sign_post(course, along)
             put(marks, line_sprite(line, sign), LEFT + line.x, TOP + line.y)

@@ -9,7 +9,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from pigaming_app.games.race.course import Course, CoursePosition, half_width_at, locate, point_at, segment_at
-from pigaming_app.games.race.start import BEHIND
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 from pigaming_app.ui.draw import (
@@ -151,7 +150,7 @@ def post_sprite(sign: int) -> Sprite:
 
 @cached
 def slot_sprite(seat: int, heading: float, numbered: bool) -> Sprite:
-    """Start box of a seat; `numbered`: with its badge behind it, as no line of its own shows it."""
+    """Start box of a seat, as light; `numbered`: with its badge behind it, as no line of its own shows it."""
     ink = GlowCanvas(256, 256).set_transform(128, 128, heading)
     draw_slot(ink, dim(PLAYERS[seat], 0.6 if numbered else 0.30))
     image = ink.plain()
