@@ -29,7 +29,6 @@ from pigaming_app.games.factory.start import Rules as FactoryRules
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks import state as pitanks
 from pigaming_app.games.race import circuit
-from pigaming_app.games.race import furniture, laps, party, recovery
 from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race.state import Rules as RaceRules
 from pigaming_app.games.registry import games

@@ -7,6 +7,8 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
 from pigaming_app.sim.plant import Sighting
 
+IN_ORDER = 3  # a seed that deals line i, in driving order, to seat i
+
 
 class Rails:
     """Robots stay where they were last put; nothing else moves them."""
@@ -30,7 +32,7 @@ class Ride:
     def __init__(self, arena="classic", present=(0, 1, 2, 3), laps=3, minutes=10.0):
         one, two, three, four = (Seat("idle" if i in present else "off", i) for i in range(4))
         self.rails = Rails()
-        setup = Setup("race", arena, (one, two, three, four), minutes, 1, "standard", laps)
+        setup = Setup("race", arena, (one, two, three, four), minutes, IN_ORDER, "standard", laps)
         self.match = Match(setup, self.rails)
         self.state = self.match.state
         self.course, self.lines, self.racers = self.state.course, self.state.lines, self.state.racers

@@ -2,7 +2,8 @@
 
 Standing and slow robots are obstacles to drive round. Racing robots are followed until they leave room on the fastest
 line, and then overtaken there, mostly on the inside of a bend, where the way is shorter. A robot beside another gives
-way.
+way. In `party` a robot with charge in its meter pulls out of the slipstream to pass, steers for boost pads and item
+boxes, stays in a slipstream while its meter is low, and avoids oil.
 """
 
 from typing import Any
@@ -20,6 +21,14 @@ SOON = 2.5  # s to a collision below which a slower robot is in the way
 SLOW = 0.5  # share of full speed below which a robot is an obstacle to drive round
 TAIL = 12.0  # px behind another robot at which it matches that robot's speed
 LEEWAY = 32.0  # px by which the lanes of two robots may overlap without a need to follow
+CHARGED = 0.3  # of the meter, from which it pulls out to pass in `party`
+PULL_OUT = 170.0  # px to a robot ahead, within which it does
+PASSING = 120.0  # cost of staying behind then
+TOW, TOW_REACH = 25.0, 230.0  # worth of a slipstream, px, and its length
+PAD, PAD_HALF = 45.0, 30.0  # worth of a boost pad, px, and px aside of its middle that still reach it
+BOX, BOX_HALF = 35.0, 48.0  # the same of an item box
+SLICK, SLICK_HALF = 300.0, 46.0  # cost of oil, and px to either side that it wants to keep
+CLOSE = 20.0  # px ahead, below which it is too late to steer for something
 
 
 @kernel
@@ -28,7 +37,7 @@ def choose_lane(obs: Any, mind: Any) -> None:
     mark = obs.ahead
     wanted = mind.line * mark.ideal
     best, least = wanted, lane_cost(obs, mind, wanted)
-    if least > 0.0:
+    if least != 0.0 or has_features(obs, mind):
         least += STEADY * abs(wanted - mind.lane)
         room, away = mark.half - EDGE, OWN + abs(obs.turn)
         for i in range(LANES):
@@ -41,8 +50,8 @@ def choose_lane(obs: Any, mind: Any) -> None:
 
 @kernel
 def lane_cost(obs: Any, mind: Any, lane: float) -> float:
-    """Cost of the robots on a lane, px; 0 if none is in the way. `lane`: px right of the middle."""
-    cost = 0.0
+    """Cost of the robots and features on a lane, px; 0 if there are none. `lane`: px right of the middle."""
+    cost = feature_cost(obs, mind, lane) if obs.party else 0.0
     for i in range(OTHERS):
         other = obs.others[i]
         if not other.present or other.ahead < -CLEAR or other.distance > FAR:
@@ -57,6 +66,39 @@ def lane_cost(obs: Any, mind: Any, lane: float) -> float:
             closing = mind.speed * obs.speed - other.speed
             if other.speed < SLOW * obs.speed and other.distance - CLEAR < SOON * closing:
                 cost += 150.0 * (1.0 + (CLEAR - gap) / CLEAR)
+            elif obs.party and other.distance < PULL_OUT and (obs.turbo > CHARGED or obs.surge):
+                cost += PASSING * (1.0 - gap / CLEAR)
+    return cost
+
+
+@kernel
+def has_features(obs: Any, mind: Any) -> bool:
+    """True if something on the course, or a slipstream, may be worth another lane."""
+    near = obs.pad.present or obs.box.present or obs.oils[0].present
+    return bool(obs.party and mind.alert > 0.0 and (near or obs.turbo < CHARGED))
+
+
+@kernel
+def feature_cost(obs: Any, mind: Any, lane: float) -> float:
+    """Cost, px, of oil on a lane, less the worth of a boost pad, an item box and a slipstream."""
+    cost = 0.0
+    if not obs.shield:
+        for oil in obs.oils:
+            gap = abs(oil.aside - lane)
+            if oil.present and oil.ahead < mind.foresight and gap < SLICK_HALF:
+                cost += SLICK * (1.5 - gap / SLICK_HALF)
+    if obs.pad.present and CLOSE < obs.pad.ahead < mind.foresight:
+        gap = abs(obs.pad.aside - lane)
+        cost -= PAD if gap < PAD_HALF else 0.0
+    if obs.box.present and not obs.item and CLOSE < obs.box.ahead < mind.foresight:
+        gap = abs(obs.box.aside - lane)
+        cost -= BOX if gap < BOX_HALF else 0.0
+    if obs.turbo < CHARGED:
+        for i in range(OTHERS):
+            other = obs.others[i]
+            ahead = other.present and CLEAR < other.ahead < TOW_REACH and other.speed > SLOW * obs.speed
+            if ahead and abs(other.aside - lane) < LEEWAY:
+                cost -= TOW
     return cost
 
 

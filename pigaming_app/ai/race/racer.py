@@ -3,8 +3,12 @@
 The point is shifted sideways where another robot is in the way (see `overtaking`). Speed is as high as the curvature
 allows, with turbo on straights. A stuck robot backs out; one that has missed a line returns to before it.
 
-The strengths differ in speed, in how closely and steadily they keep the fastest line, in turbo (easy never uses it) and
-in reaction time. Those below hard stay nearer to the middle of the course, which leaves room inside to overtake them.
+The strengths differ in speed, in how closely and steadily they keep the fastest line, in turbo (hand1 never uses it),
+in reaction time and in mistakes: a missed braking point, after which the robot runs wide, often into the mud. Those
+below hand3 stay nearer to the middle of the course, which leaves room inside to overtake them. No two races of a driver
+are alike: its reaction at the start, its line and how early it brakes vary with the seed.
+
+In `party` it uses its item when that pays (see `wants_item`). FIRE also asks for the way back when it is lost for good.
 """
 
 from math import atan2, cos, pi, sin, sqrt
@@ -12,13 +16,14 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
-from pigaming_app.ai.race.overtaking import EDGE, choose_lane, leader_speed
+from pigaming_app.ai.race.overtaking import CLEAR, EDGE, LEEWAY, choose_lane, leader_speed
 from pigaming_app.games.race.observation import OTHERS, Observation, Senses, observe
+from pigaming_app.games.race.state import OFF_COURSE, SHIELD, TURBO
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import bell, seeded
+from pigaming_app.sim.rng import bell, seeded, uniform
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LOOK = 115.0  # lookahead along the course, px
@@ -29,6 +34,12 @@ OUT = 30.0  # px inside the edge at which it aims when off the course
 SLACK = 25.0  # px past a line before it counts as missed: the rules may not have registered the crossing yet
 SAVE = 80.0  # px to a robot ahead within which it saves its turbo
 NEW_ERROR = 30  # ticks between draws of the line error
+BEND = 0.3  # sine of the turn ahead, from which a bend may cause a mistake
+BLUNDER = 35  # ticks of a mistake
+WIDE, OVER = 60.0, 45.0  # px by which it runs wide then, at most so far off the course
+CHASE = 60.0, 260.0  # px to a robot behind, for which it drops oil
+SEEN_OIL = 300.0  # px to oil ahead, for which it raises its shield
+NEXT_BOX = 220.0  # px to an item box, before which it uses up its item
 STUCK_TICKS = 40  # ticks of driving without moving that count as stuck
 
 RACE, GO_BACK, BREAK_FREE = range(3)
@@ -47,7 +58,14 @@ class RacerMind:
     random: int
     state: int
     since: int  # ticks in this state
+    reaction: float  # ticks from GO to its first action
+    care: float  # share of the speed in bends that it may give away, braking early
+    mistakes: float  # probability of a mistake, per draw of the line error in a bend
+    foresight: float  # px ahead, within which it reacts to pads, boxes and oil
+    alert: float  # probability, per decision, of noticing that it should use its item
     stray: float  # present line error, px
+    caution: float  # share of the speed in bends that it gives away at present
+    blunder: int  # ticks left of a mistake
     stray_left: int  # ticks until the next draw
     lane: float  # present lane, px right of the middle
     anchor_x: float  # position at the last progress, px
@@ -60,7 +78,7 @@ class RacerMind:
 @kernel
 def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
-    if (match.tick + seat) % PERIOD:
+    if (match.tick + seat) % PERIOD or match.tick < mind.reaction:
         return
     observe(match, seat, mind.senses, mind.obs)
     act(mind.obs, mind, match.actions[seat])
@@ -70,7 +88,8 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 def act(obs: Any, mind: Any, action: Any) -> None:
     """One step of the state machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
-    draw_error(mind)
+    fired = action.fire
+    draw_error(obs, mind)
     mind.senses.look = look_ahead(obs)
     detect_stuck(obs, mind, action)
     if mind.state == BREAK_FREE:
@@ -81,6 +100,8 @@ def act(obs: Any, mind: Any, action: Any) -> None:
         after = race(obs, mind, action)
     if after != mind.state:
         mind.state, mind.since = after, 0
+    if not fired:  # FIRE counts as it goes down
+        action.fire = wants_way_back(obs, mind) if obs.lost else wants_item(obs, mind)
 
 
 # ------------------------------------------------------------------------------------------------------------- states
@@ -95,6 +116,9 @@ def race(obs: Any, mind: Any, action: Any) -> int:
     choose_lane(obs, mind)
     room = mark.half - (EDGE if obs.on else OUT)
     lane = mind.lane + mind.stray
+    if mind.blunder > 0:
+        room += OVER
+        lane += -WIDE if obs.turn > 0.0 else WIDE
     keep = obs.aside - obs.ideal + mark.ideal  # the lane that keeps the present distance to the fastest line
     lane = keep + SHIFT if lane > keep + SHIFT else keep - SHIFT if lane < keep - SHIFT else lane
     lane = room if lane > room else -room if lane < -room else lane
@@ -127,12 +151,41 @@ def break_free(obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def draw_error(mind: Any) -> None:
-    """Draw a new line error every NEW_ERROR ticks."""
+def draw_error(obs: Any, mind: Any) -> None:
+    """Draw a new line error and how early it brakes, every NEW_ERROR ticks; in a bend perhaps a mistake."""
+    mind.blunder -= PERIOD
     mind.stray_left -= PERIOD
     if mind.stray_left <= 0:
         mind.stray_left = NEW_ERROR
         mind.stray = 2.0 * mind.spread * bell(mind)
+        mind.caution = mind.care * uniform(mind)
+        if abs(obs.turn) > BEND and obs.on and uniform(mind) < mind.mistakes:
+            mind.blunder = BLUNDER
+
+
+@kernel
+def wants_way_back(obs: Any, mind: Any) -> int:
+    """1 if it asks for the way back: after a missed line, facing the wrong way, or stuck; not for a bit of mud."""
+    return 0 if obs.lost == OFF_COURSE and mind.state != BREAK_FREE else 1
+
+
+@kernel
+def wants_item(obs: Any, mind: Any) -> int:
+    """1 if its item pays now, or room is needed for the next one, and it notices."""
+    if not obs.item or obs.finished or obs.spin or uniform(mind) >= mind.alert:
+        return 0
+    if obs.box.present and obs.box.ahead < NEXT_BOX:
+        return 1
+    if obs.item == TURBO:
+        return 1 if obs.on and obs.pace >= 1.0 and abs(obs.turn) < BEND else 0
+    if obs.item == SHIELD:
+        return 1 if obs.oils[0].present and obs.oils[0].ahead < SEEN_OIL else 0
+    low, high = CHASE
+    for i in range(OTHERS):
+        other = obs.others[i]
+        if other.present and low < -other.ahead < high and abs(other.aside - obs.aside) < CLEAR:
+            return 1
+    return 0
 
 
 @kernel
@@ -174,9 +227,12 @@ def pursue(obs: Any, mind: Any, action: Any, x: float, y: float) -> None:
     held = leader_speed(obs, mind)
     dash = wants_turbo(obs, mind, bend) if held > 1.0 else 0
     full = obs.speed * (obs.turbo_factor if dash else 1.0)
-    speed, limit = mind.speed * obs.pace, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
-    speed = speed if speed < limit else limit
-    speed = speed if speed < held else held
+    speed, limit = mind.speed, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
+    if mind.blunder <= 0:
+        early = 1.0 if obs.pace >= 1.0 else 1.0 - mind.caution
+        speed *= obs.pace * early
+        speed = speed if speed < limit else limit
+        speed = speed if speed < held else held
     set_action(action, speed, bend * speed * full / obs.turn_rate, 0, dash)
 
 
@@ -187,22 +243,62 @@ def wants_turbo(obs: Any, mind: Any, bend: float) -> int:
         return 0
     for i in range(OTHERS):
         other = obs.others[i]
-        if other.present and other.ahead > 0.0 and other.distance < SAVE:
+        beside = obs.party and abs(other.aside - mind.lane) > CLEAR - LEEWAY
+        if other.present and other.ahead > 0.0 and other.distance < SAVE and not beside:
             return 0
     return 1 if obs.boosting or obs.turbo > mind.boost else 0
 
 
-def make_reset(speed: float, line: float, spread: float, boost: float, delay: float) -> Any:
-    """A `reset` for a strength: `delay` is the reaction time to others, s; the rest as in RacerMind."""
+def make_reset(
+    speed: float,
+    line: float,
+    spread: float,
+    boost: float,
+    delay: float,
+    reaction: tuple[int, int],
+    care: float,
+    mistakes: float,
+    foresight: float,
+    alert: float,
+) -> Any:
+    """A `reset` for a strength: `delay` is the reaction time to others, s; `reaction` the fewest ticks to its start,
+    and how many more are possible, a multiple of PERIOD, so that no seat has an advantage; the rest as in RacerMind.
+    """
 
     def fill(mind: RacerMind, seed: int) -> None:
         mind.senses.delay, mind.senses.look = delay, LOOK
         mind.speed, mind.line, mind.spread, mind.boost = speed, line, spread, boost
+        mind.care, mind.mistakes, mind.foresight, mind.alert = care, mistakes, foresight, alert
         mind.random = seeded(seed)
+        mind.reaction = reaction[0] + int(reaction[1] * uniform(mind))
 
     return fill
 
 
-HAND1 = BrainKind("hand1", RacerMind, think, make_reset(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35))
-HAND2 = BrainKind("hand2", RacerMind, think, make_reset(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2))
-HAND3 = BrainKind("hand3", RacerMind, think, make_reset(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))
+HAND1 = BrainKind(
+    "hand1",
+    RacerMind,
+    think,
+    make_reset(
+        speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35, reaction=(10, 20), care=0.2, mistakes=0.1,
+        foresight=160.0, alert=0.03,
+    ),
+)  # fmt: skip
+HAND2 = BrainKind(
+    "hand2",
+    RacerMind,
+    think,
+    make_reset(
+        speed=1.0, line=0.35, spread=6.0, boost=0.5, delay=0.2, reaction=(5, 15), care=0.1, mistakes=0.03,
+        foresight=240.0, alert=0.1,
+    ),
+)  # fmt: skip
+HAND3 = BrainKind(
+    "hand3",
+    RacerMind,
+    think,
+    make_reset(
+        speed=1.0, line=1.0, spread=3.0, boost=0.12, delay=0.05, reaction=(2, 10), care=0.03, mistakes=0.0,
+        foresight=320.0, alert=0.5,
+    ),
+)  # fmt: skip

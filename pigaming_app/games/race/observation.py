@@ -11,12 +11,14 @@ from pigaming_app.games.race.course import CoursePosition, distance_ahead, locat
 from pigaming_app.games.race.laps import stretch
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
+from pigaming_app.sim.record import added, record
 from pigaming_app.sim.world import ROBOTS
 
 OTHERS = ROBOTS - 1
 BACK = 160.0  # px, longest step on the way back to a missed line
 PACE = 40.0  # px of lookahead for the pace of the fastest line
+SIGHT = 400.0  # px along the course, within which features are observed
+SLICKS = 2
 RUN_UP = 70.0  # px before a line, as a run-up to cross it
 
 
@@ -58,6 +60,15 @@ class Other:
 
 
 @record
+class Feature:
+    """Something that lies on the course ahead."""
+
+    present: int  # 1: there is one within SIGHT
+    ahead: float  # px along the course
+    aside: float  # px right of the centre line
+
+
+@record
 class Observation:
     """The observation of one seat."""
 
@@ -87,6 +98,16 @@ class Observation:
     finished: int
     ahead: TrackPoint  # at the lookahead distance
     others: Annotated[list[Other], OTHERS]
+    lost: int = added()  # as in Racer: FIRE asks for the way back
+    party: int = added()  # 1: the fields below are in use
+    item: int = added()
+    shield: int = added()
+    spin: int = added()
+    slip: int = added()
+    surge: int = added()
+    oils: Annotated[list[Feature], SLICKS] = added()  # the nearest, nearest first
+    pad: Feature = added()  # the nearest
+    box: Feature = added()  # the nearest that is there; of two side by side the one less far to the side
 
 
 @kernel
@@ -110,6 +131,11 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     observe_next_line(match, seat, along, obs)
     for i in range(OTHERS):
         observe_other(match, robot, (seat + 1 + i) % ROBOTS, along, senses, obs.others[i])
+    obs.lost, obs.party = racer.lost, rules.party
+    if rules.party:
+        obs.item, obs.shield, obs.spin = racer.item, racer.shield, racer.spin
+        obs.slip, obs.surge = racer.slip, racer.surge
+        observe_features(match, along, senses.place, obs)
 
 
 @kernel
@@ -184,3 +210,36 @@ def observe_other(match: Any, robot: Any, j: int, along: float, senses: Any, oth
     other.speed = vx * place.tangent_x + vy * place.tangent_y
     other.sideways = vy * place.tangent_x - vx * place.tangent_y
     other.finished = match.racers[j].finished
+
+
+@kernel
+def observe_features(match: Any, along: float, place: Any, obs: Any) -> None:
+    """Fill in oil, boost pad and item box ahead."""
+    course, aside = match.course, obs.aside
+    obs.pad.present, obs.box.present = 0, 0
+    for pad in match.pads:
+        note(obs.pad, distance_ahead(course, along, pad.along), pad.aside, aside)
+    for box in match.boxes:
+        if not box.pause:
+            note(obs.box, distance_ahead(course, along, box.along), box.aside, aside)
+    for slick in obs.oils:
+        slick.present = 0
+    for oil in match.oils:
+        if oil.alive:
+            locate(course, oil.x, oil.y, place)
+            ahead = distance_ahead(course, along, place.along)
+            if obs.oils[0].present and ahead < obs.oils[0].ahead:
+                obs.oils[1].present, obs.oils[1].ahead = 1, obs.oils[0].ahead
+                obs.oils[1].aside, obs.oils[0].present = obs.oils[0].aside, 0
+                note(obs.oils[0], ahead, place.aside, aside)
+            else:
+                note(obs.oils[1 if obs.oils[0].present else 0], ahead, place.aside, aside)
+
+
+@kernel
+def note(feature: Any, ahead: float, aside: float, own: float) -> None:
+    """Fill in a feature if none nearer is there; of two equally far ahead, the one nearer to `own` px aside."""
+    if ahead > SIGHT or (feature.present and feature.ahead < ahead):
+        return
+    if not feature.present or ahead < feature.ahead or abs(aside - own) < abs(feature.aside - own):
+        feature.present, feature.ahead, feature.aside = 1, ahead, aside

@@ -16,12 +16,13 @@ from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HZ
 from tests.bench.reference_lap import MIXTURES, STUCK, STUCK_PX, TARGETS
 from tests.cases import one_in
+from tests.games.rails import IN_ORDER
 
 TRACKS = arenas("race")
 REFERENCE = {"classic": 9.25, "hairpin": 10.71, "kidney": 9.34, "technical": 11.26}  # s, of tests.bench.reference_lap
 
 
-def race(brains, track="classic", seed=1, laps=3):
+def race(brains, track="classic", seed=IN_ORDER, laps=3):
     one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
     match = Match(Setup("race", track, (one, two, three, four), 10.0, seed, "standard", laps))
     for seat, brain in enumerate(brains):
@@ -75,7 +76,7 @@ def test_a_hard_driver_stays_on_the_course(track):
 def test_courses_can_be_driven_anticlockwise(track):
     arena = the_other_way_round(track)
     one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("hard", "normal", "easy", "hard")))
-    match = Match(Setup("race", track, (one, two, three, four), 10.0, 1, "standard", 2), arena=arena)
+    match = Match(Setup("race", track, (one, two, three, four), 10.0, IN_ORDER, "standard", 2), arena=arena)
     for seat, brain in enumerate(("hard", "normal", "easy", "hard")):
         match.sit(seat, make_brain("race", brain, seat))
     while not match.over:

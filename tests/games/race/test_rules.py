@@ -11,12 +11,12 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import DT, HZ
-from tests.games.rails import Ride
+from tests.games.rails import IN_ORDER, Ride
 
 TRACKS = arenas("race")
 
 
-def race(brains=("idle",) * 4, arena="classic", laps=3, minutes=10.0, seed=1):
+def race(brains=("idle",) * 4, arena="classic", laps=3, minutes=10.0, seed=IN_ORDER):
     """A race on wheels."""
     one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
     match = Match(Setup("race", arena, (one, two, three, four), minutes, seed, "standard", laps))
