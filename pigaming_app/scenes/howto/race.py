@@ -5,8 +5,9 @@ import math
 import pygame
 
 from pigaming_app.scenes.howto.animation import Loop, add, drive_by, drive_round
+from pigaming_app.scenes.views.race.lines import LineFrame, draw_line
 from pigaming_app.scenes.views.race.sprites import clods
-from pigaming_app.scenes.views.race.track import EDGE, MUD, LineFrame, draw_line
+from pigaming_app.scenes.views.race.track import EDGE, MUD
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.ui.draw import ALARM, ICE, PLAYERS, SUB, THIN, Color, GlowCanvas, badge, dim, mix

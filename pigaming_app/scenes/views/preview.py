@@ -12,6 +12,7 @@ from pigaming_app.games.factory.layout import Floor
 from pigaming_app.games.race.start import TrackPlan
 from pigaming_app.scenes.views.factory.background import draw_floor
 from pigaming_app.scenes.views.race.background import GLOW, earth
+from pigaming_app.scenes.views.race.lines import draw_line, frame
 from pigaming_app.scenes.views.race.track import draw_track
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.sim.arena import Arena
@@ -50,7 +51,7 @@ def walls(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
 
 
 def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
-    """Preview of a track: mud, road, lines with badges, direction."""
+    """Preview of a track: mud, road, direction, and the lines, which no seat has been dealt yet."""
     left, top, k = fitted(w, h)
     below = pygame.transform.smoothscale(earth(arena.plan), (round(k * WIDTH), round(k * HEIGHT)))
     yield
@@ -59,6 +60,9 @@ def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
         GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
     )
     yield from draw_track(glow, crisp, arena.plan)
+    for along in arena.plan.lines:
+        draw_line(glow, crisp, frame(arena.plan.course, along), MIST)
+    yield
     light = yield from glow.lit_steps(GLOW)
     out = pygame.Surface((w, h))
     out.blit(below, (round(left), round(top)))

@@ -200,6 +200,13 @@ def _unknown(pen: Pen) -> None:
         pen.dot(x, 0, 0.17)
 
 
+def _oil(pen: Pen) -> None:
+    """A drop."""
+    side = [(0.62 * math.sin(a / 8), 0.28 - 0.62 * math.cos(a / 8)) for a in range(6, 45)]
+    pen.line((0, -0.98), *side, closed=True)
+    pen.line((-0.3, 0.3), (-0.22, 0.52), (0.0, 0.6))
+
+
 def _faster(pen: Pen) -> None:
     for x in (-0.85, 0.0):
         pen.fill((x, -0.66), (x + 0.85, 0.0), (x, 0.66))
@@ -243,6 +250,7 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "turn_right": _turn_right,
     "stay": _stay,
     "unknown": _unknown,
+    "oil": _oil,
     "play": _play,
     "faster": _faster,
     "fastest": _fastest,

@@ -1,15 +1,18 @@
-"""Background of a race: road, mud, lines and their badges; rendered once per track and cached."""
+"""Background of a race: road and mud, rendered once per track and cached; lines, signs and start boxes of the race."""
 
-from functools import partial
+from functools import cached_property, partial
 
 import pygame
 
 from pigaming_app.games.race.start import TrackPlan
+from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
-from pigaming_app.scenes.views.race.track import BADGE, draw_track, edges, sign_post
+from pigaming_app.scenes.views.race.lines import frame, line_signs, line_sprite, post_sprite, sign_post, slot_sprite
+from pigaming_app.scenes.views.race.track import draw_track, edges
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ADD, STEEL, WIDE, GlowCanvas
+from pigaming_app.ui.draw import ADD, PRE, STEEL, WIDE, GlowCanvas
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.sprites import Batch, put
 from pigaming_app.ui.draw.surface_cache import cached
 
 GLOW = 0.75
@@ -17,16 +20,46 @@ CORNER = 44  # px, marks in the corners of the arena
 
 
 class RaceBackground(Background):
-    """The background of one race."""
+    """The background of one race; after the first tick, `state` no longer shows where the start boxes are."""
 
-    def __init__(self, track: TrackPlan) -> None:
+    def __init__(self, track: TrackPlan, state: Race) -> None:
         super().__init__(partial(bare, track))
+        self.track, self.signs = track, line_signs(state)
+        numbered, present = bool(state.rules.party), [i for i, robot in enumerate(state.robots) if robot.present]
+        starts = [(seat, state.robots[seat]) for seat in present if not state.tick]
+        self.slots = [(seat, robot.x, robot.y, robot.heading, numbered) for seat, robot in starts]
+
+    @cached_property
+    def surface(self) -> pygame.Surface:
+        """The canvas with everything baked in. The HUD is baked above the arena, so `bare` needs no lines."""
+        boxes, marks = self._boxes(), self._marks()
+        out = self.bare.copy()
+        out.fblits(boxes, ADD)
+        out.fblits(marks, PRE)
+        return out
+
+    def _boxes(self) -> Batch:
+        """Start boxes."""
+        boxes: Batch = []
+        for seat, x, y, heading, numbered in self.slots:
+            put(boxes, slot_sprite(seat, heading, numbered), LEFT + x, TOP + y)
+        return boxes
+
+    def _marks(self) -> Batch:
+        """Lines and signs."""
+        marks: Batch = []
+        course = self.track.course
+        for sign, along in zip(self.signs, self.track.lines, strict=True):
+            line, (x, y) = frame(course, along), sign_post(course, along)
+            put(marks, line_sprite(line, sign), LEFT + line.x, TOP + line.y)
+            put(marks, post_sprite(sign), LEFT + x, TOP + y)
+        return marks
 
 
 @cached
 @resumable
 def bare(track: TrackPlan) -> Steps[pygame.Surface]:
-    """Static canvas without HUD."""
+    """Road and mud, without lines and HUD."""
     below = earth(track)
     glow, crisp = GlowCanvas(1920, 1080).set_transform(LEFT, TOP), GlowCanvas(1920, 1080).set_transform(LEFT, TOP)
     yield from draw_track(glow, crisp, track)
@@ -44,7 +77,7 @@ def bare(track: TrackPlan) -> Steps[pygame.Surface]:
 @cached
 @resumable
 def earth(track: TrackPlan) -> Steps[pygame.Surface]:
-    """The 1600 x 900 arena: mud, with black areas for the road and the badges."""
+    """The 1600 x 900 arena: mud, with a black area for the road."""
     from pigaming_app.scenes.views.race.mud import mud  # imports numpy, which must not delay the title screen
 
     out = mud(track.course).copy()
@@ -52,6 +85,4 @@ def earth(track: TrackPlan) -> Steps[pygame.Surface]:
     left, right = edges(track.course)
     for i, (a, b) in enumerate(zip(left, right, strict=True)):
         pygame.draw.polygon(out, (0, 0, 0), [left[i - 1], a, b, right[i - 1]])
-    for along in track.lines:
-        pygame.draw.circle(out, (0, 0, 0), sign_post(track.course, along), BADGE + 12)
     return out

@@ -12,6 +12,9 @@ from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
+from pigaming_app.scenes.views.race.lines import sign_color
+from pigaming_app.scenes.views.race.party.sprites import OIL, place_change
+from pigaming_app.scenes.views.race.recovery import BEAM_LASTS, beam
 from pigaming_app.scenes.views.view import Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
@@ -19,7 +22,8 @@ from pigaming_app.ui.draw.sprites import Batch, Sprite, put
 from pigaming_app.ui.draw.text import glyph, number_width
 from pigaming_app.ui.i18n import Words
 
-SOUNDS = {
+SOUNDS = {  # by event, the most important first
+    "close": "photo_finish",
     "finish": "finish",
     "last_lap": "last_lap",
     "best": "best_lap",
@@ -27,6 +31,15 @@ SOUNDS = {
     "void": "missed",
     "missed": "missed",
     "wrong": "wrong_way",
+    "spin": "oil",
+    "back": "back_on_track",
+    "asked": "back_on_track",
+    "resisted": "shield",
+    "boost": "boost",
+    "item": "pickup",
+    "used": "drop",
+    "up": "overtake",
+    "slip": "slipstream",
     "mud": "mud",
 }
 BY_WEIGHT = list(SOUNDS)
@@ -87,19 +100,28 @@ def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
 
 
 def sound_cues(events: Sequence[RaceEvent], state: Race) -> list[SoundCue]:
-    """Sounds of the events: for each robot only the most important one."""
+    """Sounds of the events: for each robot only the most important one; overtaking is heard in party only."""
     loudest: dict[int, str] = {}
     for event in events:
-        if event.kind in SOUNDS:
+        if event.kind in SOUNDS and (event.kind != "up" or state.rules.party):
             loudest[event.seat] = min(loudest.get(event.seat, event.kind), event.kind, key=BY_WEIGHT.index)
     return [(SOUNDS[kind], seat, state.robots[seat].x) for seat, kind in loudest.items()]
 
 
 class RaceEffects:
-    """Adds the particles and announcements of events."""
+    """Adds the particles and announcements of events. `signs`: the sign of each line."""
 
-    def __init__(self, particles: Particles, notes: Announcements, options: ViewOptions, words: Words | None) -> None:
-        self.particles, self.notes, self.options, self.words = particles, notes, options, words
+    def __init__(
+        self,
+        particles: Particles,
+        notes: Announcements,
+        options: ViewOptions,
+        words: Words | None,
+        signs: Sequence[int],
+    ) -> None:
+        self.particles, self.notes, self.options, self.words, self.signs = particles, notes, options, words, signs
+        self.real: frozenset[int] = frozenset()  # seats of real robots
+        self.back_at = [-1.0] * len(signs)  # time at which each robot was put back
 
     def show(self, event: RaceEvent, state: Race, ghost_delta: Delta | None) -> None:
         """Show one event; `ghost_delta`: the racer's time relative to the best lap ever."""
@@ -107,8 +129,8 @@ class RaceEffects:
         x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[event.seat]
         match event.kind:
             case "line":
-                particles.burst(x, y, PLAYERS[int(event.number)], 10, 40, 50)
-                if int(event.number) != event.seat:
+                particles.burst(x, y, sign_color(self.signs[int(event.number)]), 10, 40, 50)
+                if int(event.number) != racer.line:
                     self._difference(event.seat, racer.delta if racer.delta_at == state.tick - 1 else None, ghost_delta)
             case "lap" if not racer.finished:
                 self._say(event.seat, decimal(self.words, f"{event.number:.2f}"), ICE)
@@ -124,6 +146,19 @@ class RaceEffects:
                 spray(particles, x, y, 0.0, 9, 3.2)
             case "finish":
                 self.celebrate(x, y, color)
+            case "up" | "down" if state.rules.party and not racer.finished:
+                self._say(event.seat, "", color, place_change(event.kind == "up", f"{event.number:.0f}"))
+            case "boost":
+                back = robot.heading + math.pi
+                particles.burst(x, y, FOCUS, 14, 40, 90, (back, 0.6))
+            case "spin" | "resisted":
+                particles.burst(x, y, OIL, 18, 40, 90)
+            case "back" if event.seat not in self.real:
+                self._appear(event.seat, x, y)
+            case "item":
+                particles.burst(x, y, FOCUS, 12, 44, 60)
+            case "close":
+                self._photo(x, y)
 
     def celebrate(self, x: float, y: float, color: Color) -> None:
         """A cloud of chequered confetti."""
@@ -136,6 +171,18 @@ class RaceEffects:
             particles.shock(x, y, color)
         if self.options.flashes == "full":
             particles.glow(x, y, color)
+
+    def _appear(self, seat: int, x: float, y: float) -> None:
+        """Beam of light on a robot that was put back on the track."""
+        self.back_at[seat] = self.particles.clock
+        if self.options.flashes != "off":
+            self.particles.bloom(x, y, BEAM_LASTS, beam(seat))
+
+    def _photo(self, x: float, y: float) -> None:
+        """Flash of a close finish."""
+        self.particles.burst(x, y, WHITE, 30, 46, 150)
+        if self.options.flashes == "full":
+            self.particles.glow(x, y, WHITE, 0.5)
 
     def record(self, x: float, y: float) -> None:
         """Effects of a new best lap ever on this track."""

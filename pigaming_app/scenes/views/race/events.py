@@ -1,10 +1,13 @@
 """Event detection for races, by comparing a race with its previous tick; read-only."""
 
+import math
 from typing import NamedTuple
 
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.sim.world import DT
 
+JUMP, TURN = 16.0, 0.5  # px and rad in a tick, above which a robot was put somewhere
+NEAR = 4.0  # px from the requested pose
 SETTLE = 12  # ticks for which a new order must hold; otherwise robots side by side would swap constantly
 SHOWN_FROM = 25  # ticks of driving the wrong way before it is reported
 
@@ -23,6 +26,11 @@ class RaceEvent(NamedTuple):
     mud        -          has left the track
     finish     final place
     up, down   new place
+    asked      -          the game asks for it to be put back on the track
+    back       -          it is back
+
+    Only in party (see party/events.py): item and used (the item), boost, spin, resisted (oil, by its shield), slip (a
+    slipstream begins), final_lap (the first one begins its last lap), close (s behind the one that finished before it).
     """
 
     kind: str
@@ -50,13 +58,15 @@ class RaceEventDetector:
         self.racers = [
             (r.passed, r.missed, r.void, r.wrong > SHOWN_FROM, r.place.on, r.finished, r.best_lap) for r in state.racers
         ]
+        self.asked = [bool(robot.recover) for robot in state.robots]
+        self.poses = [(robot.x, robot.y, robot.heading) for robot in state.robots]
 
     def _racer(self, state: Race, seat: int) -> list[RaceEvent]:
         passed, missed, void, wrong, on, finished, best = self.racers[seat]
         racer = state.racers[seat]
         found = []
         if racer.passed > passed:
-            found.append(RaceEvent("line", seat, (seat + racer.passed - 1) % LINES))
+            found.append(RaceEvent("line", seat, (racer.line + racer.passed - 1) % LINES))
             found += self._lap(state, seat, best)
         if racer.void > void:
             found.append(RaceEvent("void", seat, racer.missed - 1))
@@ -68,6 +78,11 @@ class RaceEventDetector:
             found.append(RaceEvent("mud", seat))
         if racer.finished and not finished:
             found.append(RaceEvent("finish", seat, racer.rank))
+        asked = bool(state.robots[seat].recover)
+        if asked and not self.asked[seat]:
+            found.append(RaceEvent("asked", seat))
+        if not asked and (self.asked[seat] or was_put_back(state, seat, self.poses[seat])):
+            found.append(RaceEvent("back", seat))
         return found
 
     def _lap(self, state: Race, seat: int, best: float) -> list[RaceEvent]:
@@ -100,3 +115,11 @@ class RaceEventDetector:
             RaceEvent("up" if running.index(seat) < before.index(seat) else "down", seat, 1 + running.index(seat))
             for seat in moved
         ]
+
+
+def was_put_back(state: Race, seat: int, before: tuple[float, float, float]) -> bool:
+    """True if a simulated robot was put on the requested pose in this tick; `before`: its last pose, px, px, rad."""
+    robot = state.robots[seat]
+    turn = abs((robot.heading - before[2] + math.pi) % math.tau - math.pi)
+    jumped = math.dist((robot.x, robot.y), before[:2]) > JUMP or turn > TURN
+    return jumped and math.dist((robot.x, robot.y), (robot.recover_x, robot.recover_y)) < NEAR

@@ -52,7 +52,7 @@ class GhostRecorder:
         racer = state.racers[first]
         if not racer.passed or racer.finished:
             return None
-        return self.ghost.pose(first, (state.tick - 1 + blend - racer.lap_start) * DT)
+        return self.ghost.pose(racer.line, (state.tick - 1 + blend - racer.lap_start) * DT)
 
     def _person(self, seat: int) -> bool:
         return self.players[seat] == "human"
@@ -63,7 +63,7 @@ class GhostRecorder:
         later = (racer.passed - 1) % LINES
         if self.ghost and racer.passed > 1:
             ticks = racer.splits[later] if later else racer.last_lap
-            self.ghost_deltas[seat] = ticks - self.ghost.since(seat, later or LINES) / DT, state.tick
+            self.ghost_deltas[seat] = ticks - self.ghost.since(racer.line, later or LINES) / DT, state.tick
 
     def _best_ever(self, state: Race, seat: int) -> bool:
         """Replace the ghost if the lap just completed is the best ever."""
@@ -74,7 +74,7 @@ class GhostRecorder:
             return False
         crossed = [split * DT for split in racer.best_splits]
         track = [((tick - began) * DT, pose) for tick, pose in notes]
-        self.ghost = ghosts.ghost_of(seat, racer.last_lap * DT, crossed, track)
+        self.ghost = ghosts.ghost_of(racer.line, racer.last_lap * DT, crossed, track)
         if self.writer:
             self.writer.join()
         self.writer = ghosts.save_ghost(self.folder, self.arena, self.ghost)

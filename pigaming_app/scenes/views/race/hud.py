@@ -16,15 +16,18 @@ from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SHOWN_FROM
 from pigaming_app.scenes.views.race.gaps import Gaps, figure
 from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, RaceCard, W, card_bits
+from pigaming_app.scenes.views.race.lines import flag, line_signs
 from pigaming_app.scenes.views.view import decimal
 from pigaming_app.sim.world import DT, HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, MIST, TITLE, WHITE, GlowCanvas
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, TITLE, WHITE, GlowCanvas
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import glyph, number_width
+from pigaming_app.ui.draw.text import glyph, number_width, wrap
 from pigaming_app.ui.i18n import Words
 
 MOVED = int(1.2 * HZ)  # ticks for which an arrow marks a change of place
+ANNOUNCED = int(2.5 * HZ)  # ticks for which words stand in place of the clock
+ICONS = ("", "speed", "shield", "oil")  # of `Racer.item`
 
 
 class RaceHud:
@@ -32,16 +35,21 @@ class RaceHud:
 
     def __init__(self, background: Background, state: Race, players: list[str], words: Words | None) -> None:
         self.background, self.players, self.words = background, players, words
-        self.gaps = Gaps(state)
+        self.gaps, self.signs = Gaps(state), line_signs(state)
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        self.xs = XS[len(seats)]
+        self.seats, self.xs = seats, XS[len(seats)]
         self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
         self.parts = HudParts(background)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: (direction, tick) of its last change of place
+        self.notice: tuple[tuple[str, ...], int] = (), 0  # words in place of the clock, and the tick of their end
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
         """Record a change of place."""
         self.moves[seat] = (1 if ahead else -1), tick
+
+    def announce(self, text: str, tick: int) -> None:
+        """Show words in place of the clock for a while."""
+        self.notice = announced(text), tick + ANNOUNCED
 
     def follow(self, state: Race) -> None:
         """Record the positions after this tick."""
@@ -52,6 +60,11 @@ class RaceHud:
         for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
             card = self._card(state, seat, i + 1)
             self.parts.show(x, card, x - 8, W + 16, partial(card_bits, card, x))
+        lines, end = self.notice
+        if lines and state.tick < end:
+            bit = partial(race_cards.banner, lines, FOCUS)
+            self.parts.show("clock", lines, CLOCK.x, CLOCK.w, lambda: [(bit(), (CLOCK.x, 0), None)])
+            return
         left = _left(state)
         clock = ("left", left) if left is not None else ("time", state.tick // HZ)
         self.parts.show("clock", clock, CLOCK.x, CLOCK.w, partial(clock_bits, *clock))
@@ -61,7 +74,7 @@ class RaceHud:
         for seat in (i for i, robot in enumerate(state.robots) if robot.present):
             yield partial(race_cards.pulse, seat)
             for alarm, done in ((False, False), (True, False), (False, True)):
-                yield partial(race_cards.frame, seat, self._ai(seat), alarm, done)
+                yield partial(race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not done)
             for full in (True, False):
                 yield partial(race_cards.turbo, seat, full)
                 yield partial(race_cards.foot, seat, state.rules.laps, full)
@@ -73,13 +86,18 @@ class RaceHud:
             yield partial(glyph, char, FIGURE, ICE)
         for char in f"/{state.rules.laps}":
             yield partial(glyph, char, OF, MIST)
-        for line in range(LINES):
-            yield partial(race_cards.missed_mark, line)
-            yield from (partial(race_cards.word, self.endings[line], color, ENDING) for color in (WHITE, FOCUS))
-        for flag in (True, False):
-            yield partial(race_cards.leader, flag)
-            yield partial(race_cards.mover, flag)
+        yield from (partial(race_cards.missed_mark, sign) for sign in self.signs)
+        for ending in self.endings:
+            yield from (partial(race_cards.word, ending, color, ENDING) for color in (WHITE, FOCUS))
+        for lit in (True, False):
+            yield partial(race_cards.leader, lit)
+            yield partial(race_cards.mover, lit)
         yield from (race_cards.wrong_mark, small_flag)
+        if state.rules.party:
+            yield from (partial(race_cards.item_slot, name) for name in ICONS)
+            yield from (partial(race_cards.turbo, seat, True, True) for seat in self.seats)
+            if self.words:
+                yield partial(race_cards.banner, announced(self.words("race.last_lap")), FOCUS)
 
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS.get("race", {})
@@ -100,13 +118,20 @@ class RaceHud:
             way=FOOT if done else round(FOOT * max(0.0, min(1.0, share))),
             laps=laps,
             sign="" if done else "missed" if racer.missed else "wrong" if racer.wrong > SHOWN_FROM else "",
-            missed=racer.missed - 1,
+            missed=self.signs[racer.missed - 1],
             moved=direction if state.tick - changed_at < MOVED else 0,
             done=done,
+            item=ICONS[racer.item] if state.rules.party and not done else "none",
+            slip=bool(racer.slip) and not done,
         )
 
     def _gap(self, state: Race, seat: int) -> float:
         return self.gaps.gap(state, seat) if state.racers[seat].finished else self.gaps.shown[seat]
+
+
+def announced(text: str) -> tuple[str, ...]:
+    """Lines of an announcement that fit in place of the clock."""
+    return tuple(wrap(text, LABEL, CLOCK.w - 16, "head"))
 
 
 def clock_bits(kind: str, seconds: int) -> list[Bit]:
@@ -138,5 +163,5 @@ def signed(ticks: float) -> str:
 def small_flag() -> pygame.Surface:
     """Flag beside the clock once a robot has finished."""
     ink = GlowCanvas(120, 120)
-    race_cards.flag(ink, 58, 60, 28, WHITE)
+    flag(ink, 58, 60, 28, WHITE)
     return ink.lit(0.7)

@@ -8,13 +8,15 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.scenes.views.background import Bit
-from pigaming_app.scenes.views.hud_parts import PANEL_W, H, Y, number_bits
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit
+from pigaming_app.scenes.views.hud_parts import CLOCK, PANEL_W, H, Y, number_bits
+from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
     FOCUS,
     ICE,
+    LABEL,
     LINE,
     MIST,
     PLAYERS,
@@ -33,7 +35,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import number_width
+from pigaming_app.ui.draw.text import fit_size, number_width
 
 W, EDGE = PANEL_W, 24  # px: width of the cards, margin around their sprites
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # colours of a gain and a loss of time; the sign shows it too
@@ -44,6 +46,8 @@ LEFT, LAP, RIGHT = 16, 103, W - 14  # px: left edge of place and lap, right edge
 GAP = 122  # px, maximum width of a gap
 FOOT = W - 40  # px, length of the lap bar
 SIGNS = W - 132  # px, centre of the warnings
+ITEM = W - 122  # px, EDGE left of the centre of the item slot
+ITEM_SIZE = 31  # px, radius
 
 
 @dataclass(frozen=True)
@@ -63,12 +67,14 @@ class RaceCard:
     missed: int
     moved: int
     done: bool
+    item: str = "none"  # that it holds: "", or the name of its icon; "none": there are no items
+    slip: bool = False  # in a slipstream
 
 
 def card_bits(card: RaceCard, x: int) -> list[Bit]:
     """Pieces of a card with its left edge at `x`."""
     corner = (x - EDGE, Y - EDGE)
-    bits: list[Bit] = [(frame(card.seat, card.ai, bool(card.sign), card.done), corner, None)]
+    bits: list[Bit] = [(frame(card.seat, card.ai, bool(card.sign), card.done, card.item != "none"), corner, None)]
     number = FOCUS if card.done and card.place == 1 else WHITE
     text = str(card.place)
     bits += number_bits(text, PLACE, x + LEFT, Y + ROW, number)
@@ -76,7 +82,11 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
     bits.append((word(card.ending, number, ENDING), (after - EDGE, Y + ROW - 15 - EDGE), None))
     if card.moved:
         bits.append((mover(card.moved > 0), (x + W - 40 - EDGE, Y - EDGE), None))
-    bits += _part_lit(turbo(card.seat, True), turbo(card.seat, False), (x + 17, Y + 80), card.turbo * CELLS * CELL / 64)
+    if card.item != "none":
+        bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE), None))
+    bits += _part_lit(
+        turbo(card.seat, True, card.slip), turbo(card.seat, False), (x + 17, Y + 80), card.turbo * CELLS * CELL / 64
+    )
     bits += _part_lit(
         foot(card.seat, card.laps, True), foot(card.seat, card.laps, False), (x + 20, Y + H - 3), card.way
     )
@@ -111,13 +121,15 @@ def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], 
 
 
 @cached
-def frame(seat: int, ai: bool, alarm: bool, done: bool) -> pygame.Surface:
-    """Outline and badge of a card; red during a warning, bold after the finish."""
+def frame(seat: int, ai: bool, alarm: bool, done: bool, slot: bool) -> pygame.Surface:
+    """Outline and badge of a card; red during a warning, bold after the finish; `slot`: with a gap for an item."""
     ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
     outline, edge = cut_box(0, 0, W, H), ALARM if alarm else color
     if alarm or done:
         ink.fill(outline, dim(edge, 0.16))
     ink.line(outline, edge if alarm or done else dim(edge, 0.8), LINE if alarm or done else THIN, True)
+    if slot:
+        ink.fill(regular_polygon(6, ITEM_SIZE + 9, 0.0, ITEM + EDGE, 0.0), (0, 0, 0))
     ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
     ink.solid(cut_box(14, -20, 56, 36, 4))
     badge(ink, seat, 42, -2, 20)
@@ -144,13 +156,35 @@ def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
 
 
 @cached
-def turbo(seat: int, full: bool) -> pygame.Surface:
-    """Cells of a turbo bar, all lit or all dark."""
-    ink, color = GlowCanvas(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
+def turbo(seat: int, full: bool, slip: bool = False) -> pygame.Surface:
+    """Cells of a turbo bar, all lit or all dark; white in a slipstream, which refills it."""
+    ink = GlowCanvas(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).set_transform(EDGE, EDGE)
+    color = WHITE if slip else PLAYERS[seat]
     for i in range(CELLS):
         x = i * CELL
         ink.fill([(x + 3, -4), (x + 15, -4), (x + 13, 3), (x, 3)], color if full else dim(color, 0.2))
-    return ink.lit(0.5) if full else ink.plain()
+    return ink.lit(1.0 if slip else 0.5) if full else ink.plain()
+
+
+@cached
+def item_slot(name: str) -> pygame.Surface:
+    """Hexagon on the upper edge of a card with the icon of the item, or empty."""
+    ink = GlowCanvas(4 * EDGE, 4 * EDGE, 3).set_transform(2 * EDGE, 2 * EDGE)
+    frame = regular_polygon(6, ITEM_SIZE)
+    if not name:
+        return ink.dashes(frame, dim(MIST, 0.5), 3, 10, 7).plain()
+    ink.fill(frame, dim(FOCUS, 0.14)).line(frame, FOCUS, THIN, True)
+    return icon(ink, name, 0, 0, 19, mix(FOCUS, WHITE, 0.5), 5).lit(0.7)
+
+
+@cached
+def banner(lines: tuple[str, ...], color: Color) -> pygame.Surface:
+    """Words in place of the clock, in one or two lines."""
+    ink = GlowCanvas(CLOCK.w, HUD_HEIGHT)
+    for i, line in enumerate(lines):
+        size = fit_size(line, LABEL, CLOCK.w - 16)
+        ink.text(line, size, CLOCK.w / 2, Y + H / 2 + 54 * (i - (len(lines) - 1) / 2), color, "head", "c")
+    return ink.lit(0.8)
 
 
 @cached
@@ -184,10 +218,10 @@ def leader(done: bool) -> pygame.Surface:
 
 
 @cached
-def missed_mark(line: int) -> pygame.Surface:
-    """Warning: badge of the missed line."""
+def missed_mark(sign: int) -> pygame.Surface:
+    """Warning: sign of the missed line."""
     ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
-    badge(ink, line, 36, 44, 30)
+    draw_sign(ink, sign, 36, 44, 30)
     ink.line([(92, 22), (92, 50)], WHITE, 12)
     return ink.disc(92, 69, 8, WHITE).lit(0.7)
 
@@ -214,14 +248,3 @@ def star(x: float, y: float, r: float) -> list[Point]:
         regular_polygon(5, r * 0.45, -math.pi / 2 + math.pi / 5, x, y),
     )
     return [point for pair in zip(outer, inner, strict=True) for point in pair]
-
-
-def flag(ink: GlowCanvas, x: float, y: float, r: float, color: Color) -> None:
-    """Chequered flag on a pole, `r` px to each side."""
-    size = 2 * r / 4
-    ink.line([(x - r, y - r), (x - r, y + r)], color, max(3, r * 0.2))
-    for row in range(3):
-        for column in range(4):
-            if (row + column) % 2 == 0:
-                a, b = x - r + column * size, y - r + row * size
-                ink.fill([(a, b), (a + size, b), (a + size, b + size), (a, b + size)], color)

@@ -3,10 +3,11 @@
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from pigaming_app.games.race.state import LINES
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
+from pigaming_app.scenes.views.race.recovery import beam, way_dot
 from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites.robot import ghost as blank
 from pigaming_app.scenes.views.view import decimal
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, THIN, WHITE
 from pigaming_app.ui.draw.frame_budget import Job
@@ -15,11 +16,11 @@ from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.i18n import Words
 
 
-def jobs(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
-    """One small job per sprite; a cached sprite costs nothing."""
+def jobs(seats: Sequence[int], words: Words | None, signs: Sequence[int]) -> Iterator[Job]:
+    """One small job per sprite; a cached sprite costs nothing. `signs`: the sign of each line."""
     yield from _mud()
     yield from _rising(seats, words)
-    yield from _signs(seats, words)
+    yield from _signs(seats, words, signs)
     yield from _light(seats)
     for turn in range(race_signs.GHOST_TURNS):
         yield partial(race_signs.ghost, turn)
@@ -46,17 +47,18 @@ def _rising(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
             yield partial(race_signs.notice, words("race.last_lap"), PLAYERS[seat], "flag")
 
 
-def _signs(seats: Sequence[int], words: Words | None) -> Iterator[Job]:
+def _signs(seats: Sequence[int], words: Words | None, signs: Sequence[int]) -> Iterator[Job]:
     for below in (False, True):
         yield partial(race_signs.wrong_way, below)
-        for line in range(LINES):
-            yield partial(race_signs.missed, line, below)
-            yield partial(race_signs.missed, line, below, void_words(words))
+        for sign in signs:
+            yield partial(race_signs.missed, sign, below)
+            yield partial(race_signs.missed, sign, below, void_words(words))
         for seat in seats:
             for number in range(len(seats)):
                 ending = words(f"race.place_{number + 1}") if words else ""
                 yield partial(race_signs.place, seat, number + 1, ending, below)
     for seat in seats:
+        yield from (partial(beam, seat), partial(blank, seat), partial(way_dot, seat))
         for turn in range(HEADINGS):
             yield partial(race_signs.dash, seat, turn)
             yield partial(race_signs.tip, seat, turn)

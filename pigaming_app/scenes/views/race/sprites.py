@@ -5,7 +5,8 @@ import random
 
 import pygame
 
-from pigaming_app.scenes.views.race.hud_cards import flag, star, u_turn
+from pigaming_app.scenes.views.race.hud_cards import star, u_turn
+from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.scenes.views.race.track import MUD
 from pigaming_app.ui.draw import (
     ALARM,
@@ -20,7 +21,6 @@ from pigaming_app.ui.draw import (
     WHITE,
     Color,
     GlowCanvas,
-    badge,
     cut_box,
     dim,
     mix,
@@ -48,8 +48,8 @@ def wrong_way(below: bool) -> Sprite:
 
 
 @cached
-def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
-    """Missed-line sign: the badge of the line to return to; `words`: text of an invalid lap."""
+def missed(sign: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
+    """Missed-line sign: the sign of the line to return to; `words`: text of an invalid lap."""
     width = max([132.0, *(text_width(text, BODY) + 48 for text in words)])
     height = 84 + 46 * len(words)
     half_w, half_h = round(width / 2) + 30, height // 2 + 50
@@ -60,7 +60,7 @@ def missed(line: int, below: bool, words: tuple[str, ...] = ()) -> Sprite:
     for i, text in enumerate(words):
         ink.text(text, BODY, 0, -height / 2 + 38 + 46 * i, WHITE, "head", "c")
     middle = height / 2 - 42
-    badge(ink, line, -28, middle, 25)
+    draw_sign(ink, sign, -28, middle, 25)
     ink.line([(34, middle - 22), (34, middle + 3)], WHITE, 10).disc(34, middle + 21, 6.5, WHITE)
     sprite = trim(ink.sprite(0.8), half_w, half_h)
     return Sprite(sprite.image, sprite.dx, sprite.dy - (height // 2 - 42) * up)

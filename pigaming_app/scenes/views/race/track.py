@@ -1,4 +1,4 @@
-"""Drawing of a track: edges, kerbs, a dashed centre line, direction arrows and the four lines.
+"""Drawing of a track: edges, kerbs, a dashed centre line and direction arrows; lines.py draws what lies across it.
 
 Everything is drawn in arena px on a sheet positioned and scaled by the caller, so that a match and a preview look the
 same.
@@ -8,11 +8,9 @@ import math
 from functools import lru_cache
 from typing import NamedTuple
 
-from pigaming_app.games.race.course import Course, CoursePosition, half_width_at, locate, point_at, segment_at
-from pigaming_app.games.race.furniture import BEHIND
+from pigaming_app.games.race.course import Course, point_at, segment_at
 from pigaming_app.games.race.start import TrackPlan
-from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ALARM, BLACK, ICE, PLAYERS, Color, GlowCanvas, Point, badge, dim
+from pigaming_app.ui.draw import ALARM, ICE, Color, GlowCanvas, Point
 from pigaming_app.ui.draw.frame_budget import Steps
 
 EDGE: Color = (150, 178, 214)
@@ -21,9 +19,6 @@ MARKS: Color = (34, 45, 64)
 ARROWS: Color = (70, 88, 116)
 TIGHT = 340.0  # px: a bend of a smaller radius has a kerb
 KERB = 26.0  # px between kerb blocks
-WIDE_LINE = 24.0  # px from the centre of a line to its rails
-BADGE = 24.0  # px
-BESIDE = (34.0, 46.0, 60.0)  # px from the edge to a badge: the first position with enough space is used
 
 
 class Rib(NamedTuple):
@@ -66,7 +61,7 @@ def edges(course: Course) -> tuple[list[Point], list[Point]]:
 
 
 def draw_track(glow: GlowCanvas, crisp: GlowCanvas, track: TrackPlan) -> Steps[None]:
-    """Draw a track: glowing and crisp parts on one sheet each. The road itself is black."""
+    """Draw a track without its lines: glowing and crisp parts on one sheet each. The road itself is black."""
     course = track.course
     crisp.dashes([(rib.x, rib.y) for rib in ribs(course)], MARKS, 4, 34, 40)
     yield
@@ -77,12 +72,6 @@ def draw_track(glow: GlowCanvas, crisp: GlowCanvas, track: TrackPlan) -> Steps[N
     yield
     draw_arrows(crisp, track)
     yield
-    for seat, along in enumerate(track.lines):
-        draw_slot(crisp, course, along, seat)
-        draw_line(glow, crisp, frame(course, along), PLAYERS[seat])
-        x, y = sign_post(course, along)
-        badge(glow, seat, x, y, BADGE)
-        yield
 
 
 def draw_kerbs(ink: GlowCanvas, course: Course) -> None:
@@ -127,62 +116,3 @@ def draw_arrows(ink: GlowCanvas, track: TrackPlan) -> None:
                 c, s = math.cos(ribs(course)[k].heading), math.sin(ribs(course)[k].heading)
                 head = [(-12.0, -17.0), (0.0, 0.0), (-12.0, 17.0)]
                 ink.line([(x + a * c - b * s, y + a * s + b * c) for a, b in head], ARROWS, 6)
-
-
-class LineFrame(NamedTuple):
-    """Frame of a line: centre (px), unit vectors along and across the course, half the width (px)."""
-
-    x: float
-    y: float
-    c: float
-    s: float
-    half: float
-
-    def at(self, ahead: float, right: float) -> Point:
-        """Point at an offset from the line's centre, px."""
-        return self.x + ahead * self.c - right * self.s, self.y + ahead * self.s + right * self.c
-
-
-def frame(course: Course, along: float) -> LineFrame:
-    """Frame of a line across the course."""
-    (ax, ay), (bx, by) = point_at(course, along, -1.0), point_at(course, along, 1.0)
-    half = half_width_at(course, *segment_at(course, along))
-    return LineFrame((ax + bx) / 2, (ay + by) / 2, (by - ay) / 2, -(bx - ax) / 2, half)
-
-
-def draw_line(glow: GlowCanvas, crisp: GlowCanvas, line: LineFrame, color: Color) -> None:
-    """Two chequered columns between two bright rails."""
-    half = line.half - 3
-    crisp.fill([line.at(a, b) for a, b in ((-26, -half), (26, -half), (26, half), (-26, half))], BLACK)
-    cells = 2 * round(half / 20)
-    size = 2 * half / cells
-    for row in range(cells):
-        column, side = row % 2 - 1, -half + row * size
-        a, b = column * (WIDE_LINE - 5), (column + 1) * (WIDE_LINE - 5)
-        cell = [(a, side), (b, side), (b, side + size), (a, side + size)]
-        crisp.fill([line.at(*corner) for corner in cell], dim(color, 0.9))
-    for rail in (-WIDE_LINE, WIDE_LINE):
-        glow.neon([line.at(rail, -half), line.at(rail, half)], color, 5)
-
-
-def draw_slot(ink: GlowCanvas, course: Course, along: float, seat: int) -> None:
-    """Start slot of a robot behind its line."""
-    line, color = frame(course, along), dim(PLAYERS[seat], 0.30)
-    for side in (-1, 1):
-        corner = [(-BEHIND - 46, side * 26), (-BEHIND - 46, side * 46), (-BEHIND + 8, side * 46)]
-        ink.line([line.at(a, b) for a, b in corner], color, 4)
-
-
-@lru_cache(maxsize=32)
-def sign_post(course: Course, along: float) -> Point:
-    """Position of a line's badge: beside the track, on the side with more space."""
-    line, place = frame(course, along), CoursePosition()
-    best, room = (0.0, 0.0), -1e9
-    for out in BESIDE:
-        for side in (1, -1):
-            x, y = line.at(0.0, side * (line.half + out))
-            locate(course, x, y, place)
-            free = min(abs(place.aside) - place.half, x, WIDTH - x, y, HEIGHT - y, 44.0)
-            if free > room + 1.0:
-                best, room = (x, y), free
-    return best

@@ -1,6 +1,7 @@
 """View of a race: track, robots, ghost, mud, signs and announcements."""
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,11 +17,17 @@ from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, s
 from pigaming_app.scenes.views.race.events import SHOWN_FROM, RaceEvent, RaceEventDetector
 from pigaming_app.scenes.views.race.ghost import GhostRecorder
 from pigaming_app.scenes.views.race.hud import RaceHud
+from pigaming_app.scenes.views.race.lines import LineFrame, frame
+from pigaming_app.scenes.views.race.party.events import PartyEventDetector
+from pigaming_app.scenes.views.race.party.floor import draw_air, draw_finish, draw_floor, finish_line
+from pigaming_app.scenes.views.race.party.prewarm import party_jobs
+from pigaming_app.scenes.views.race.party.sprites import SWIRL_TURNS, swirl
 from pigaming_app.scenes.views.race.prewarm import jobs, void_words
-from pigaming_app.scenes.views.race.track import LineFrame, frame
+from pigaming_app.scenes.views.race.recovery import draw_way_back, target_of
 from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites.robot import ghost as blank
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
+from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -34,6 +41,7 @@ TROUBLE_LASTS = 6.0  # s, notice of a dropped ghost
 DASH, MARCH = 34.0, 70.0  # px between dashes, px/s of their motion
 ENTRY, STOP = 170.0, 52.0  # px before a line: target of the path to it, and its end
 SPRAYED = 60.0  # px/s, minimum speed for mud spray
+BLINK, BLINKS = 0.08, 0.6  # s: one blink, and all of a robot that was put back on the track
 
 
 class RaceView(MatchView):
@@ -42,27 +50,35 @@ class RaceView(MatchView):
     def __init__(
         self, arena: Arena, state: Race, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
-        super().__init__(state, players, options, words, RaceBackground(arena.plan))
+        self.floor = RaceBackground(arena.plan, state)
+        super().__init__(state, players, options, words, self.floor)
         self.arena = arena
         self.cards = RaceHud(self.background, state, players, words)
         self.detector = RaceEventDetector(state)
+        self.party = PartyEventDetector(state) if state.rules.party else None
+        self.signs = self.floor.signs
         self.notes = Announcements()
-        self.event_effects = RaceEffects(self.particles, self.notes, options, words)
+        self.event_effects = RaceEffects(self.particles, self.notes, options, words, self.signs)
         self.recorder: GhostRecorder | None = None
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
         self.void = void_words(words)
         self.void_at = [-VOID_LASTS] * len(state.robots)
         self.add_prewarm_jobs(self.cards.jobs(state))
-        self.add_prewarm_jobs(jobs(self.seats, words))
+        self.add_prewarm_jobs(jobs(self.seats, words, self.signs))
+        if self.party:
+            line = self.frames[finish_line(self.signs)]
+            self.add_prewarm_jobs(party_jobs(state, self.seats, line))
 
     def enable_persistence(self, folder: Path) -> None:
-        """Load the track's ghost, and save people's best laps."""
-        self.recorder = GhostRecorder(folder, self.arena, self.players)
+        """Load the track's ghost, and save people's best laps; not in party, where pads and items help."""
+        if not self.party:
+            self.recorder = GhostRecorder(folder, self.arena, self.players)
 
     def watch(self, state: Race) -> list[SoundCue]:
         self.record_poses(state)
         self.cards.follow(state)
-        events = self.detector.detect(state)
+        self.event_effects.real = self.real
+        events = self.detector.detect(state) + (self.party.detect(state) if self.party else [])
         records = self.recorder.watch(state, events) if self.recorder else []
         ghost_deltas = self.recorder.ghost_deltas if self.recorder else {}
         for event in events:
@@ -86,8 +102,12 @@ class RaceView(MatchView):
         light: Batch = []
         top: Batch = []
         poses = [self.pose(seat, blend) for seat in range(len(state.robots))]
+        if self.party:
+            self._party(under, over, state, poses)
         for seat in self.seats:
-            if state.racers[seat].missed and not state.racers[seat].finished:
+            if state.robots[seat].recover:
+                draw_way_back(over, seat, poses[seat], target_of(state, seat), self.particles.clock)
+            elif state.racers[seat].missed and not state.racers[seat].finished:
                 self._draw_path_back(over, seat, poses[seat], self.frames[state.racers[seat].missed - 1])
         self._ghost(light, state, blend)
         for seat in self.seats:
@@ -109,14 +129,36 @@ class RaceView(MatchView):
                 self.particles.bloom(x, Y, 0.4, race_cards.pulse(event.seat))
         elif event.kind == "void":
             self.void_at[event.seat] = self.particles.clock
+        elif event.kind == "final_lap" and self.words:
+            self.cards.announce(self.words("race.last_lap"), state.tick)
+        elif event.kind == "close" and self.words:
+            number = decimal(self.words, f"{event.number:.2f}")
+            self.cards.announce(self.words("race.close_finish", seconds=number), state.tick)
+
+    def _party(self, under: Batch, over: Batch, state: Race, poses: Sequence[Pose]) -> None:
+        """Draw the course of party, slipstreams, and the finish line of the last lap."""
+        clock = self.particles.clock
+        draw_floor(under, over, state, clock)
+        if self.party and self.party.final and not state.over:
+            draw_finish(under, self.frames[finish_line(self.signs)], clock)
+        for seat in self.seats:
+            if state.racers[seat].slip:
+                draw_air(under, state, seat, poses, clock)
 
     def _robot(self, under: Batch, over: Batch, light: Batch, state: Race, seat: int, pose: Pose) -> None:
         x, y, heading = pose
         robot, racer = state.robots[seat], state.racers[seat]
-        self.light_up(under, seat, pose, bool(robot.boosting))
+        self.light_up(under, seat, pose, bool(robot.boosting or racer.surge))
         if not racer.place.on:
             put(under, race_signs.splash(state.tick // 6 % 3 if abs(robot.linear) > SPRAYED else seat % 3), x, y)
-        put(over, tank(seat, step(heading, HEADINGS)), x, y)
+        since = self.particles.clock - self.event_effects.back_at[seat]
+        hidden = since < BLINKS and int(since / BLINK) % 2 and self.options.flashes != "off"
+        put(over, blank(seat) if hidden else tank(seat, step(heading, HEADINGS)), x, y)
+        if racer.shield:
+            put(light, effects.shield(seat, int(self.particles.clock * 24) % 24, self.reach(seat, 72)), x, y)
+        if racer.spin:
+            turn = int(self.particles.clock * 30) * racer.spin_way % SWIRL_TURNS
+            put(light, swirl(turn, self.reach(seat, 52)), x, y)
         if robot.turbo < 1.0 and not racer.finished:
             put(light, effects.timer_ring(FOCUS, math.ceil(48 * robot.turbo), self.reach(seat, 52), THIN), x, y)
 
@@ -144,7 +186,7 @@ class RaceView(MatchView):
             place = 1 + self.detector.order.index(seat)
             return race_signs.place(seat, place, self.cards.endings[place - 1], below)
         if racer.missed:
-            return race_signs.missed(racer.missed - 1, below, self.void if said else ())
+            return race_signs.missed(self.signs[racer.missed - 1], below, self.void if said else ())
         return race_signs.wrong_way(below) if racer.wrong > SHOWN_FROM else None
 
     def _shows_place(self, state: Race, racer: Racer) -> bool:

@@ -1,0 +1,120 @@
+"""Steering help: it keeps a forward-driving novice on the course, and leaves every other stick alone."""
+
+from collections import deque
+from math import atan2, pi
+
+import pytest
+
+from pigaming_app.ai.race.steering_help import helped_stick
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.race.course import locate, point_at, segment_at
+from pigaming_app.sim.action import set_action
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.record import digest
+from tests.cases import one_in
+
+TRACKS = arenas("race")
+
+
+class Novice:
+    """Steers fully left or right for the middle of the course, as seen `late` ticks ago; `late` 0: never steers."""
+
+    def __init__(self, late=0, helped=True):
+        self.helped = helped
+        self.turns = deque([0.0] * late)
+
+    def think(self, state, seat):
+        angular = self.steered(state, seat) if self.turns else 0.0
+        linear, angular = helped_stick(state, seat, 1.0, angular) if self.helped else (1.0, angular)
+        set_action(state.actions[seat], linear, angular, 0, 0)
+
+    def steered(self, state, seat):
+        robot, course = state.robots[seat], state.course
+        x, y = point_at(course, (state.racers[seat].place.along + 130.0) % course.length, 0.0)
+        bearing = turn_to(atan2(y - robot.y, x - robot.x) - robot.heading)
+        self.turns.append(1.0 if bearing > 0.12 else -1.0 if bearing < -0.12 else 0.0)
+        return self.turns.popleft()
+
+
+def alone(track="classic", laps=1):
+    seats = Seat("human", 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
+    return Match(Setup("race", track, seats, 2.0, 1, "standard", laps))
+
+
+def ticks_in_mud(match, novice, ticks=1000):
+    match.sit(0, novice)
+    muddy = 0
+    while not match.over and match.state.tick < ticks:
+        match.tick()
+        muddy += not match.state.racers[0].place.on
+    return muddy
+
+
+def placed(along, aside, turn=0.0):
+    """A race whose robot stands `aside` px right of the middle, turned by `turn` rad from the course, at full speed."""
+    match = alone()
+    state, robot = match.state, match.state.robots[0]
+    course = state.course
+    k, _ = segment_at(course, along)
+    robot.x, robot.y = point_at(course, along, aside)
+    robot.heading = turn + atan2(course.ys[k + 1] - course.ys[k], course.xs[k + 1] - course.xs[k])
+    robot.linear = state.rules.speed
+    locate(course, robot.x, robot.y, state.racers[0].place)
+    return state
+
+
+@pytest.mark.parametrize("track", one_in(2, TRACKS))
+@pytest.mark.parametrize("late", [0, 18])
+def test_a_novice_with_help_laps_without_touching_the_mud(track, late):
+    match = alone(track)
+    assert ticks_in_mud(match, Novice(late)) == 0
+    assert match.state.robots[0].score == 1
+
+
+def test_the_same_novice_without_help_spends_a_quarter_of_the_time_in_the_mud():
+    assert ticks_in_mud(alone(), Novice(18, helped=False), 600) > 150
+
+
+@pytest.mark.parametrize("stick", [(0.0, 0.0), (0.0, 1.0), (0.0, -0.5), (-1.0, 0.3), (-0.2, 0.0)])
+@pytest.mark.parametrize("aside", [0.0, 95.0, 160.0])
+def test_without_the_forward_stick_nothing_changes(stick, aside):
+    assert helped_stick(placed(400.0, aside), 0, *stick) == stick
+
+
+def test_the_help_is_weak_in_the_middle_and_strong_at_the_edge():
+    """On a straight, with the stick towards the left edge."""
+    turns = [helped_stick(placed(600.0, aside), 0, 1.0, -1.0)[1] for aside in (0.0, -60.0, -95.0)]
+    assert turns == sorted(turns)
+    assert turns[0] < -0.5
+    assert turns[2] > -0.2
+
+
+def test_the_help_fades_with_the_forward_stick():
+    changes = [abs(helped_stick(placed(600.0, -90.0), 0, linear, -0.5)[1] + 0.5) for linear in (0.01, 0.5, 1.0)]
+    assert changes == sorted(changes)
+    assert changes[0] < 0.02
+
+
+@pytest.mark.parametrize("turn", [pi, 2.2, -2.2])
+def test_a_person_who_turns_round_is_left_alone(turn):
+    assert helped_stick(placed(600.0, 90.0, turn), 0, 1.0, 0.4) == (1.0, 0.4)
+
+
+@pytest.mark.parametrize("field", ["missed", "lines_reversed", "finished"])
+def test_the_way_back_to_a_line_and_the_finish_are_left_alone(field):
+    state = placed(600.0, 90.0)
+    setattr(state.racers[0], field, 1)
+    assert helped_stick(state, 0, 1.0, 0.4) == (1.0, 0.4)
+
+
+def test_the_stick_stays_in_its_range_and_the_race_is_not_changed():
+    for along in range(0, 3600, 200):
+        state = placed(float(along), -90.0, 0.6)
+        before = digest(state)
+        for angular in (-1.0, 0.0, 1.0):
+            linear, turn = helped_stick(state, 0, 1.0, angular)
+            assert 0.0 < linear <= 1.0
+            assert -1.0 <= turn <= 1.0
+        assert digest(state) == before
