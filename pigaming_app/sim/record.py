@@ -12,8 +12,8 @@ A record is a class of annotated fields: `float`, `int`, another record, or a li
 `Robot()` is a plain object; every number without a default is zero. `dtype(Robot)` is the same layout as a NumPy
 record; `packed` and `unpack` copy between the two, and `digest` gives the same hash for both.
 
-Fields that a later version adds are declared with `added()`. `digest` leaves out those that have their defaults, so
-that replays of earlier versions can still be verified.
+Fields that a later version adds are declared with `added()`, lists that it makes longer with `grown()`. `digest` leaves
+out added fields and elements that have their defaults, so that replays of earlier versions can still be verified.
 """
 
 import hashlib
@@ -34,10 +34,10 @@ _ADDED: dict[type, tuple[tuple[str, int, int, bytes], ...]] = {}
 
 
 class Added:
-    """The default of a field that `digest` leaves out while it is unused."""
+    """The default of a field, or of the elements of a list from `first` on, that `digest` leaves out while unused."""
 
-    def __init__(self, default: float) -> None:
-        self.default = default
+    def __init__(self, default: float, first: int = 0) -> None:
+        self.default, self.first = default, first
 
 
 def added(default: float = 0) -> Any:
@@ -45,12 +45,18 @@ def added(default: float = 0) -> Any:
     return Added(default)
 
 
+def grown(first: int) -> Any:
+    """Declare a list of records that had `first` elements in earlier versions."""
+    return Added(0, first)
+
+
 class Field:
     """One field of a record: name, type of an element, number of elements (None: a single one), default."""
 
     def __init__(self, name: str, hint: Any, default: Any = 0) -> None:
         self.name = name
-        self.added = isinstance(default, Added)
+        self.first_added = default.first if isinstance(default, Added) else None  # index of the first added element
+        self.added = self.first_added == 0
         default = default.default if isinstance(default, Added) else default
         self.count: int | None = None
         code: str | None = None
@@ -67,6 +73,10 @@ class Field:
             raise TypeError(f"{name}: only a single number has a default")
         self.default: float = default
 
+    def inherited(self) -> Any:
+        """The default as declared, for a derived record."""
+        return self.default if self.first_added is None else Added(self.default, self.first_added)
+
     def fresh(self) -> Any:
         """The initial value of the field."""
         if self.default:
@@ -82,7 +92,7 @@ def record(cls: type[T]) -> type[T]:
     """Make a class of annotated fields (its own and those of its base) a record."""
     hints = get_type_hints(cls, include_extras=True)
     base = getattr(cls, "_fields", ())
-    inherited = {field.name: Added(field.default) if field.added else field.default for field in base}
+    inherited = {field.name: field.inherited() for field in base}
     defaults = {**inherited, **vars(cls)}
     fields = tuple(Field(name, hint, defaults.get(name, 0)) for name, hint in hints.items())
     factories = tuple((field.name, field.fresh) for field in fields)
@@ -239,6 +249,10 @@ def _spans(kind: type, path: str, offset: int, fresh: bytes) -> Iterator[tuple[s
         if field.added:
             yield f"{path}{field.name}", offset, end, fresh[offset:end]
         elif not field.code:
+            kept = field.count or 1 if field.first_added is None else field.first_added
             for i, start in enumerate(range(offset, end, size)):
-                yield from _spans(field.kind, f"{path}{field.name}.{i}.", start, fresh)
+                if i < kept:
+                    yield from _spans(field.kind, f"{path}{field.name}.{i}.", start, fresh)
+                else:
+                    yield f"{path}{field.name}.{i}", start, start + size, fresh[start : start + size]
         offset = end

@@ -9,7 +9,7 @@ from typing import Any
 from pigaming_app.ai.brain.steering import turn_stick
 from pigaming_app.ai.brain.unstick import choose_escape, ticks_stuck
 from pigaming_app.games.factory.observation import OTHERS
-from pigaming_app.games.factory.state import SLOTS, WORKERS
+from pigaming_app.games.factory.state import WORKERS
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
@@ -150,7 +150,7 @@ def update_patience(obs: Any, mind: Any) -> None:
     if mind.progress_ticks <= PATIENCE:
         return
     if mind.avoid_ticks > 0 and mind.avoided == mind.target:
-        mind.detour, mind.via = DETOUR, int(uniform(mind) * SLOTS)
+        mind.detour, mind.via = DETOUR, int(uniform(mind) * obs.slot_count)
     mind.avoided, mind.avoid_ticks = mind.target, AVOID_TICKS
     mind.closest, mind.progress_ticks, mind.plan_in = 1e9, 0, 0
 

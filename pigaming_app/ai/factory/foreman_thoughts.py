@@ -11,7 +11,7 @@ from typing import Any
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Percept, Thoughts, blend, clamp, towards
 from pigaming_app.ai.factory.driving import LOOK, ROBOT_ROOM, STUCK_TICKS, free_distance
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, cheapest_place, cost_of, distance_to
-from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, B
+from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, B
 
 DEAR = 2600.0  # cost of a job with utility 0, px
 FAR = 1600.0  # distance at which the utility of putting down falls to its minimum of 0.2, px
@@ -67,7 +67,7 @@ def _chosen(obs: Any, mind: Any, slot: Any, behaviour: str) -> str:
 def _utilities(obs: Any, mind: Any) -> dict[str, float]:
     """Utilities: for each state of a pallet that of its best job; for putting down, higher the nearer the place."""
     utilities = dict.fromkeys(JOBS, 0.0)
-    for s in range(SLOTS):
+    for s in range(obs.slot_count):
         name = LOADS.get(obs.slots[s].holds - 1, "")
         if name in JOBS and not obs.carries:
             cost = cost_of(obs, s, QUEUE)

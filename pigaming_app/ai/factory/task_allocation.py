@@ -8,7 +8,7 @@ from math import sqrt
 from typing import Any
 
 from pigaming_app.games.factory.observation import OTHERS
-from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, INPUT, OUTPUT, RAW, SLOTS, A, B
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, INPUT, OUTPUT, RAW, A, B
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
 
@@ -99,7 +99,7 @@ def cheapest_place(obs: Any, mind: Any) -> int:
     """Cheapest slot for the carried pallet; -1 if none is free."""
     state = obs.carries - 1
     best, least = -1, NO
-    for s in range(SLOTS):
+    for s in range(obs.slot_count):
         slot = obs.slots[s]
         if not slot.put or is_taken(obs, s):
             continue
@@ -112,7 +112,7 @@ def cheapest_place(obs: Any, mind: Any) -> int:
         if cost < least:
             best, least = s, cost
     if best < 0 and mind.waiting > 16:  # eight seconds without a place: return it to the shelf, and take another job
-        for s in range(SLOTS):
+        for s in range(obs.slot_count):
             slot = obs.slots[s]
             if slot.put and slot.kind == ENTRY and distance_to(obs, s) < least:
                 best, least = s, distance_to(obs, s)
@@ -123,7 +123,7 @@ def cheapest_place(obs: Any, mind: Any) -> int:
 def onward_cost(obs: Any, s: int, state: int) -> float:
     """Cost from slot s to the best free place for a pallet in `state`, px; NO if there is none."""
     least = NO
-    for t in range(SLOTS):
+    for t in range(obs.slot_count):
         slot = obs.slots[t]
         if may_take(slot, state) and not slot.holds and not is_taken(obs, t):
             cost = distance_between(obs, s, t) + input_cost(slot)
@@ -162,7 +162,7 @@ def share_out(obs: Any, mind: Any) -> int:
     alone = mate < 0 or obs.others[mate].carries  # one fork must stay free to clear the machines
     queue = NO if alone else QUEUE
     best, least = -1, NO
-    for s in range(SLOTS):
+    for s in range(obs.slot_count):
         then = cost_of(obs, s, queue)
         if then >= NO - FREES or (alone and is_taken(obs, s)):
             continue
@@ -180,7 +180,7 @@ def share_out(obs: Any, mind: Any) -> int:
 def best_other(obs: Any, mate: Any, without: int, queue: float) -> float:
     """Cost of the mate's best job without slot `without`, px; 3000 if there is none."""
     least = 3000.0
-    for s in range(SLOTS):
+    for s in range(obs.slot_count):
         if s == without:
             continue
         then = cost_of(obs, s, queue)
@@ -197,7 +197,7 @@ def waiting_place(obs: Any, mind: Any) -> int:
     """Slot to wait at: a future place for the load, an output about to be ready, or home."""
     best, least = -1, NO
     state = obs.carries - 1
-    for s in range(SLOTS):
+    for s in range(obs.slot_count):
         slot = obs.slots[s]
         if obs.carries:
             good = may_take(slot, state) or (state == DAMAGED and slot.kind == ENTRY and slot.mine == 1)

@@ -17,6 +17,9 @@ worker = "right"         # the side on which its worker stands, perpendicular to
 
 [[worker]]               # three: their resting places
 at = [800, 450]
+
+[[shared]]               # up to four: slots on the floor for both teams, in the variant party
+at = [740, 130]
 """
 
 from dataclasses import dataclass
@@ -29,8 +32,12 @@ from pigaming_app.games.factory.state import (
     FORK,
     ICE,
     INPUT,
+    MAX_SHARED,
+    NOBODY,
     OUTPUT,
     REACH,
+    SHARED,
+    SHARED_SLOTS,
     SHELVES,
     TEAMS,
     WORKERS,
@@ -54,7 +61,7 @@ SHELF = 88.0  # px between slots of a warehouse
 
 @dataclass(frozen=True)
 class SlotSpec:
-    """A slot, of a team (`machine` is -1) or of a machine (`team` is -1); px."""
+    """A slot, of a team (`machine` is -1), of a machine (`team` is NOBODY), or shared (both are); px."""
 
     kind: int
     team: int
@@ -77,7 +84,7 @@ class MachineSpec:
 
 @dataclass(frozen=True)
 class Floor:
-    """The parts of a floor besides walls and starts. `slots` in the order of `Factory.slots`."""
+    """The parts of a floor besides walls and starts. `slots` in the order of `Factory.slots`, at least SHARED_SLOTS."""
 
     slots: tuple[SlotSpec, ...]
     machines: tuple[MachineSpec, ...]
@@ -87,7 +94,7 @@ class Floor:
 
 def read(table: TomlTable) -> Layout:
     """Parse a floor: warehouses, machines, aisle and workers. Raises FieldError."""
-    table.only("title", "start", "aisle", "warehouse", "machine", "worker")
+    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared")
     starts = read_starts(table)
     machines = tuple(_machine(entry) for entry in table.tables("machine"))
     if sorted(machine.kind for machine in machines) != [A, A, B, B]:
@@ -95,7 +102,7 @@ def read(table: TomlTable) -> Layout:
     homes = tuple(_home(entry) for entry in table.tables("worker"))
     if len(homes) != WORKERS:
         raise table.error("worker", f"{len(homes)} workers, but there must be {WORKERS}")
-    slots = (*_shelves(table), *_machine_slots(machines))
+    slots = (*_shelves(table), *_machine_slots(machines), *_shared_slots(table))
     floor = Floor(slots, machines, homes, _aisle(table.table("aisle")))
     layout = Layout(tuple(wall for machine in machines for wall in _body(machine)), starts, floor)
     _check_reachable(layout, floor)
@@ -152,10 +159,18 @@ def _shelves(table: TomlTable) -> tuple[SlotSpec, ...]:
 
 def _machine_slots(machines: tuple[MachineSpec, ...]) -> tuple[SlotSpec, ...]:
     return tuple(
-        SlotSpec(kind, -1, m, machine.x + offset * machine.flow[0], machine.y + offset * machine.flow[1])
+        SlotSpec(kind, NOBODY, m, machine.x + offset * machine.flow[0], machine.y + offset * machine.flow[1])
         for m, machine in enumerate(machines)
         for kind, offset in ((INPUT, -SLOT_AT), (OUTPUT, SLOT_AT))
     )
+
+
+def _shared_slots(table: TomlTable) -> tuple[SlotSpec, ...]:
+    """The shared slots of a floor, if any. Raises FieldError."""
+    entries = table.tables("shared")
+    if len(entries) > MAX_SHARED:
+        raise table.error("shared", f"{len(entries)} shared slots, but there may be {MAX_SHARED}")
+    return tuple(SlotSpec(SHARED, NOBODY, -1, *_home(entry)) for entry in entries)
 
 
 def _body(machine: MachineSpec) -> tuple[WallSpec, WallSpec]:
@@ -190,4 +205,6 @@ def _check_reachable(layout: Layout, floor: Floor) -> None:
 
 
 def _name(k: int, slot: SlotSpec) -> str:
+    if slot.kind == SHARED:
+        return f"shared[{k - SHARED_SLOTS + 1}]"
     return f"machine[{slot.machine + 1}]" if slot.machine >= 0 else f"warehouse[{k // SHELVES + 1}]"

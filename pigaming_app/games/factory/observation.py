@@ -8,11 +8,11 @@ from math import atan2, cos, sin, sqrt
 from typing import Annotated, Any
 
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import INPUT, SLOTS, WORKERS
+from pigaming_app.games.factory.state import INPUT, SHARED_SLOTS, SLOTS, WORKERS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
+from pigaming_app.sim.record import added, grown, record
 from pigaming_app.sim.world import ROBOTS
 
 OTHERS = ROBOTS - 1
@@ -96,7 +96,7 @@ class Observation:
     lead: int  # own team's deliveries less the other team's
     others: Annotated[list[Other], OTHERS]
     people: Annotated[list[Person], WORKERS]
-    slots: Annotated[list[SlotView], SLOTS]
+    slots: Annotated[list[SlotView], SLOTS] = grown(SHARED_SLOTS)
     waypoint_x: float  # waypoint of the route
     waypoint_y: float
     waypoint_bearing: float
@@ -104,6 +104,7 @@ class Observation:
     goal_bearing: float
     goal_distance: float  # straight-line
     straight: int  # 1: the straight line to the goal is clear
+    slot_count: int = added(SHARED_SLOTS)  # slots that exist, from the first
 
 
 @kernel
@@ -121,9 +122,10 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     obs.lead = match.delivered[robot.team] - match.delivered[1 - robot.team]
     for i in range(OTHERS):
         observe_other(match, robot, (seat + 1 + i) % ROBOTS, senses.delay, obs.others[i])
+    obs.slot_count = match.slot_count
     for w in range(WORKERS):
         observe_person(match, robot, w, obs.people[w])
-    for s in range(SLOTS):
+    for s in range(match.slot_count):
         observe_slot(match, seat, s, obs.slots[s])
     observe_waypoint(match, robot, senses, obs)
 

@@ -25,7 +25,6 @@ from pigaming_app.games.factory.state import (
     OUTPUT,
     PALLETS,
     RAW,
-    SLOTS,
     TEAMS,
     WAITING,
     WORKERS,
@@ -91,7 +90,7 @@ def use_fork(match: Any, k: int) -> None:
 def slot_for(match: Any, k: int, x: float, y: float) -> int:
     """The slot nearest to (x, y) at which robot k can lift or set down; -1 if none is within reach."""
     best, nearest2 = -1, match.rules.reach * match.rules.reach
-    for s in range(SLOTS):
+    for s in range(match.slot_count):
         slot = match.slots[s]
         dx, dy = x - slot.x, y - slot.y
         distance2 = dx * dx + dy * dy

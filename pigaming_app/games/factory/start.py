@@ -10,18 +10,24 @@ from pigaming_app.games.factory.state import (
     ICE,
     MAX_PALLETS,
     RAW,
+    SHARED_SLOTS,
     WAITING,
     Factory,
     Rules,
 )
-from pigaming_app.games.game import PAIRS, Setup, Variant, named
+from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant, named
 from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 PALLETS = Rules().pallets  # per team, the default goal
 GOALS = tuple(range(2, MAX_PALLETS + 1))
-VARIANTS = named(Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1)))
+OVERTIME = 30  # s
+VARIANTS = named(
+    Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1)),
+    Variant("party", (2, 3, 5), 3, team_mode=PAIRS, teams=(0, 1, 0, 1), overtime=OVERTIME),
+    Variant("together", (3, 5, 8), 5, (4, 6, 8, 10, 12), 8, ALLIES, teams=(0, 0, 0, 0)),
+)
 STEPS_PER_DELIVERY = 1000.0  # steps of work that weigh as much as one delivery: more than a match can have
 
 
@@ -56,7 +62,8 @@ def _start_indices(setup: Setup) -> list[int]:
 
 def _place_equipment(match: Factory, floor: Floor) -> None:
     """Place slots, machines, people and the aisle."""
-    for slot, spec in zip(match.slots, floor.slots, strict=True):
+    match.slot_count = len(floor.slots) if match.rules.party else SHARED_SLOTS
+    for slot, spec in zip(match.slots, floor.slots[: match.slot_count], strict=False):
         slot.kind, slot.team, slot.machine, slot.x, slot.y = spec.kind, spec.team, spec.machine, spec.x, spec.y
     for machine, body in zip(match.machines, floor.machines, strict=True):
         machine.kind, machine.x, machine.y = body.kind, body.x, body.y

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from pigaming_app.games.factory.pedestrians import Motion
 from pigaming_app.sim.flow_field import Route
-from pigaming_app.sim.record import record
+from pigaming_app.sim.record import added, grown, record
 from pigaming_app.sim.world import HZ, ROBOTS, World
 
 ICE, FIRE = 0, 1  # the teams
@@ -21,13 +21,17 @@ WORKERS = 3
 
 RAW, HALF, DONE, DAMAGED, DELIVERED = range(5)  # state of a pallet
 IN_SLOT, ON_ROBOT, IN_MACHINE, BY_WORKER, WAITING, SHIPPED = range(1, 7)  # place of a pallet; 0: it does not exist
-ENTRY, EXIT, INPUT, OUTPUT = range(4)  # kinds of slots
+ENTRY, EXIT, INPUT, OUTPUT, SHARED = range(5)  # kinds of slots; SHARED: on the floor, for both teams, in party
 A, B = range(2)  # kinds of machines: A makes raw pallets half done, B finishes them
 RESTING, GOING, WORKING, FETCHING, CARRYING = range(5)  # task of a worker
 
-# Slot indices: team t's entry from t * 2 * SHELVES, then its exit; machine m's INPUT, OUTPUT from MACHINE_SLOTS + 2 m.
+# Slot indices: team t's entry from t * 2 * SHELVES, then its exit; machine m's INPUT, OUTPUT from MACHINE_SLOTS + 2 m;
+# the shared slots from SHARED_SLOTS. A match has the first `slot_count` of them.
 MACHINE_SLOTS = TEAMS * 2 * SHELVES
-SLOTS = MACHINE_SLOTS + 2 * MACHINES
+SHARED_SLOTS = MACHINE_SLOTS + 2 * MACHINES
+MAX_SHARED = 4
+SLOTS = SHARED_SLOTS + MAX_SHARED
+NOBODY = -1  # team of a loose pallet, and of a slot that belongs to neither team
 FORK, REACH = 64.0, 40.0  # px from a robot's centre to its fork, and from there to a slot
 
 
@@ -52,6 +56,20 @@ class Rules:
     walk: float = 130.0  # speed of workers
     worker_radius: float = 20.0
     driving: float = 20.0  # slower robots do not drive over anybody
+    party: int = added()  # 1: endless orders, rush orders, loose pallets, a fast machine; points decide
+    allies: int = added()  # 1: one team, for which both warehouses work; stars by time
+    orders: int = added()  # party: pallets of a team that are under way at once
+    loose: int = added()  # party: loose pallets on the floor, at most
+    rush_every: int = added()  # party: each team's every so many-th order is a rush
+    rush: int = added()  # party: ticks from the arrival of a rush order to its deadline
+    rush_points: int = added()  # party: for a rush delivered in time; any other delivery is one point
+    claim: int = added()  # party: ticks for which a processed pallet is reserved for its owner; then anybody may take it
+    renew: int = added()  # party: ticks from a delivery to the next order, or to the next loose pallet
+    fast_every: int = added()  # party: ticks for which one machine is the fast one
+    fast_process: int = added()  # party: ticks of processing on the fast machine, which needs no worker
+    overtime: int = added()  # party: ticks at most, after level points, in which the next point wins
+    three_stars: int = added()  # allies: ticks within which everything is delivered for three stars
+    two_stars: int = added()  # and for two; one star for everything within the time limit
 
 
 @record
@@ -59,13 +77,15 @@ class Pallet:
     """One pallet of a team, from its entry to its exit."""
 
     exists: int  # 0: not used in this match
-    team: int
+    team: int  # its owner; in party the team that last lifted it, NOBODY until then if it is loose
     state: int
     place: int
     at: int  # index of its slot, robot, machine or worker
     waited: int  # ticks in its slot (a machine's, or the exit), or since it was damaged
     steps: int  # machines that have processed it
     fed: int  # 1 + the robot that put it into the machine
+    loose: int = added()  # 1: comes back to a shared slot, half done, and belongs to the team that lifts it
+    rush: int = added()  # ticks left to its deadline as a rush order; 0: an ordinary order, or too late
 
 
 @record
@@ -96,6 +116,7 @@ class Machine:
     stalled: int  # ticks for which work has waited; counts down without work
     failed_worker: int  # 1 + the worker who last failed to reach it, until one succeeds; 0: none
     failed_at: int  # tick of that failure
+    fast: int = added()  # 1: the fast machine of the moment, in party
 
 
 @record
@@ -132,6 +153,7 @@ class Load:
     spoiled: int  # pallets put into a wrong machine
     hits: int  # workers driven over
     aim: int  # 1 + the target slot of an AI, visible to its team mate; 0: none, or a human player
+    stolen: int = added()  # pallets of the other team that this robot has taken
 
 
 @record
@@ -140,7 +162,7 @@ class Factory(World):
 
     rules: Rules
     pallets: Annotated[list[Pallet], PALLETS]
-    slots: Annotated[list[Slot], SLOTS]
+    slots: Annotated[list[Slot], SLOTS] = grown(SHARED_SLOTS)
     machines: Annotated[list[Machine], MACHINES]
     workers: Annotated[list[Worker], WORKERS]
     loads: Annotated[list[Load], ROBOTS]
@@ -148,3 +170,8 @@ class Factory(World):
     aisle: Annotated[list[float], 4]  # left, top, width, height of the walkway
     delivered: Annotated[list[int], TEAMS]
     winner: int  # 1 + the team that has delivered everything; 0: none
+    slot_count: int = added(SHARED_SLOTS)  # slots that exist, from the first
+    points: Annotated[list[int], TEAMS] = added()  # in party
+    ordered: Annotated[list[int], TEAMS] = added()  # in party: orders that have arrived so far
+    turns: Annotated[list[int], MACHINES] = added()  # in party: machines in the order in which they are the fast one
+    stars: int = added()  # of allies, once everything is delivered: 1 to 3

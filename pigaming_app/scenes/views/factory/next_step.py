@@ -7,7 +7,7 @@ where it will set one down.
 import math
 
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, FORK, INPUT, SLOTS, Factory
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, FORK, INPUT, Factory
 from pigaming_app.games.factory.workers import fits
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites import factory as crates
@@ -96,7 +96,7 @@ def next_slot(state: Factory, seat: int, before: int) -> int:
     """The nearest slot for a robot's next step; later production stages take precedence."""
     robot, load = state.robots[seat], state.loads[seat]
     best, least = -1, 1e9
-    for s in range(SLOTS):
+    for s in range(state.slot_count):
         slot = state.slots[s]
         useful = _drop_cost(state, seat, s) if load.pallet else _lift_cost(state, seat, s)
         if useful < 0.0:
