@@ -175,8 +175,8 @@ def delivered_ice() -> Samples:
 
 
 def delivered_fire() -> Samples:
-    """Fire's jingle: two blows of a low, brassy horn, the second one higher and longer."""
-    calls = ((0.0, 0.16, ("E3", "B3", "E4")), (0.17, 0.6, ("A3", "E4", "A4", "C#5")))
+    """Fire's jingle: two blows of a brassy horn, the second one higher and longer."""
+    calls = ((0.0, 0.16, ("E4", "B4")), (0.17, 0.6, ("A3", "A4", "C#5", "E5")))
     return together(
         [(start, pluck(pitch(note), seconds, 0.16, 0.8)) for start, seconds, notes in calls for note in notes]
     )
@@ -333,13 +333,17 @@ SOUNDS: dict[str, tuple[Callable[[], Samples], float]] = {  # how it is made, an
     "machine_done": (machine_done, -19.0),
     "spoiled": (spoiled, -16.0),
     "delivered_ice": (delivered_ice, -15.0),
-    "delivered_fire": (delivered_fire, -14.0),
+    "delivered_fire": (delivered_fire, -15.0),
     "one_to_go": (one_to_go, -15.0),
     "clearing": (partial(warning, False), -19.0),
     "jamming": (partial(warning, True), -18.0),
     "stolen": (stolen, -16.0),
     "rush": (lambda: melody("B5 B5 E6 B5 B5 E6", 0.06, bright=0.3), -16.0),
     "expired": (lambda: melody("E4 C4 A3", 0.12, bright=0.7), -18.0),
+    "fast": (
+        lambda: together([(0.0, sweep(180.0, 720.0, 0.45, 0.25, glide=0.2)), (0.3, pluck(pitch("E6"), 0.3, 0.07))]),
+        -17.0,
+    ),
     "star_lost": (lambda: melody("E5 C5 A4", 0.11, last=0.5, half=0.12, bright=0.3), -16.0),
     "freeze": (freeze, -17.0),
     "arrived": (lambda: melody("E4 G4", 0.09, bright=0.3), -20.0),

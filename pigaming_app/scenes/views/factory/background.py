@@ -6,6 +6,7 @@ import pygame
 
 from pigaming_app.games.factory.layout import BODY, Floor, SlotSpec
 from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_SLOTS, RAW, SHELVES, A
+from pigaming_app.games.factory.state import ICE as FIRST_TEAM
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS, star, state_icon
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -21,8 +22,8 @@ Inks = tuple[GlowCanvas, GlowCanvas]  # glowing and crisp canvas
 
 @cached
 @resumable
-def bare(floor: Floor) -> Steps[pygame.Surface]:
-    """Static canvas of a floor."""
+def bare(floor: Floor, allies: bool = False) -> Steps[pygame.Surface]:
+    """Static canvas of a floor; the warehouses of `allies` all belong to one team."""
     page = LayeredCanvas()
     for ink in (page.glow, page.crisp):
         ink.set_transform(LEFT, TOP)
@@ -30,20 +31,22 @@ def bare(floor: Floor) -> Steps[pygame.Surface]:
         for y in range(50, int(HEIGHT), 50):
             page.crisp.disc(x, y, 1.6, (26, 37, 54))
     yield
-    yield from draw_floor((page.glow, page.crisp), floor)
+    yield from draw_floor((page.glow, page.crisp), floor, allies)
     for first in range(0, MACHINE_SLOTS, SHELVES):
-        _draw_storage((page.glow, page.crisp), floor.slots[first : first + SHELVES])
+        slots = floor.slots[first : first + SHELVES]
+        _draw_storage((page.glow, page.crisp), slots, _color(slots, allies))
     page.glow.line(cut_box(-3, -3, WIDTH + 6, HEIGHT + 6, 28), WALL, THIN, True)
     yield
     return (yield from page.render_steps())
 
 
-def draw_floor(canvases: Inks, floor: Floor) -> Steps[None]:
+def draw_floor(canvases: Inks, floor: Floor, allies: bool = False) -> Steps[None]:
     """Draw aisle, warehouses and machines in arena px."""
     _aisle(canvases, floor.aisle)
     yield
     for first in range(0, MACHINE_SLOTS, SHELVES):
-        _warehouse(canvases, floor.slots[first : first + SHELVES])
+        slots = floor.slots[first : first + SHELVES]
+        _warehouse(canvases, slots, _color(slots, allies))
         yield
     for m, machine in enumerate(floor.machines):
         _machine(canvases, floor, m, machine.kind, machine.x, machine.y)
@@ -67,9 +70,13 @@ def _walker(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
         ink.line([(x + u, y + v) for u, v in limb], color, 8)
 
 
-def _warehouse(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
+def _color(slots: tuple[SlotSpec, ...], allies: bool) -> Color:
+    return TEAMS[FIRST_TEAM if allies else slots[0].team]
+
+
+def _warehouse(canvases: Inks, slots: tuple[SlotSpec, ...], color: Color) -> None:
     glow, crisp = canvases
-    color, x = TEAMS[slots[0].team], slots[0].x
+    x = slots[0].x
     top, bottom = slots[0].y, slots[-1].y
     box = cut_box(x - 54, top - 56, 108, bottom - top + 112, 16)
     glow.fill(box, dim(color, 0.05)).neon(box, color, LINE, True)
@@ -111,10 +118,10 @@ def _machine(canvases: Inks, floor: Floor, m: int, kind: int, x: float, y: float
         crisp.fill([(cx + u * c - v * s, cy + u * s + v * c) for u, v in ((8, 0), (-6, 13), (-6, -13))], WALL)
 
 
-def _draw_storage(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
+def _draw_storage(canvases: Inks, slots: tuple[SlotSpec, ...], color: Color) -> None:
     """Draw a shelf or lorry beside a warehouse, outside the arena, with the direction of the pallets."""
     glow, _ = canvases
-    color, entry = TEAMS[slots[0].team], slots[0].kind == ENTRY
+    entry = slots[0].kind == ENTRY
     left = slots[0].x < WIDTH / 2
     x, y = -MARGIN_X if left else WIDTH + MARGIN_X, (slots[0].y + slots[-1].y) / 2
     if entry:

@@ -29,7 +29,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 SHOUT = 60  # px, size of a shouted word
 POPS, LEVELS = 4, 6  # cached sizes and brightnesses of a shouted word
 OPEN_TURNS, FAST_STAGES = 8, 6  # cached stages of two animations
-RING = 50  # px, radius of the ring around a machine's output
+RING, OPEN_RING = 56, 44  # px, radii of the rings around a slot: time left, and whose its pallet is
 
 
 @cached
@@ -116,21 +116,21 @@ def draw_loose_crate(ink: GlowCanvas, state: int, x: float, y: float, size: floa
 @cached
 def open_to_all(turn: int) -> Sprite:
     """Ring of both teams' colours around a pallet that either may take, at `turn` of OPEN_TURNS."""
-    half, dash = RING + 30, math.tau / 12
+    half, dash = OPEN_RING + 30, math.tau / 12
     ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
     for i in range(12):
         start = (i + 0.12 + 2 * turn / OPEN_TURNS) * dash
-        ink.arc(0, 0, RING, start, start + 0.66 * dash, TEAMS[i % 2], 6)
+        ink.arc(0, 0, OPEN_RING, start, start + 0.66 * dash, TEAMS[i % 2], 6)
     return trim(ink.lit(0.8), half, half)
 
 
 @cached
 def claimed(team: int, part: int) -> Sprite:
     """Ring of the time for which a pallet is its owner's, `part` of COUNTS."""
-    half = RING + 30
+    half = OPEN_RING + 30
     ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
-    ink.ring(0, 0, RING, dim(TEAMS[team], 0.18), 5)
-    ink.arc(0, 0, RING, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, TEAMS[team], 5)
+    ink.ring(0, 0, OPEN_RING, dim(TEAMS[team], 0.18), 5)
+    ink.arc(0, 0, OPEN_RING, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, TEAMS[team], 5)
     return trim(ink.lit(0.7), half, half)
 
 
