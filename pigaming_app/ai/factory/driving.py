@@ -3,7 +3,7 @@
 In every function `obs` is the Observation, `mind` a ForemanMind and `action` the seat's Action to set.
 """
 
-from math import cos, sin, sqrt
+from math import cos, pi, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.steering import turn_stick
@@ -21,6 +21,9 @@ AT = 24.0  # px between fork and slot within which it presses fire
 TURN_IN = 30.0  # px short of the slot, measured at the fork, at which it turns towards the slot
 ASIDE = 120.0  # px; a waiting robot makes way for a person nearer than this
 STAND_OFF = 150.0  # px from an occupied slot at which it waits
+LOITER, LOITER_TURN = 0.25, 0.2  # stick while it waits
+TO_AND_FRO = 1.6  # s in either direction
+DRAW_BACK = 0.25  # stick while it thinks
 LOOK = 130.0  # px ahead that must be free
 LOOKS, LEAN = 11, 0.32  # candidate directions around the route, and rad between neighbours
 ROBOT_ROOM = 78.0  # px between the centres of two passing robots
@@ -54,16 +57,27 @@ def drive_to(obs: Any, mind: Any, action: Any) -> None:
 
 @kernel
 def make_way(obs: Any, mind: Any, action: Any) -> None:
-    """Wait clear of people and of the slot."""
-    speed = -0.5 if obs.goal_distance < STAND_OFF - 40.0 else 0.0
+    """Wait clear of people and of the slot, driving to and fro in arcs."""
+    speed, turn = LOITER if obs.seconds_left % (2.0 * TO_AND_FRO) < TO_AND_FRO else -LOITER, LOITER_TURN
+    if obs.goal_distance < STAND_OFF - 40.0:
+        speed, turn = -0.5, 0.0
+    elif free_distance(obs, 0.0 if speed > 0.0 else pi, ROBOT_ROOM) < 40.0:
+        speed = -speed
     nearest = ASIDE
     for w in range(WORKERS):
         person = obs.people[w]
         if person.distance < nearest:
             nearest = person.distance
-            speed = -0.6 if abs(person.bearing) < 1.57 else 0.6
+            speed, turn = -0.6 if abs(person.bearing) < 1.57 else 0.6, 0.0
     mind.stuck_ticks = 0
-    set_action(action, speed, 0.0, 0, 0)
+    set_action(action, speed, turn, 0, 0)
+
+
+@kernel
+def draw_back(obs: Any, action: Any) -> None:
+    """Draw back slowly, unless a person or a robot is close behind."""
+    behind = free_distance(obs, pi, ROBOT_ROOM)
+    set_action(action, -DRAW_BACK if behind > 40.0 else 0.0, 0.3, 0, 0)
 
 
 @kernel

@@ -11,7 +11,7 @@ estimates, never in rules.
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.factory.driving import back_out, detect_stuck, drive_to, make_detour, update_patience
+from pigaming_app.ai.factory.driving import back_out, detect_stuck, draw_back, drive_to, make_detour, update_patience
 from pigaming_app.ai.factory.task_allocation import choose_job
 from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.sim.action import set_action
@@ -22,6 +22,7 @@ from pigaming_app.sim.world import HZ
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 PLAN = 25  # ticks between two allocations
+SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
 START = 20  # upper limit of the random delay before the first move, ticks
 
 
@@ -36,6 +37,8 @@ class ForemanMind:
     pause: int  # ticks of pause after each job
     noise: float  # error of cost estimates, as a share of NOISE
     dash: int  # 1: may use turbo
+    slip: float  # share of jobs to which it first sets out the wrong way
+    joint: int  # 1: considers the job of its mate when it chooses its own
     target: int  # slot number, -1: none
     near: int  # 1: wait near the target, which is occupied
     plan_in: int  # ticks until the next allocation
@@ -73,6 +76,8 @@ def act(obs: Any, mind: Any, action: Any) -> None:
     """Allocate a job when due, then work on it."""
     if obs.carries != mind.carried:  # a job has just ended
         mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause
+        if mind.slip > 0.0 and uniform(mind) < mind.slip:
+            mind.detour, mind.via = SLIP, int(uniform(mind) * obs.slot_count)
     mind.plan_in -= PERIOD
     mind.avoid_ticks -= PERIOD
     if mind.plan_in <= 0:
@@ -81,7 +86,10 @@ def act(obs: Any, mind: Any, action: Any) -> None:
     mind.resting -= PERIOD
     if obs.frozen or mind.resting > 0:
         mind.stuck_ticks = 0
-        set_action(action, 0.0, 0.0, 0, 0)
+        if obs.frozen:
+            set_action(action, 0.0, 0.0, 0, 0)
+        else:
+            draw_back(obs, action)
         return
     if mind.freeing > 0:
         back_out(obs, mind, action)
@@ -94,22 +102,23 @@ def act(obs: Any, mind: Any, action: Any) -> None:
     detect_stuck(obs, mind, action)
 
 
-def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int) -> Any:
+def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int, slip: float, joint: int) -> Any:
     """A `reset` for a strength.
 
     `speed`: share of full speed; `pause`: s after each job; `noise`: error of cost estimates, as a share of NOISE;
-    `delay`: reaction time to others, s; `dash`: 1 if it may use turbo.
+    `delay`: reaction time to others, s; `dash`: 1 if it may use turbo; `slip`: share of jobs that begin the wrong way;
+    `joint`: 1 if it considers its mate's job.
     """
 
     def fill(mind: ForemanMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
         mind.resting = int(uniform(mind) * START)  # staggered starts
         mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
-        mind.senses.delay = delay
+        mind.slip, mind.joint, mind.senses.delay = slip, joint, delay
 
     return fill
 
 
-HAND1 = BrainKind("hand1", ForemanMind, think, make_reset(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
-HAND2 = BrainKind("hand2", ForemanMind, think, make_reset(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
-HAND3 = BrainKind("hand3", ForemanMind, think, make_reset(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))
+HAND1 = BrainKind("hand1", ForemanMind, think, make_reset(0.6, 2.8, 0.8, 0.4, 0, 0.5, 0))
+HAND2 = BrainKind("hand2", ForemanMind, think, make_reset(0.85, 0.4, 0.15, 0.2, 0, 0.0, 1))
+HAND3 = BrainKind("hand3", ForemanMind, think, make_reset(1.0, 0.0, 0.03, 0.1, 1, 0.0, 1))

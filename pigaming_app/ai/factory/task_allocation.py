@@ -1,5 +1,7 @@
 """Task allocation of the factory brain: job costs, and the division of jobs between two mates.
 
+Among three or four allies, a slot that any of them has announced is left to them.
+
 A job is a slot at which to lift a pallet, or to put one down. Costs are in px of driving; times count as px at SPEED.
 In every function `obs` is the Observation and `mind` a ForemanMind.
 """
@@ -24,6 +26,9 @@ STALLED = 12.0  # s without a worker after which a pallet is taken back out of a
 SLOW = 6.0  # s without a worker before that counts as a delay; less is common
 AVOID_COST = 2000.0  # px, cost of the avoided slot, which could not be reached
 LATER = 260.0  # px, cost of a raw pallet, so that pallets nearer to completion come first
+RUSH = 700.0  # px, bonus of a rush order that can still be delivered in time
+RUSH_TIMES = 34.0, 19.0, 6.0  # s that a raw, half-done or done pallet needs at least to be delivered
+FAST = 350.0  # px, bonus of the fast machine
 
 
 @kernel
@@ -68,10 +73,10 @@ def distance_between(obs: Any, s: int, t: int) -> float:
 
 @kernel
 def input_cost(slot: Any) -> float:
-    """Cost of an input whose machine cannot start at once, px."""
+    """Cost of an input whose machine cannot start at once, px; negative for the fast machine."""
     if slot.kind != INPUT:
         return 0.0
-    return delay(slot) + (BLOCKED if slot.output_blocked else 0.0)
+    return delay(slot) + (BLOCKED if slot.output_blocked else 0.0) - (FAST if slot.fast else 0.0)
 
 
 @kernel
@@ -145,6 +150,8 @@ def cost_of(obs: Any, s: int, queue: float) -> float:
     if state == DAMAGED:
         return NO
     then = onward_cost(obs, s, state)
+    if then < NO and slot.rush > RUSH_TIMES[state]:
+        then -= RUSH
     if may_take(slot, state):  # in its right place: move it only if the machine stalls and another place is cheaper
         return then if slot.kind == INPUT and slot.stalled > STALLED and then < slot.stalled * SPEED else NO
     if slot.kind == OUTPUT:  # any pallet here blocks its machine
@@ -155,11 +162,11 @@ def cost_of(obs: Any, s: int, queue: float) -> float:
 @kernel
 def share_out(obs: Any, mind: Any) -> int:
     """Slot to lift from next, minimising the joint cost of this job and the mate's best other one; -1 if none."""
-    mate = -1
+    mate, mates = -1, 0
     for i in range(OTHERS):
         if obs.others[i].present and obs.others[i].mate:
-            mate = i
-    alone = mate < 0 or obs.others[mate].carries  # one fork must stay free to clear the machines
+            mate, mates = i, mates + 1
+    alone = mates != 1 or obs.others[mate].carries  # one fork must stay free to clear the machines
     queue = NO if alone else QUEUE
     best, least = -1, NO
     for s in range(obs.slot_count):
@@ -169,7 +176,7 @@ def share_out(obs: Any, mind: Any) -> int:
         cost = distance_to(obs, s) + then + avoid_cost(mind, s) - (KEEP if mind.target == s else 0.0)
         if mind.noise > 0.0:
             cost += mind.noise * NOISE * uniform(mind)
-        if not alone:
+        if not alone and mind.joint:
             cost += best_other(obs, obs.others[mate], s, queue)
         if cost < least:
             best, least = s, cost

@@ -8,7 +8,7 @@ from math import atan2, cos, sin, sqrt
 from typing import Annotated, Any
 
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import INPUT, SHARED_SLOTS, SLOTS, WORKERS
+from pigaming_app.games.factory.state import INPUT, NOBODY, SHARED_SLOTS, SLOTS, WORKERS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.kernel import kernel
@@ -61,7 +61,7 @@ class SlotView:
     """A slot, as observed by one robot."""
 
     kind: int
-    mine: int  # 1: of the own team, 0: of a machine, -1: of the other team
+    mine: int  # 1: of the own team, 0: of a machine or shared, -1: of the other team
     machine: int
     makes: int  # kind of the machine, -1: a warehouse slot
     x: float
@@ -73,6 +73,8 @@ class SlotView:
     wait: float  # s until the machine is done; 0: it is idle
     stalled: float  # of an input: s for which work has waited for a worker; counts down without work
     ours: int  # 1: the pallet in process, or in the output, belongs to the own team
+    rush: float = added()  # s left to the deadline of its pallet, a rush order; 0: none
+    fast: int = added()  # 1: a slot of the fast machine
 
 
 @record
@@ -93,7 +95,7 @@ class Observation:
     carries: int  # 1 + the state of its pallet, 0: none
     refused: int
     seconds_left: float
-    lead: int  # own team's deliveries less the other team's
+    lead: int  # own team's deliveries less the other team's; in party points
     others: Annotated[list[Other], OTHERS]
     people: Annotated[list[Person], WORKERS]
     slots: Annotated[list[SlotView], SLOTS] = grown(SHARED_SLOTS)
@@ -104,6 +106,7 @@ class Observation:
     goal_bearing: float
     goal_distance: float  # straight-line
     straight: int  # 1: the straight line to the goal is clear
+    rush: float = added()  # s left to the deadline of its pallet, a rush order; 0: none
     slot_count: int = added(SHARED_SLOTS)  # slots that exist, from the first
 
 
@@ -118,8 +121,11 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     obs.fork_y = robot.y + rules.fork * sin(robot.heading)
     obs.turbo, obs.frozen, obs.refused = robot.turbo, load.frozen, load.refused
     obs.carries = match.pallets[load.pallet - 1].state + 1 if load.pallet else 0
+    obs.rush = match.pallets[load.pallet - 1].rush * 0.02 if load.pallet else 0.0
     obs.seconds_left = (rules.ticks - match.tick) * 0.02
     obs.lead = match.delivered[robot.team] - match.delivered[1 - robot.team]
+    if rules.party:
+        obs.lead = match.points[robot.team] - match.points[1 - robot.team]
     for i in range(OTHERS):
         observe_other(match, robot, (seat + 1 + i) % ROBOTS, senses.delay, obs.others[i])
     obs.slot_count = match.slot_count
@@ -162,14 +168,15 @@ def observe_slot(match: Any, seat: int, s: int, seen: Any) -> None:
     """Fill in slot s, as observed by the robot of a seat."""
     slot, team = match.slots[s], match.robots[seat].team
     seen.kind, seen.machine, seen.x, seen.y = slot.kind, slot.machine, slot.x, slot.y
-    seen.mine = 0 if slot.machine >= 0 else 1 if slot.team == team else -1
+    seen.mine = 0 if slot.team == NOBODY else 1 if slot.team == team else -1
     seen.holds = match.pallets[slot.pallet - 1].state + 1 if slot.pallet else 0
+    seen.rush = match.pallets[slot.pallet - 1].rush * 0.02 if slot.pallet else 0.0
     seen.lift = 1 if may_lift(match, seat, s) else 0
     seen.put = 1 if match.loads[seat].pallet and may_set_down(match, seat, s) else 0
     seen.makes, seen.wait, seen.stalled, seen.output_blocked, seen.ours = -1, 0.0, 0.0, 0, 0
     if slot.machine >= 0:
         machine = match.machines[slot.machine]
-        seen.makes = machine.kind
+        seen.makes, seen.fast = machine.kind, machine.fast
         seen.wait = machine.left * 0.02 if machine.pallet else 0.0
         if slot.kind == INPUT:
             seen.stalled = machine.stalled * 0.02

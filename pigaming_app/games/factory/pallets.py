@@ -6,10 +6,13 @@ from pigaming_app.games.factory.state import (
     BY_WORKER,
     DAMAGED,
     ENTRY,
+    EXIT,
     IN_MACHINE,
     IN_SLOT,
     MAX_PALLETS,
     ON_ROBOT,
+    PALLETS,
+    SHARED_SLOTS,
     SHELVES,
     SHIPPED,
     WAITING,
@@ -43,15 +46,21 @@ def link(match: Any, place: int, at: int, content: int) -> None:
 
 
 @kernel
-def first_slot(team: int, kind: int) -> int:
-    """Index of the first slot of a team's entry or exit."""
-    return team * 2 * SHELVES + (0 if kind == ENTRY else SHELVES)
+def first_slot(side: int, kind: int) -> int:
+    """Index of the first slot of an entry or exit, `side` being the team whose warehouses these are on the floor."""
+    return side * 2 * SHELVES + (0 if kind == ENTRY else SHELVES)
 
 
 @kernel
-def free_shelf(match: Any, team: int, kind: int) -> int:
-    """The first free slot of a team's entry or exit that no worker is carrying a pallet to; -1 if there is none."""
-    first = first_slot(team, kind)
+def side_of(match: Any, p: int) -> int:
+    """The side on which pallet p belongs into the warehouses: its team's, or among allies the one it came from."""
+    return int(p // MAX_PALLETS if match.rules.allies else match.pallets[p].team)
+
+
+@kernel
+def free_shelf(match: Any, side: int, kind: int) -> int:
+    """The first free slot of an entry or exit that no worker is carrying a pallet to; -1 if there is none."""
+    first = first_slot(side, kind)
     for s in range(first, first + SHELVES):
         if not match.slots[s].pallet and not is_destination(match, s):
             return s
@@ -69,22 +78,31 @@ def is_destination(match: Any, s: int) -> bool:
 
 
 @kernel
-def stock_up(match: Any, team: int) -> None:
-    """Move waiting pallets to the free slots of their team's entry."""
-    for p in range(team * MAX_PALLETS, (team + 1) * MAX_PALLETS):
-        if match.pallets[p].exists and match.pallets[p].place == WAITING:
-            s = free_shelf(match, team, ENTRY)
+def free_shared(match: Any) -> int:
+    """The first free shared slot; -1 if there is none."""
+    for s in range(SHARED_SLOTS, match.slot_count):
+        if not match.slots[s].pallet:
+            return s
+    return -1
+
+
+@kernel
+def stock_up(match: Any, side: int) -> None:
+    """Move waiting pallets to the free slots of the entry where they wait."""
+    for p in range(PALLETS):
+        if match.pallets[p].exists and match.pallets[p].place == WAITING and match.pallets[p].at == side:
+            s = free_shelf(match, side, ENTRY)
             if s < 0:
                 return
             move(match, p, IN_SLOT, s)
 
 
 @kernel
-def ship(match: Any, team: int) -> None:
-    """Ship the oldest pallet of a team's exit if all its slots are full and more pallets are to come."""
+def ship(match: Any, team: int, side: int) -> None:
+    """Ship the oldest pallet of an exit if all its slots are full and more pallets of the team are to come."""
     if match.delivered[team] == match.rules.pallets:
         return
-    first = first_slot(team, ENTRY) + SHELVES
+    first = first_slot(side, EXIT)
     oldest, longest = -1, -1
     for s in range(first, first + SHELVES):
         p = match.slots[s].pallet - 1
@@ -92,4 +110,4 @@ def ship(match: Any, team: int) -> None:
             return
         if match.pallets[p].waited > longest:
             oldest, longest = p, match.pallets[p].waited
-    move(match, oldest, SHIPPED, team)
+    move(match, oldest, SHIPPED, side)

@@ -5,12 +5,16 @@ done, and goes to your exit; people work the machines. A pallet in the wrong mac
 ten seconds. Nobody can lift the other team's pallets. If you drive over a person, who is never hurt, you stand still
 for three seconds. The first team to deliver everything wins; both on the same tick is a tie. When the time is up, more
 deliveries win, then more work.
+
+In party, orders never end (see orders.py) and points decide; when level, the next point does. Allies share one team and
+all warehouses, and play against the clock.
 """
 
 from math import cos, sin
 from typing import Any
 
-from pigaming_app.games.factory.pallets import free_shelf, move, ship, stock_up
+from pigaming_app.games.factory.orders import is_level, order, run_orders
+from pigaming_app.games.factory.pallets import free_shelf, move, ship, side_of, stock_up
 from pigaming_app.games.factory.pedestrians import track_motion
 from pigaming_app.games.factory.state import (
     DAMAGED,
@@ -21,10 +25,13 @@ from pigaming_app.games.factory.state import (
     IN_SLOT,
     INPUT,
     MACHINE_SLOTS,
+    NOBODY,
     ON_ROBOT,
     OUTPUT,
     PALLETS,
     RAW,
+    SHARED,
+    SHELVES,
     TEAMS,
     WAITING,
     WORKERS,
@@ -50,16 +57,32 @@ def judge(match: Any) -> None:
     age_pallets(match)
     for team in range(TEAMS):
         stock_up(match, team)
+    if match.rules.party:
+        run_orders(match)
     run_machines_and_workers(match)
     for k in range(ROBOTS):
         if match.robots[k].present:
             check_people(match, k)
             steer(match, k)
     match.tick += 1
+    check_end(match)
+
+
+@kernel
+def check_end(match: Any) -> None:
+    """End the match when a team has delivered everything, or when the time is up; in party not while level."""
+    rules = match.rules
+    if rules.party:
+        late = match.tick - rules.ticks
+        if late >= rules.overtime or (late >= 0 and not is_level(match)):
+            match.over = 1
+        return
     for team in range(TEAMS):
-        if match.delivered[team] == match.rules.pallets:
+        if match.delivered[team] == rules.pallets:
             match.over, match.winner = 1, 0 if match.winner else team + 1
-    if match.tick >= match.rules.ticks:
+    if match.over and rules.allies:
+        match.stars = 3 if match.tick <= rules.three_stars else 2 if match.tick <= rules.two_stars else 1
+    if match.tick >= rules.ticks:
         match.over = 1
 
 
@@ -83,7 +106,19 @@ def use_fork(match: Any, k: int) -> None:
     if load.pallet:
         set_down(match, k, s)
     else:
-        move(match, match.slots[s].pallet - 1, ON_ROBOT, k)
+        lift(match, k, s)
+
+
+@kernel
+def lift(match: Any, k: int, s: int) -> None:
+    """Lift the pallet of slot s with robot k; from then on it belongs to the robot's team."""
+    p, team = match.slots[s].pallet - 1, match.robots[k].team
+    pallet = match.pallets[p]
+    if pallet.team != team:
+        if pallet.team != NOBODY:
+            match.loads[k].stolen += 1
+        pallet.team = team
+    move(match, p, ON_ROBOT, k)
 
 
 @kernel
@@ -101,11 +136,16 @@ def slot_for(match: Any, k: int, x: float, y: float) -> int:
 
 @kernel
 def may_lift(match: Any, k: int, s: int) -> bool:
-    """True if slot s holds an undelivered pallet of robot k's team."""
-    p = match.slots[s].pallet - 1
-    if p < 0:
+    """True if slot s holds an undelivered pallet of robot k's team, or in party one that anybody may take."""
+    slot = match.slots[s]
+    if not slot.pallet:
         return False
-    return bool(match.pallets[p].team == match.robots[k].team and match.pallets[p].state != DELIVERED)
+    pallet = match.pallets[slot.pallet - 1]
+    if pallet.state == DELIVERED:
+        return False
+    if pallet.team == match.robots[k].team or slot.kind == SHARED:
+        return True
+    return bool(match.rules.party and slot.kind == OUTPUT and pallet.waited >= match.rules.claim)
 
 
 @kernel
@@ -114,7 +154,7 @@ def may_set_down(match: Any, k: int, s: int) -> bool:
     slot = match.slots[s]
     if slot.kind == OUTPUT:
         return False
-    if slot.kind == INPUT:
+    if slot.kind == INPUT or slot.kind == SHARED:
         return bool(not slot.pallet)
     if slot.team != match.robots[k].team:
         return False
@@ -138,10 +178,21 @@ def set_down(match: Any, k: int, s: int) -> None:
             load.spoiled += 1
     elif slot.kind == EXIT:
         pallet.state = DELIVERED
-        match.delivered[pallet.team] += 1
-        load.delivered += 1
-        match.robots[k].score += 1
-        ship(match, pallet.team)
+        deliver(match, k, p, s // (2 * SHELVES))
+
+
+@kernel
+def deliver(match: Any, k: int, p: int, side: int) -> None:
+    """Count pallet p, which robot k has just set down in the exit of a side, as delivered."""
+    pallet, robot = match.pallets[p], match.robots[k]
+    pallet.state = DELIVERED
+    match.delivered[robot.team] += 1
+    match.loads[k].delivered += 1
+    points = match.rules.rush_points if pallet.rush else 1
+    robot.score += points
+    if match.rules.party:
+        match.points[robot.team] += points
+    ship(match, robot.team, side)
 
 
 @kernel
@@ -161,14 +212,17 @@ def age_pallets(match: Any) -> None:
 
 @kernel
 def replace_damaged(match: Any, p: int) -> None:
-    """Turn a damaged pallet into a raw one at the entry, or waiting for it."""
+    """Turn a damaged pallet into a raw one at the entry, or waiting for it; in party into the next order."""
+    if match.rules.party:
+        order(match, p)
+        return
     pallet = match.pallets[p]
     pallet.state, pallet.steps = RAW, 0
-    s = free_shelf(match, pallet.team, ENTRY)
+    s = free_shelf(match, side_of(match, p), ENTRY)
     if s >= 0:
         move(match, p, IN_SLOT, s)
     else:
-        move(match, p, WAITING, pallet.team)
+        move(match, p, WAITING, side_of(match, p))
 
 
 @kernel

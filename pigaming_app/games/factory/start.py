@@ -3,14 +3,17 @@
 from collections.abc import Mapping
 
 from pigaming_app.games.factory.layout import Floor
+from pigaming_app.games.factory.orders import set_out
 from pigaming_app.games.factory.pallets import stock_up
 from pigaming_app.games.factory.pedestrians import send
 from pigaming_app.games.factory.state import (
     FIRE,
     ICE,
     MAX_PALLETS,
+    NOBODY,
     RAW,
     SHARED_SLOTS,
+    TEAMS,
     WAITING,
     Factory,
     Rules,
@@ -44,16 +47,31 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
         robot.x, robot.y, robot.heading = pose.x, pose.y, pose.heading
         match.motions[i].x, match.motions[i].y = pose.x, pose.y
     _place_equipment(match, floor)
-    for team in (ICE, FIRE):
-        for i in range(match.rules.pallets):
-            pallet = match.pallets[team * MAX_PALLETS + i]
-            pallet.exists, pallet.team, pallet.state = 1, team, RAW
-            pallet.place, pallet.at = WAITING, team
-        stock_up(match, team)
+    if match.rules.party:
+        set_out(match)
+    else:
+        _place_pallets(match)
+    for side in (ICE, FIRE):
+        stock_up(match, side)
+
+
+def _place_pallets(match: Factory) -> None:
+    """The pallets of both teams, or those of the allies in turn at either entry."""
+    rules = match.rules
+    for i in range(rules.pallets if rules.allies else TEAMS * rules.pallets):
+        side = i % TEAMS
+        pallet = match.pallets[side * MAX_PALLETS + i // TEAMS]
+        pallet.exists, pallet.team, pallet.state = 1, ICE if rules.allies else side, RAW
+        pallet.place, pallet.at = WAITING, side
 
 
 def _start_indices(setup: Setup) -> list[int]:
-    """The start of each seat: the 1st and 3rd for ICE, the others for FIRE; empty seats take the rest."""
+    """The start of each seat: the 1st and 3rd for ICE, the others for FIRE; empty seats take the rest.
+
+    Allies start in the order of their seats.
+    """
+    if VARIANTS[setup.variant].team_mode == ALLIES:
+        return list(range(ROBOTS))
     free = {ICE: [0, 2], FIRE: [1, 3]}
     taken = [free[seat.team].pop(0) if seat.brain != "off" else -1 for seat in setup.seats]
     left = sorted(free[ICE] + free[FIRE])
@@ -64,7 +82,8 @@ def _place_equipment(match: Factory, floor: Floor) -> None:
     """Place slots, machines, people and the aisle."""
     match.slot_count = len(floor.slots) if match.rules.party else SHARED_SLOTS
     for slot, spec in zip(match.slots, floor.slots[: match.slot_count], strict=False):
-        slot.kind, slot.team, slot.machine, slot.x, slot.y = spec.kind, spec.team, spec.machine, spec.x, spec.y
+        team = ICE if match.rules.allies and spec.team != NOBODY else spec.team
+        slot.kind, slot.team, slot.machine, slot.x, slot.y = spec.kind, team, spec.machine, spec.x, spec.y
     for machine, body in zip(match.machines, floor.machines, strict=True):
         machine.kind, machine.x, machine.y = body.kind, body.x, body.y
         machine.spot_x, machine.spot_y = body.spot_x, body.spot_y
@@ -78,6 +97,14 @@ def set_rules(rules: Rules, setup: Setup) -> None:
     """Adapt fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     rules.pallets = setup.goal or rules.pallets
+    if setup.variant == "party":
+        rules.party, rules.pallets = 1, 0
+        rules.orders, rules.loose, rules.renew = 4, 3, 5 * HZ
+        rules.rush_every, rules.rush, rules.rush_points = 3, 40 * HZ, 2
+        rules.claim, rules.overtime = 4 * HZ, OVERTIME * HZ
+        rules.fast_every, rules.fast_process = 45 * HZ, 2 * HZ
+    elif setup.variant == "together":
+        rules.allies = 1
 
 
 def ranking_key(match: Factory, seat: int) -> float:

@@ -7,7 +7,7 @@ without progress gives up: another resting worker is sent, and other machines ta
 
 from typing import Any
 
-from pigaming_app.games.factory.pallets import first_slot, free_shelf, move
+from pigaming_app.games.factory.pallets import first_slot, free_shelf, move, side_of
 from pigaming_app.games.factory.pedestrians import send, turn_towards, walk
 from pigaming_app.games.factory.state import (
     BY_WORKER,
@@ -58,6 +58,8 @@ def run_machine(match: Any, m: int) -> None:
         machine.stalled += 1
     elif machine.stalled:
         machine.stalled -= 1
+    if machine.fast and has_work(match, m):
+        process(match, m)
     if not machine.pallet:
         if not match.slots[MACHINE_SLOTS + 2 * m + 1].pallet:
             machine.reserved = 0
@@ -86,6 +88,29 @@ def is_overdue(match: Any, m: int) -> bool:
     """True if a processed pallet has waited too long in a machine's output."""
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
     return bool(p and match.pallets[p - 1].waited >= match.rules.collect)
+
+
+@kernel
+def jams_in(match: Any, m: int) -> int:
+    """Ticks until a machine jams: until the pallet in process blocks the fitting one in the input; -1: it does not.
+
+    0 while it is jammed: work waits in the input, and the output is full.
+    """
+    machine, p = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1
+    if p < 0 or not fits(machine.kind, match.pallets[p].state):
+        return -1
+    if machine.pallet:
+        return int(machine.left)
+    return 0 if match.slots[MACHINE_SLOTS + 2 * m + 1].pallet else -1
+
+
+@kernel
+def clears_in(match: Any, m: int) -> int:
+    """Ticks until a worker is to fetch the pallet of a machine's output, 0 from then on; -1: the output is empty."""
+    p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet - 1
+    if p < 0:
+        return -1
+    return int(max(0, match.rules.collect - match.pallets[p].waited))
 
 
 @kernel
@@ -167,14 +192,20 @@ def give_up(match: Any, w: int) -> None:
 
 @kernel
 def begin(match: Any, w: int) -> None:
-    """Move the pallet from the input into the machine and start processing."""
+    """Start processing, at the machine of worker w."""
     worker = match.workers[w]
-    m = worker.machine
-    machine, p = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1
-    move(match, p, IN_MACHINE, m)
-    machine.left, machine.reserved = match.rules.process, p + 1
-    machine.stalled, machine.failed_worker = 0, 0
+    process(match, worker.machine)
     worker.task, worker.walking = WORKING, 0
+
+
+@kernel
+def process(match: Any, m: int) -> None:
+    """Move the pallet from the input into the machine and start processing."""
+    machine, p, rules = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1, match.rules
+    move(match, p, IN_MACHINE, m)
+    machine.quick, machine.reserved = machine.fast, p + 1
+    machine.left = rules.fast_process if machine.fast else rules.process
+    machine.stalled, machine.failed_worker = 0, 0
 
 
 @kernel
@@ -198,9 +229,9 @@ def fetch(match: Any, w: int, arrived: int) -> None:
     if not arrived:
         return
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet - 1
-    team = match.pallets[p].team
-    shelf = free_shelf(match, team, ENTRY)
-    worker.shelf = shelf if shelf >= 0 else first_slot(team, ENTRY)
+    side = side_of(match, p)
+    shelf = free_shelf(match, side, ENTRY)
+    worker.shelf = shelf if shelf >= 0 else first_slot(side, ENTRY)
     move(match, p, BY_WORKER, w)
     match.machines[m].worker, match.machines[m].failed_worker = 0, 0
     worker.machine, worker.task = -1, CARRYING
@@ -213,7 +244,7 @@ def put_down(match: Any, w: int) -> None:
     worker = match.workers[w]
     p = worker.pallet - 1
     if match.slots[worker.shelf].pallet:
-        move(match, p, WAITING, match.pallets[p].team)
+        move(match, p, WAITING, side_of(match, p))
     else:
         move(match, p, IN_SLOT, worker.shelf)
     go_home(match, worker)
