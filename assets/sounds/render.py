@@ -336,7 +336,7 @@ SOUNDS: dict[str, tuple[Callable[[], Samples], float]] = {  # how it is made, an
     "delivered_fire": (delivered_fire, -15.0),
     "one_to_go": (one_to_go, -15.0),
     "clearing": (partial(warning, False), -19.0),
-    "jamming": (partial(warning, True), -18.0),
+    "jamming": (partial(warning, True), -21.0),
     "stolen": (stolen, -16.0),
     "rush": (lambda: melody("B5 B5 E6 B5 B5 E6", 0.06, bright=0.3), -16.0),
     "expired": (lambda: melody("E4 C4 A3", 0.12, bright=0.7), -18.0),

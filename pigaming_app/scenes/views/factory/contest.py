@@ -6,14 +6,15 @@ from typing import Any
 
 from pigaming_app.games.factory.state import (
     DAMAGED,
+    DELIVERED,
     DONE,
     HALF,
+    INPUT,
     MACHINE_SLOTS,
     MACHINES,
     NOBODY,
     OUTPUT,
     RAW,
-    SHARED_SLOTS,
     TEAMS,
     Factory,
 )
@@ -31,23 +32,19 @@ BLINK = 8  # ticks for which the fast machine is bright, then dark, at the end o
 PLATE_X, PLATE_Y = 32.0, -32.0  # px from a crate to the plate with its worth
 
 
-def draw_floor(under: Batch, light: Batch, state: Factory, clock: float) -> None:
-    """Collect the shared slots, the rings around pallets that may be taken, and the fast machine."""
+def draw_floor(light: Batch, state: Factory, clock: float) -> None:
+    """Collect the rings around pallets that may be taken, or soon may, and the outline of the fast machine."""
     turn = int(clock * OPEN_SPEED) % signs.OPEN_TURNS
     for s in range(MACHINE_SLOTS, state.slot_count):
         slot = state.slots[s]
-        x, y = LEFT + slot.x, TOP + slot.y
-        if s >= SHARED_SLOTS:
-            put(under, signs.shared_slot(), x, y)
-        elif slot.kind != OUTPUT:
+        if not slot.pallet or slot.kind == INPUT:
             continue
-        if slot.pallet:
-            pallet = state.pallets[slot.pallet - 1]
-            left = state.rules.claim - pallet.waited if slot.kind == OUTPUT else 0
-            if left > 0:
-                put(light, signs.claimed(pallet.team, -(-crates.COUNTS * left // state.rules.claim)), x, y)
-            else:
-                put(light, signs.open_to_all(turn), x, y)
+        pallet = state.pallets[slot.pallet - 1]
+        left = state.rules.claim - pallet.waited if slot.kind == OUTPUT else 0
+        ring = signs.open_to_all(turn)
+        if left > 0:
+            ring = signs.claimed(pallet.team, -(-crates.COUNTS * left // state.rules.claim))
+        put(light, ring, LEFT + slot.x, TOP + slot.y)
     left = turn_left(state)
     for m, machine in enumerate(state.machines):
         x, y = LEFT + machine.x, TOP + machine.y
@@ -76,7 +73,7 @@ def crate(pallet: Any, tenths: int) -> Any:
 
 def mark_rush(light: Batch, top: Batch, state: Factory, pallet: Any, x: float, y: float) -> None:
     """Mark a pallet at (x, y), canvas px, if it is a rush order."""
-    if pallet.rush:
+    if pallet.rush and pallet.state != DELIVERED:
         part = -(-crates.COUNTS * pallet.rush // state.rules.rush)
         put(light, signs.rush_ring(part, pallet.rush <= URGENT), x, y)
         put(top, signs.times_two(), x + PLATE_X, y + PLATE_Y)
@@ -84,7 +81,7 @@ def mark_rush(light: Batch, top: Batch, state: Factory, pallet: Any, x: float, y
 
 def jobs() -> Iterator[Job]:
     """Prewarm jobs for these sprites."""
-    yield from (signs.shared_slot, signs.times_two, signs.next_fast)
+    yield from (signs.times_two, signs.next_fast)
     for turn in range(signs.OPEN_TURNS):
         yield partial(signs.open_to_all, turn)
     for stage in range(signs.FAST_STAGES):

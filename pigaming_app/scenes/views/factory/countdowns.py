@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from functools import partial
 from typing import NamedTuple
 
-from pigaming_app.games.factory.state import MACHINE_SLOTS, Factory
-from pigaming_app.games.factory.workers import fits
+from pigaming_app.games.factory.state import MACHINE_SLOTS, MACHINES, Factory
+from pigaming_app.games.factory.workers import clears_in, jams_in
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import factory_signs as signs
@@ -41,27 +41,11 @@ class Countdown(NamedTuple):
 
 def countdowns(state: Factory) -> Iterator[Countdown]:
     """The countdowns that are shown now."""
-    for m, machine in enumerate(state.machines):
+    for m in range(MACHINES):
         output = state.slots[MACHINE_SLOTS + 2 * m + 1]
-        if output.pallet:
-            kind, left = CLEARING, state.rules.collect - state.pallets[output.pallet - 1].waited
-        elif machine.pallet and will_jam(state, m):
-            kind, left = JAMMING, machine.left
-        else:
-            continue
-        if 0 < left <= SHOWN[kind] * HZ:
-            yield Countdown(kind, m, output.x, output.y, left)
-
-
-def will_jam(state: Factory, m: int) -> bool:
-    """True if machine m's next pallet already lies in its input."""
-    p = state.slots[MACHINE_SLOTS + 2 * m].pallet - 1
-    return p >= 0 and fits(state.machines[m].kind, state.pallets[p].state)
-
-
-def is_jammed(state: Factory, m: int) -> bool:
-    """True if machine m could work, but its output is full."""
-    return bool(will_jam(state, m) and state.slots[MACHINE_SLOTS + 2 * m + 1].pallet)
+        for kind, left in ((CLEARING, clears_in(state, m)), (JAMMING, jams_in(state, m))):
+            if 0 < left <= SHOWN[kind] * HZ:
+                yield Countdown(kind, m, output.x, output.y, left)
 
 
 def sounds(state: Factory) -> list[SoundCue]:
@@ -73,7 +57,7 @@ def sounds(state: Factory) -> list[SoundCue]:
 def draw(light: Batch, top: Batch, state: Factory) -> None:
     """Collect the rings and numbers, and the outlines of jammed machines."""
     for m, machine in enumerate(state.machines):
-        if is_jammed(state, m):
+        if jams_in(state, m) == 0:
             put(light, signs.stuck(state.tick // BLINK % 2 == 0), LEFT + machine.x, TOP + machine.y)
     for countdown in countdowns(state):
         kind, machine = countdown.kind, state.machines[countdown.machine]

@@ -3,15 +3,22 @@
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from pigaming_app.games.factory.pallets import first_slot
 from pigaming_app.games.factory.state import (
+    BY_WORKER,
     DAMAGED,
     DELIVERED,
+    ENTRY,
+    EXIT,
     IN_MACHINE,
     IN_SLOT,
     MACHINES,
+    NOBODY,
     ON_ROBOT,
-    SHELVES,
+    SHARED_SLOTS,
+    SHIPPED,
     TEAMS,
+    WAITING,
     Factory,
 )
 from pigaming_app.scenes.views.factory.star_panel import stars_left
@@ -108,7 +115,7 @@ class FactoryEventDetector:
         goal = state.rules.pallets
         for team in range(TEAMS):
             if goal and self.delivered[team] < state.delivered[team] == goal - 1:
-                out = state.slots[team * 2 * SHELVES + SHELVES]
+                out = state.slots[first_slot(team, EXIT)]
                 yield FactoryEvent(ONE_TO_GO, None, out.x, out.y, team)
         for m in range(MACHINES):
             if state.machines[m].fast and not self.fast[m]:
@@ -118,10 +125,15 @@ class FactoryEventDetector:
 
 
 def spot(state: Factory, p: int) -> tuple[float, float]:
-    """Position of a pallet in arena px: its slot, its machine, or the robot or worker carrying it."""
+    """Position of a pallet in arena px: its slot, its machine, the robot or worker carrying it, or where it waits."""
     pallet = state.pallets[p]
-    owner: Any = {IN_SLOT: state.slots, ON_ROBOT: state.robots, IN_MACHINE: state.machines}.get(
-        pallet.place, state.workers
-    )
-    at = owner[min(pallet.at, len(owner) - 1)]
-    return at.x, at.y
+    places: dict[int, tuple[Any, int]] = {
+        IN_SLOT: (state.slots, pallet.at),
+        ON_ROBOT: (state.robots, pallet.at),
+        IN_MACHINE: (state.machines, pallet.at),
+        BY_WORKER: (state.workers, pallet.at),
+        WAITING: (state.slots, SHARED_SLOTS if pallet.at == NOBODY else first_slot(pallet.at, ENTRY)),
+        SHIPPED: (state.slots, first_slot(pallet.at, EXIT)),
+    }
+    owners, i = places[pallet.place]
+    return owners[i].x, owners[i].y

@@ -94,7 +94,7 @@ class FactoryHud:
         for team in self.teams:
             yield partial(panels.frame, team)
             for form in range(DELIVERED + 1):
-                yield partial(panels.small_crate, team, form, order_cards.SIZES[0][1])
+                yield partial(panels.small_crate, team, form, order_cards.SIZES[0][0])
         if state.rules.party:
             yield from order_cards.jobs()
             if self.words:

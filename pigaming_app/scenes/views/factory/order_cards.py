@@ -19,7 +19,8 @@ RUSH_CRATE, CRATE_UP, WORTH_DOWN, BAR_DOWN = 38, 24, 14, 35  # px: size of its c
 BAR_W, BAR_H, STEPS = 48, 8, 24  # px of the bar of its remaining time, and the steps in which it shrinks
 URGENT = 8 * HZ  # ticks left from which it is urgent
 ORDER = (3, 2, 1, 4, 0)  # by state: delivered first, then by remaining steps, damaged last
-SIZES = ((4, 52, 66), (7, 40, 42), (8, 36, 38))  # at most so many pallets; px: their size and pitch
+SIZES = ((52, 66), (52, 58), (44, 48), (40, 42), (36, 38))  # px: size and pitch of ordinary ones, by falling preference
+CARD_PITCH = 68  # px
 
 
 class Order(NamedTuple):
@@ -44,10 +45,14 @@ def orders(state: Factory, team: int) -> tuple[Order, ...]:
 
 def bits(team: int, shown: tuple[Order, ...], left: float, right: float, mirrored: bool) -> Iterator[Bit]:
     """Pieces of a row of orders between two x, px; a mirrored row begins at the right."""
-    size, most_pitch = next(((size, pitch) for most, size, pitch in SIZES if len(shown) <= most), SIZES[-1][1:])
-    pitch = min(most_pitch, (right - left) / max(1, len(shown)))
-    for i, order in enumerate(shown):
-        x = right - pitch * (i + 0.5) if mirrored else left + pitch * (i + 0.5)
+    cards = sum(bool(order.left) for order in shown)
+    room = right - left - cards * CARD_PITCH
+    size, pitch = next((fit for fit in SIZES if (len(shown) - cards) * fit[1] <= room), SIZES[-1])
+    at = 0.0
+    for order in shown:
+        wide = CARD_PITCH if order.left else pitch
+        x = right - at - wide / 2 if mirrored else left + at + wide / 2
+        at += wide
         if not order.left:
             yield centred(small_crate(team, order.state, size), x, MIDDLE)
             continue

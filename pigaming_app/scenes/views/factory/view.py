@@ -55,7 +55,11 @@ class FactoryView(MatchView):
         self, arena: Arena, state: Factory, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
         super().__init__(
-            state, players, options, words, Background(partial(bare, arena.plan, bool(state.rules.allies)))
+            state,
+            players,
+            options,
+            words,
+            Background(partial(bare, arena.plan, bool(state.rules.allies), bool(state.rules.party))),
         )
         self.hud = FactoryHud(self.background, players, state, words)
         self.detector = FactoryEventDetector(state)
@@ -87,7 +91,7 @@ class FactoryView(MatchView):
         light: Batch = []
         top: Batch = []
         if state.rules.party:
-            contest.draw_floor(under, light, state, self.particles.clock)
+            contest.draw_floor(light, state, self.particles.clock)
         poses = {seat: self.pose(seat, blend) for seat in self.seats}
         self._machines(over, light, state)
         self._crates(over, light, top, state)

@@ -85,7 +85,7 @@ def task(seat: int, lifts: bool) -> Sprite:
 @cached
 def dot(color: Color) -> Sprite:
     """Dot of the thin line to a task."""
-    return trim(GlowCanvas(40, 40, 3).disc(20, 20, 3.2, color).lit(0.6), 20, 20)
+    return trim(GlowCanvas(40, 40, 3).disc(20, 20, 4, color).lit(0.6), 20, 20)
 
 
 # ---- party
@@ -132,17 +132,6 @@ def claimed(team: int, part: int) -> Sprite:
     ink.ring(0, 0, OPEN_RING, dim(TEAMS[team], 0.18), 5)
     ink.arc(0, 0, OPEN_RING, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, TEAMS[team], 5)
     return trim(ink.lit(0.7), half, half)
-
-
-@cached
-def shared_slot() -> Sprite:
-    """Slot on the floor for both teams."""
-    ink, h, k = GlowCanvas(130, 130, 3).set_transform(65, 65), 34, 20
-    for sx in (-1, 1):
-        for sy in (-1, 1):
-            corner = [(sx * h, sy * (h - k)), (sx * h, sy * h), (sx * (h - k), sy * h)]
-            ink.line(corner, dim(TEAMS[ICE] if sx < 0 else TEAMS[FIRE], 0.75), THIN)
-    return trim(ink.lit(0.3), 65, 65)
 
 
 @cached
