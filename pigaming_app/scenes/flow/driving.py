@@ -5,6 +5,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Device
 
 PARTY = "party"  # the rule set for novices
+PICTURES = {TURN: "wheel", POINT: "point"}  # icon of each style
 
 
 class DrivingStyles:
@@ -27,10 +28,10 @@ class DrivingStyles:
                 return style
         return POINT if device.kind == "pad" and variant == PARTY else TURN
 
-    def change(self, device: Device, game: str, variant: str) -> None:
-        """Step a device to the game's next style, and remember it for its kind of device."""
+    def change(self, device: Device, game: str, variant: str, delta: int) -> None:
+        """Step a device through the game's styles, and remember the new one for its kind of device."""
         names = list(DRIVING[game])
-        style = names[(names.index(self.of(device, game, variant)) + 1) % len(names)]
+        style = names[(names.index(self.of(device, game, variant)) + delta) % len(names)]
         self.chosen[device] = style
         if device.kind == "pad":
             self.settings.pad_driving = style
