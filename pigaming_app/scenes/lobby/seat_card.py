@@ -138,8 +138,9 @@ def strength(text: str, stars: int, of: int, color: Color | None) -> LitImage:
         if i < stars:
             layer.glow.fill(corners, FOCUS)
         layer.glow.line(corners, FOCUS if i < stars else STEEL, HAIR, True)
-    lines = [text] if of else wrap(text, LABEL, room)
-    size = min(fit_size(line, LABEL, room) for line in lines)
+    size = LABEL if of else BODY
+    lines = [text] if of else wrap(text, size, room)
+    size = min(fit_size(line, size, room) for line in lines)
     middle = 530 if of else 498
     for i, line in enumerate(lines):
         layer.canvas.text(line, size, MIDDLE, middle + 1.2 * size * (i - (len(lines) - 1) / 2), ICE, "head", "c")
