@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from pigaming_app.ai.brain import baselines
+from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.factory import foreman, foreman_thoughts
 from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner
@@ -55,6 +56,13 @@ RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in 
     "pitanks": (*STRENGTHS, "q1", "q2", "fsm"),
     "factory": STRENGTHS,
     "race": STRENGTHS,
+}
+
+TURN, POINT = "turn", "point"
+DRIVING: dict[str, dict[str, Driving]] = {  # driving styles for people, in the order in which the lobby steps through
+    "pitanks": {TURN: turn_and_drive, POINT: point_where_to_go},
+    "factory": {TURN: turn_and_drive, POINT: point_where_to_go},
+    "race": {TURN: turn_and_drive, POINT: point_where_to_go},
 }
 
 

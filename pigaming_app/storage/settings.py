@@ -158,6 +158,8 @@ class Settings:
     radios: list[int] = field(
         default_factory=lambda: [1, 2, 3, 4], metadata={"validator": SeatNumbers(True)}
     )  # of each marker
+    pad_driving: str = _setting("", ShortText())  # driving style last chosen on a pad; empty: never
+    keys_driving: str = _setting("", ShortText())  # the same on the keyboard
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:

@@ -13,8 +13,9 @@ from typing import Any
 
 import pygame
 
+from pigaming_app.ai.brain.driving import Driving
 from pigaming_app.ai.brain.kind import HumanPlayer
-from pigaming_app.ai.registry import make_brain, new_match
+from pigaming_app.ai.registry import DRIVING, make_brain, new_match
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
@@ -191,7 +192,10 @@ class MatchScene:
         return device.kind != "mouse" and device not in self.devices
 
     def assign_seat(self, seat: int, device: Device | None) -> None:
-        """Assign a seat to a device, or to an AI until somebody takes it."""
+        """Assign a seat to a device, or to an AI until somebody takes it. A replugged pad drives as before."""
+        before = self.devices[seat]
+        if device and before:
+            self.context.driving.inherit(device, before)
         self._sit(seat, device)
         self.idle_seats.reassign(seat, device)
         name, sign = self.runner.driver(seat, device)
@@ -301,12 +305,15 @@ class MatchScene:
         if device is None:
             self.ai_assisted.add(seat)
         brain = (
-            HumanPlayer(lambda: self._read(seat, device))
+            HumanPlayer(lambda: self._read(seat, device), self._driving(device))
             if device
             else make_brain(self.setup.game, SUBSTITUTE_BRAIN, new_seed())
         )
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else SUBSTITUTE_BRAIN
+
+    def _driving(self, device: Device) -> Driving:
+        return DRIVING[self.setup.game][self.context.driving.of(device, self.setup.game, self.setup.variant)]
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
