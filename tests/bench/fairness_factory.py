@@ -62,7 +62,9 @@ def measure(variant: str, matches: int, brain: str = "hard", robots: int = 4) ->
 def play(variant: str, floor: str, brain: str, robots: int, seeds: range) -> tuple[Any, Any]:
     """Play these matches to their ends; returns their records, and for each robot its share of standing still."""
     brains = [brain] * robots
-    setups = [make_setup("factory", brains, floor, None, seed, variant, None, list(BRAINS["factory"])) for seed in seeds]
+    setups = [
+        make_setup("factory", brains, floor, None, seed, variant, None, list(BRAINS["factory"])) for seed in seeds
+    ]
     batch = Batch(setups, [BRAINS["factory"][name] for name in brains], True)
     matches = batch.matches
     slow, still, free = (np.zeros((len(seeds), robots)) for _ in range(3))

@@ -139,7 +139,7 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
         with measuring(monkeypatch) as screen:
             MatchSetupPage(arcade.context, "pitanks", seats("pitanks")).draw(screen)
             shown = " ".join(mark.text for mark in screen.texts)
-        assert words(f"setup.{variant}_line") in shown
+        assert words(f"setup.pitanks_{variant}_line") in shown
 
 
 def test_the_button_follows_the_question(monkeypatch: pytest.MonkeyPatch, controls: Controls) -> None:

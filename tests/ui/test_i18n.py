@@ -118,8 +118,10 @@ def test_every_game_and_its_rules_have_names(language: str) -> None:
     words = Words(language)
     for game in games().values():
         assert words(f"games.{game.name}")
-        asked = game.variants if len(game.variants) > 1 else ()
-        assert all(words(f"setup.{variant}") and words(f"setup.{variant}_line") for variant in asked)
+        for variant in game.variants:
+            assert words(f"setup.{game.name}_{variant}")
+            assert words(f"setup.{game.name}_{variant}_line")
+            assert words(f"rules.{game.name}_{variant}")
 
 
 def _holes(text: str) -> set[str | None]:

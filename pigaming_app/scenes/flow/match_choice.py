@@ -9,7 +9,9 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.sim.arena import Arena, ArenaError
-from pigaming_app.storage.settings import Choice
+from pigaming_app.storage.settings import Choice, Settings
+
+KIOSK_RULES = "party"  # rule set that a kiosk offers at first, in the games that have it
 
 log = logging.getLogger(__name__)
 
@@ -54,6 +56,15 @@ def fit_choice(variant: Variant, choice: Choice) -> None:
         choice.minutes = variant.default_minutes
     if choice.goal not in variant.goals:
         choice.goal = variant.default_goal
+
+
+def reset_rules(settings: Settings) -> None:
+    """Choose the rule set of kiosks in every game that has it."""
+    for game in games().values():
+        if KIOSK_RULES in game.variants:
+            choice = settings.choice(game.name)
+            choice.variant = KIOSK_RULES
+            fit_choice(game.variants[KIOSK_RULES], choice)
 
 
 def choice_summary(context: Context, game: str) -> str:

@@ -156,8 +156,8 @@ class MatchSetupPage:
         if name == "minutes":
             return choice.chips(words("setup.minutes"), tuple(map(str, self.variant.minutes)), str(now.minutes))
         if name == "rules":
-            line = words(f"setup.{now.variant}_line")
-            return choice.row(words("setup.rules"), words(f"setup.{now.variant}"), line=line)
+            line = words(f"setup.{game.name}_{now.variant}_line")
+            return choice.row(words("setup.rules"), words(f"setup.{game.name}_{now.variant}"), line=line)
         return choice.start_button(words("setup.go"))
 
     def _change(self, name: str, delta: int) -> None:

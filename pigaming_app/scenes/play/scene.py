@@ -25,6 +25,7 @@ from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popp
 from pigaming_app.scenes.play.idle_seats import IdleSeats
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
+from pigaming_app.scenes.play.rule_card import free_place, rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import Results, SceneFactory
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -68,6 +69,7 @@ class MatchScene:
         self.runner = MatchRunner(context, self.match)
         self.countdown = Countdown(lead=LEAD_SECONDS)
         self.countdown_at = CENTRE
+        self.card_at: tuple[int, int] | None = None
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.prewarmed = self.stop_requested = self.restart_requested = False
         self.idle = self.frozen = self.notice_left = 0.0
@@ -158,6 +160,8 @@ class MatchScene:
             if self.countdown.locked:
                 self.runner.draw_captions(screen, self.devices)
                 self.countdown_at = clear_of(self.runner.robots())
+                if self.match.state.tick == 0:
+                    self._draw_rules(screen)
             self.countdown.draw(screen, words("match.go"), self.countdown_at)
         for seat, left in self.idle_seats.prompted().items():
             sentence = words("match.still", seconds=max(1, math.ceil(left)))
@@ -165,6 +169,13 @@ class MatchScene:
         self._draw_joining(screen)
         if self.notice and self.notice_left > 0.0:
             self.notice.draw(screen, 960, 206)
+
+    def _draw_rules(self, screen: pygame.Surface) -> None:
+        """Show the rule card where it hides no robot."""
+        card = rule_card(self.context.words, self.setup)
+        if self.card_at is None:
+            self.card_at = free_place((card.width, card.height), self.runner.robots(), self.countdown_at)
+        card.draw(screen, *self.card_at)
 
     def _draw_laps(self, screen: pygame.Surface) -> None:
         """Show the number of laps in place of the stopped clock."""

@@ -191,7 +191,7 @@ def conditions(words: Words, contest: ScoreTable) -> str:
     game = games()[contest.game]
     parts = [words("best.older")] if contest.older else []
     if len(game.variants) > 1 and contest.rules:
-        parts.append(words(f"setup.{contest.rules}"))
+        parts.append(words(f"setup.{contest.game}_{contest.rules}"))
     if contest.length:
         parts.append(match_length(words, game, contest.length, round(contest.length)))
     if contest.people:

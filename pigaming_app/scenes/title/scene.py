@@ -7,6 +7,7 @@ import pygame
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_choice import reset_rules
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
@@ -53,8 +54,10 @@ class Title:
         self.lab: Scene | None = None
 
     def on_enter(self) -> None:
-        """Release the sprites of matches and start the music."""
+        """Release the sprites of matches and start the music; in a kiosk, offer its rule sets again."""
         surfaces.release_matches()
+        if self.context.kiosk:
+            reset_rules(self.context.settings)
         self.context.idle = 0.0
         self.context.sounds.music(True)
         self.focus.set_spots(self._spots())

@@ -1,18 +1,23 @@
 """The lobby, operated with pads, keys and a mouse."""
 
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from pigaming_app.ai.registry import POINT, TURN
+from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.scenes.flow import match_choice
+from pigaming_app.scenes.flow.match_choice import KIOSK_RULES, last_choice
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
 from pigaming_app.scenes.lobby.view import card_rect
+from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
@@ -276,3 +281,23 @@ def test_everyone_chooses_a_driving_style_on_the_own_card_with_pad_keys_or_mouse
         arcade.press(Button.DOWN)
         arcade.press(Button.LEFT)
         assert styles() == [TURN, TURN]
+
+
+def test_a_kiosk_offers_party_rules_until_visitors_choose_others_and_again_after_the_title(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rules = games()["pitanks"]
+    variants = {**rules.variants, KIOSK_RULES: replace(rules.default, name=KIOSK_RULES)}
+    monkeypatch.setattr(match_choice, "games", lambda: {**games(), "pitanks": replace(rules, variants=variants)})
+    settings = arcade.context.settings
+    settings.choice("pitanks").variant = "plain"
+    Title(arcade.context).on_enter()
+    assert last_choice(arcade.context, "pitanks").variant == "plain", "elsewhere the last choice stays"
+    arcade.context.kiosk = True
+    title = Title(arcade.context)
+    title.on_enter()
+    assert last_choice(arcade.context, "pitanks").variant == KIOSK_RULES
+    settings.choice("pitanks").variant = "plain"
+    assert last_choice(arcade.context, "pitanks").variant == "plain"
+    title.on_enter()
+    assert last_choice(arcade.context, "pitanks").variant == KIOSK_RULES
