@@ -13,6 +13,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
+from pigaming_app.scenes.play.caption_layout import caption_places
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -84,10 +85,13 @@ class MatchRunner:
 
     def draw_captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
         """Draw the driver's caption beside each robot."""
-        for seat, robot in enumerate(self.match.state.robots):
-            if robot.present:
-                name, sign = self.driver(seat, devices[seat])
-                self.draw_beside(screen, seat, caption(name, PLAYERS[seat], sign=sign))
+        seats = [seat for seat, robot in enumerate(self.match.state.robots) if robot.present]
+        drivers = [(*self.driver(seat, devices[seat]), seat) for seat in seats]
+        captions = [caption(name, PLAYERS[seat], sign=sign) for name, sign, seat in drivers]
+        sizes = [(sheet.width, sheet.height) for sheet in captions]
+        places = caption_places(self.robots(), sizes, [self.view.reach(seat, CAPTION_GAP) for seat in seats])
+        for sheet, place in zip(captions, places, strict=True):
+            sheet.draw(screen, *place)
 
     def draw_beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
         """Draw a caption above or below a robot, where the arena has more room."""

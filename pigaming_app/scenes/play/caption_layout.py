@@ -1,0 +1,42 @@
+"""Layout of the drivers' captions beside their robots, so that they cover neither each other nor a robot."""
+
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+SCREEN = pygame.Rect(24, TOP, 1920 - 48, int(HEIGHT))
+BODY = round(RADIUS) + 8  # px, half the side of a robot's box
+
+
+def caption_places(
+    robots: Sequence[tuple[float, float]], sizes: Sequence[tuple[int, int]], reach: Sequence[float]
+) -> list[tuple[int, int]]:
+    """The centre of each robot's caption, on the canvas, px.
+
+    `robots`: positions on the canvas; `sizes`: width and height of each caption; `reach`: vertical distance of each
+    caption from its robot. A caption is above or below its robot, where the arena has more room, unless it would cover
+    another caption or robot there and less of them at another side.
+    """
+    bodies = [pygame.Rect(round(x) - BODY, round(y) - BODY, 2 * BODY, 2 * BODY) for x, y in robots]
+    placed: list[pygame.Rect] = []
+    for (x, y), size, offset in zip(robots, sizes, reach, strict=True):
+        near = offset if y < TOP + HEIGHT / 2 else -offset
+        beside = BODY + 12 + size[0] / 2
+        side = beside if x < LEFT + WIDTH / 2 else -beside
+        shifts = ((0, near), (0, -near), (side, 0), (-side, 0), (0, near + near / abs(near) * size[1]))
+        boxes = []
+        for dx, dy in shifts:
+            box = pygame.Rect((0, 0), size)
+            box.center = round(x + dx), round(y + dy)
+            boxes.append(box.clamp(SCREEN))
+        placed.append(min(boxes, key=lambda box: sum(_overlap(box, other) for other in (*placed, *bodies))))
+    return [box.center for box in placed]
+
+
+def _overlap(box: pygame.Rect, other: pygame.Rect) -> int:
+    common = box.clip(other)
+    return common.w * common.h
