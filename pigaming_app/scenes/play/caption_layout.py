@@ -12,16 +12,21 @@ SCREEN = pygame.Rect(24, TOP, 1920 - 48, int(HEIGHT))
 BODY = round(RADIUS) + 8  # px, half the side of a robot's box
 
 
-def caption_places(
+def robot_boxes(robots: Sequence[tuple[float, float]]) -> list[pygame.Rect]:
+    """The box of each robot. `robots`: positions on the canvas, px."""
+    return [pygame.Rect(round(x) - BODY, round(y) - BODY, 2 * BODY, 2 * BODY) for x, y in robots]
+
+
+def caption_boxes(
     robots: Sequence[tuple[float, float]], sizes: Sequence[tuple[int, int]], reach: Sequence[float]
-) -> list[tuple[int, int]]:
-    """The centre of each robot's caption, on the canvas, px.
+) -> list[pygame.Rect]:
+    """The box of each robot's caption, on the canvas, px.
 
     `robots`: positions on the canvas; `sizes`: width and height of each caption; `reach`: vertical distance of each
     caption from its robot. A caption is above or below its robot, where the arena has more room, unless it would cover
     another caption or robot there and less of them at another side.
     """
-    bodies = [pygame.Rect(round(x) - BODY, round(y) - BODY, 2 * BODY, 2 * BODY) for x, y in robots]
+    bodies = robot_boxes(robots)
     placed: list[pygame.Rect] = []
     for (x, y), size, offset in zip(robots, sizes, reach, strict=True):
         near = offset if y < TOP + HEIGHT / 2 else -offset
@@ -34,7 +39,7 @@ def caption_places(
             box.center = round(x + dx), round(y + dy)
             boxes.append(box.clamp(SCREEN))
         placed.append(min(boxes, key=lambda box: sum(_overlap(box, other) for other in (*placed, *bodies))))
-    return [box.center for box in placed]
+    return placed
 
 
 def _overlap(box: pygame.Rect, other: pygame.Rect) -> int:

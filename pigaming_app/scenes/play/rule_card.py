@@ -1,8 +1,8 @@
 """The rule card: name and one sentence of the rule set, shown beside the robots during the first countdown."""
 
+import math
 import re
 from collections.abc import Sequence
-from itertools import product
 
 import pygame
 
@@ -19,24 +19,27 @@ from pigaming_app.ui.widgets.caption import MARGIN, Caption
 ROOM = 900  # px, maximum width of a line
 PAD, LINE_PITCH, TITLE_PITCH = 36, 50, 58  # px
 ARENA = pygame.Rect(LEFT, TOP, int(WIDTH), int(HEIGHT)).inflate(-24, -24)
-SIGN = pygame.Rect(0, 0, 490, 490)  # a number of the countdown with its arcs
-STEP = 40  # px between two candidate places
-NEAR, FAR = 60, 150  # px from a robot to the end of its box, which includes its caption on the side with more room
+SIGN = 226  # px, radius of a number of the countdown with its arcs
+STEP = 30  # px between two candidate places
 SENTENCE = re.compile(r"(?<=[.!]) ")
-CAPTION = 210  # px, half of a caption's usual width
 
 
-def rule_card(words: Words, setup: Setup) -> Caption:
-    """The card of a match."""
+def rule_card(
+    words: Words, setup: Setup, occupied: Sequence[pygame.Rect], sign: tuple[int, int]
+) -> tuple[Caption, tuple[int, int]]:
+    """The card of a match, wide or narrow, and its centre on the canvas, where it covers least: see `free_place`."""
     key = f"{setup.game}_{setup.variant}"
-    return card(words(f"setup.{key}"), words(f"rules.{key}"))
+    cards = [card(words(f"setup.{key}"), words(f"rules.{key}"), count) for count in (2, 3)]
+    places = [free_place((sheet.width, sheet.height), occupied, sign) for sheet in cards]
+    best = min(range(len(cards)), key=lambda i: places[i][0])
+    return cards[best], places[best][1]
 
 
 @cached
 @resumable
-def card(title: str, sentence: str) -> Steps[Caption]:
-    """A plate with a title and a sentence on at most two lines."""
-    lines = in_two(sentence)
+def card(title: str, sentence: str, count: int) -> Steps[Caption]:
+    """A plate with a title and a sentence on at most `count` lines."""
+    lines = in_lines(sentence, count)
     size = min(fit_size(line, BODY, ROOM, "body") for line in lines)
     wide = 2 * PAD + round(max(text_width(title, BODY), *(text_width(line, size, "body") for line in lines)))
     high = 2 * PAD + TITLE_PITCH + LINE_PITCH * (len(lines) - 1)
@@ -51,36 +54,38 @@ def card(title: str, sentence: str) -> Steps[Caption]:
     return Caption(image, wide, high)
 
 
-def in_two(text: str) -> list[str]:
-    """A text on at most two lines: broken after a sentence if there are several, as evenly as possible."""
-    parts = SENTENCE.split(text)
-    halves = [(" ".join(parts[:i]), " ".join(parts[i:])) for i in range(1, len(parts))]
-    return list(min(halves, key=lambda half: abs(len(half[0]) - len(half[1])))) if halves else wrap_balanced(text, 2)
+def in_lines(text: str, count: int) -> list[str]:
+    """A text on at most `count` lines: on two it is broken after a sentence if there are several."""
+    parts = SENTENCE.split(text) if count == 2 else []
+    halves = [[" ".join(parts[:i]), " ".join(parts[i:])] for i in range(1, len(parts))]
+    return min(halves, key=lambda half: abs(len(half[0]) - len(half[1])), default=wrap_balanced(text, count))
 
 
-def free_place(size: tuple[int, int], robots: Sequence[tuple[float, float]], sign: tuple[int, int]) -> tuple[int, int]:
-    """The centre, on the canvas, of a card that covers as little as possible of the robots, their captions and the
-    countdown `sign`; among equal places the one nearest to the sign.
+def free_place(
+    size: tuple[int, int], occupied: Sequence[pygame.Rect], sign: tuple[int, int]
+) -> tuple[int, tuple[int, int]]:
+    """The area that a card covers, px², and its centre on the canvas, at the place where it covers least of the
+    `occupied` boxes and of the countdown `sign`; among equal places the one nearest to the sign.
     """
-    boxes = [_box(x, y) for x, y in robots]
-    number = SIGN.copy()
-    number.center = sign
     plate = pygame.Rect((0, 0), size)
     room = ARENA.inflate(-size[0], -size[1])
 
     def cost(at: tuple[int, int]) -> tuple[int, int]:
         plate.center = at
-        covered = sum(_area(plate.clip(box)) for box in boxes) + _area(plate.clip(number))
+        covered = sum(_area(plate.clip(box)) for box in occupied) + 1000 * max(0, round(SIGN - gap(plate, sign)))
         return covered, 9 * (at[0] - sign[0]) ** 2 + (at[1] - sign[1]) ** 2  # rather above or below than beside
 
     across, down = range(room.left, room.right + 1, STEP), range(room.top, room.bottom + 1, STEP)
-    return min(product((*across, room.right, sign[0]), (*down, room.bottom)), key=cost)
+    places = [(x, y) for x in (*across, room.right, sign[0]) for y in (*down, room.bottom)]
+    best = min(places, key=cost)
+    return cost(best)[0], best
 
 
-def _box(x: float, y: float) -> pygame.Rect:
-    """The area of a robot and its caption."""
-    above, below = (NEAR, FAR) if y < TOP + HEIGHT / 2 else (FAR, NEAR)
-    return pygame.Rect(round(x) - CAPTION, round(y) - above, 2 * CAPTION, above + below)
+def gap(box: pygame.Rect, at: tuple[int, int]) -> float:
+    """Distance of a box from a point outside it, px; 0 inside."""
+    dx = max(box.left - at[0], 0, at[0] - box.right)
+    dy = max(box.top - at[1], 0, at[1] - box.bottom)
+    return math.hypot(dx, dy)
 
 
 def _area(box: pygame.Rect) -> int:

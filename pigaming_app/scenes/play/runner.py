@@ -13,7 +13,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
-from pigaming_app.scenes.play.caption_layout import caption_places
+from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -85,13 +85,21 @@ class MatchRunner:
 
     def draw_captions(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
         """Draw the driver's caption beside each robot."""
+        for sheet, box in self._captions(devices):
+            sheet.draw(screen, *box.center)
+
+    def occupied(self, devices: Sequence[Device | None]) -> list[pygame.Rect]:
+        """The boxes of the robots and their captions, on the canvas."""
+        return [*robot_boxes(self.robots()), *(box for _, box in self._captions(devices))]
+
+    def _captions(self, devices: Sequence[Device | None]) -> list[tuple[Caption, pygame.Rect]]:
+        """The driver's caption of each robot, and its box."""
         seats = [seat for seat, robot in enumerate(self.match.state.robots) if robot.present]
         drivers = [(*self.driver(seat, devices[seat]), seat) for seat in seats]
         captions = [caption(name, PLAYERS[seat], sign=sign) for name, sign, seat in drivers]
         sizes = [(sheet.width, sheet.height) for sheet in captions]
-        places = caption_places(self.robots(), sizes, [self.view.reach(seat, CAPTION_GAP) for seat in seats])
-        for sheet, place in zip(captions, places, strict=True):
-            sheet.draw(screen, *place)
+        reach = [self.view.reach(seat, CAPTION_GAP) for seat in seats]
+        return list(zip(captions, caption_boxes(self.robots(), sizes, reach), strict=True))
 
     def draw_beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
         """Draw a caption above or below a robot, where the arena has more room."""

@@ -25,7 +25,7 @@ from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popp
 from pigaming_app.scenes.play.idle_seats import IdleSeats
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
-from pigaming_app.scenes.play.rule_card import free_place, rule_card
+from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import Results, SceneFactory
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -69,7 +69,7 @@ class MatchScene:
         self.runner = MatchRunner(context, self.match)
         self.countdown = Countdown(lead=LEAD_SECONDS)
         self.countdown_at = CENTRE
-        self.card_at: tuple[int, int] | None = None
+        self.rule_card: tuple[Caption, tuple[int, int]] | None = None
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.prewarmed = self.stop_requested = self.restart_requested = False
         self.idle = self.frozen = self.notice_left = 0.0
@@ -172,10 +172,11 @@ class MatchScene:
 
     def _draw_rules(self, screen: pygame.Surface) -> None:
         """Show the rule card where it hides no robot."""
-        card = rule_card(self.context.words, self.setup)
-        if self.card_at is None:
-            self.card_at = free_place((card.width, card.height), self.runner.robots(), self.countdown_at)
-        card.draw(screen, *self.card_at)
+        if self.rule_card is None:
+            occupied = self.runner.occupied(self.devices)
+            self.rule_card = rule_card(self.context.words, self.setup, occupied, self.countdown_at)
+        card, centre = self.rule_card
+        card.draw(screen, *centre)
 
     def _draw_laps(self, screen: pygame.Surface) -> None:
         """Show the number of laps in place of the stopped clock."""

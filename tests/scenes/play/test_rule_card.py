@@ -7,8 +7,10 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import make_setup
+from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.countdown import clear_of
-from pigaming_app.scenes.play.rule_card import ARENA, CAPTION, ROOM, SIGN, free_place, in_two, rule_card
+from pigaming_app.scenes.play.rule_card import ARENA, ROOM, SIGN, gap, in_lines, rule_card
+from pigaming_app.scenes.play.runner import CAPTION_GAP
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import BODY, text_width
@@ -18,6 +20,7 @@ from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.measuring import measuring
 
+CAPTION = 250, 68  # px, the usual size
 RULE_SETS = [(game.name, variant) for game in games().values() for variant in game.variants]
 
 
@@ -34,36 +37,36 @@ def test_the_card_hides_no_robot_no_caption_and_no_number(controls: Controls, ga
     for language in LANGUAGES:
         for arena in arenas(game):
             chosen = make_setup(game, ["idle"] * 4, arena, None, 1, variant, None, ["idle"])
-            card, robots = rule_card(Words(language), chosen), starts(chosen)
-            number = SIGN.copy()
-            number.center = clear_of(robots)
+            robots = starts(chosen)
+            sign = clear_of(robots)
+            occupied = [*robot_boxes(robots), *caption_boxes(robots, [CAPTION] * 4, [CAPTION_GAP] * 4)]
+            card, centre = rule_card(Words(language), chosen, occupied, sign)
             box = pygame.Rect(0, 0, card.width, card.height)
-            box.center = free_place((card.width, card.height), robots, number.center)
+            box.center = centre
             assert ARENA.contains(box)
-            assert not box.colliderect(number), arena
-            for x, y in robots:
-                assert not box.colliderect(pygame.Rect(0, 0, CAPTION, 130).move(round(x) - CAPTION // 2, round(y) - 65))
+            assert gap(box, sign) >= SIGN, arena
+            assert box.collidelist(occupied) < 0, arena
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize(("game", "variant"), RULE_SETS)
 def test_the_sentence_fits_two_lines(controls: Controls, game: str, variant: str, language: str) -> None:
-    lines = in_two(Words(language)(f"rules.{game}_{variant}"))
+    lines = in_lines(Words(language)(f"rules.{game}_{variant}"), 2)
     assert 1 <= len(lines) <= 2
     assert all(text_width(line, BODY, "body") <= ROOM for line in lines)
 
 
 def test_two_sentences_are_broken_between_them() -> None:
     pygame.font.init()
-    assert in_two("One. Two three.") == ["One.", "Two three."]
-    assert in_two("A: 1. B: 2. Catch them all!") == ["A: 1. B: 2.", "Catch them all!"]
+    assert in_lines("One. Two three.", 2) == ["One.", "Two three."]
+    assert in_lines("A: 1. B: 2. Catch them all!", 2) == ["A: 1. B: 2.", "Catch them all!"]
 
 
 def test_the_card_is_there_before_the_match_and_not_after_a_pause(
     controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     arcade = Arcade(controls)
-    line = in_two(arcade.context.words("rules.pitanks_plain"))[0]
+    line = in_lines(arcade.context.words("rules.pitanks_plain"), 2)[0]
     with measuring(monkeypatch) as screen:
 
         def shown() -> bool:
