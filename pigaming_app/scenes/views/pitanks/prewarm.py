@@ -6,7 +6,7 @@ from typing import Any
 
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.views.pitanks.background import wall_sprite
-from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix
@@ -24,6 +24,8 @@ def jobs(state: Any, seats: Sequence[int]) -> Iterator[Job]:
     yield from _hits(seats)
     if state.rules.pickups:
         yield from _powers(seats)
+    if state.rules.knockout:
+        yield from _party(seats)
 
 
 def _shooting(seats: Sequence[int]) -> Iterator[Job]:
@@ -32,6 +34,18 @@ def _shooting(seats: Sequence[int]) -> Iterator[Job]:
             yield partial(effects.bullet, seat, turn)
         for turn in range(effects.TURNS):
             yield partial(effects.flash, seat, turn)
+
+
+def _party(seats: Sequence[int]) -> Iterator[Job]:
+    for turn in range(party.STAR_TURNS):
+        yield partial(party.stars, turn)
+    yield party.spotlight
+    yield party.stage
+    for points in (2, 4):
+        yield partial(party.bounty, points)
+        for seat in seats:
+            for level in range(things.POPUP_LEVELS, 0, -1):
+                yield partial(things.popup, f"+{points}", seat, level)
 
 
 def _numbers(seats: Sequence[int]) -> Iterator[Job]:
