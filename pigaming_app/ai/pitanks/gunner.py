@@ -32,7 +32,8 @@ REACH = 700.0  # px; within this range it fights an opponent in sight
 LOST = 20  # ticks out of sight after which a fight ends
 SWING = 1.3  # rad off the target's bearing at which it swings aside between NEAR and FAR
 OPEN_UP, CLOSE_IN = 2.2, 0.6  # rad; the same within NEAR and beyond FAR
-STEADY = 0.4  # forward stick while it aims
+STEADY, BACK = 0.4, -0.7  # forward stick while it aims, beyond NEAR and within it
+FULL, LOW = 0.6, 0.1  # charge of the meter from which it starts turbo, and below which it stops
 ROOM = 150.0  # px that must be clear on the side to which it swings
 DETOUR = 340.0  # px; it fetches pick-ups nearer than this
 SNATCH = 150.0  # px; it fetches these even in a fight, and in the finale
@@ -153,9 +154,10 @@ def fight(match: Any, obs: Any, mind: Any, action: Any) -> int:
     elif phase == SWING_ASIDE:
         choose_side(match, obs, mind, other)
         aside = turn_to(other.bearing + swing_angle(other) * mind.weave)
-        set_action(action, 1.0, turn_stick(aside, obs.angular, obs.turn_rate, PERIOD), 0, 0)
+        dash = 1 if other.distance < NEAR and charged(obs, action) else 0
+        set_action(action, 1.0, turn_stick(aside, obs.angular, obs.turn_rate, PERIOD), 0, dash)
     else:
-        speed = STEADY if other.distance > NEAR else -1.0
+        speed = STEADY if other.distance > NEAR else BACK
         turn = turn_stick(aim(mind, other), obs.angular, obs.turn_rate, PERIOD)
         set_action(action, speed, turn, pull_trigger(obs, mind), 0)
     return COLLECT if wants_prize(obs, mind) else FIGHT
@@ -222,8 +224,14 @@ def wants_prize(obs: Any, mind: Any) -> int:
 def follow(obs: Any, mind: Any, action: Any) -> None:
     """Follow the route; fire if the gun happens to point at the target."""
     bearing, speed = approach(obs.waypoint_bearing, obs.waypoint_distance)
-    dash = 1 if obs.goal_distance > 300.0 and obs.turbo > 0.5 and abs(bearing) < 0.3 else 0
+    dash = 1 if obs.goal_distance > 300.0 and abs(bearing) < 0.3 and charged(obs, action) else 0
     set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), pull_trigger(obs, mind), dash)
+
+
+@kernel
+def charged(obs: Any, action: Any) -> int:
+    """1 if the meter is full enough to start turbo, or to keep it on."""
+    return 1 if obs.turbo > (LOW if action.turbo else FULL) else 0
 
 
 @kernel
@@ -301,5 +309,5 @@ def make_reset(
 
 
 HAND1 = BrainKind("hand1", GunnerMind, think, make_reset(0.40, 0.12, 0.0, 1.0, 0.8, 0.1, 350.0))
-HAND2 = BrainKind("hand2", GunnerMind, think, make_reset(0.25, 0.13, 0.8, 0.0, 1.1, 0.2, 150.0))
-HAND3 = BrainKind("hand3", GunnerMind, think, make_reset(0.12, 0.08, 1.0, 0.0, 1.0, 0.1, 100.0))
+HAND2 = BrainKind("hand2", GunnerMind, think, make_reset(0.25, 0.15, 0.8, 0.0, 1.4, 0.1, 150.0))
+HAND3 = BrainKind("hand3", GunnerMind, think, make_reset(0.12, 0.08, 1.0, 0.0, 1.2, 0.1, 100.0))
