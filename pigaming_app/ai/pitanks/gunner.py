@@ -9,13 +9,13 @@ does: it aims at where the target is and not where it will be, slows down to aim
 dodges nothing.
 """
 
-from math import cos, pi, sin
+from math import cos, sin
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.steering import approach, turn_stick
-from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
-from pigaming_app.ai.pitanks.fsm import draw_error, go_to
+from pigaming_app.ai.brain.unstick import escape
+from pigaming_app.ai.pitanks.fsm import BREAK_FREE, detect_stuck, dodge, draw_error, go_to
 from pigaming_app.games.pitanks.observation import OTHERS, Observation, Senses, observe
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
@@ -27,18 +27,23 @@ from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
-NEAR, FAR = 240.0, 460.0  # px; in a fight it opens the distance within NEAR and closes in beyond FAR
+NEAR, FAR = 300.0, 480.0  # px; in a fight it opens the distance within NEAR and closes in beyond FAR
 REACH = 700.0  # px; within this range it fights an opponent in sight
 LOST = 20  # ticks out of sight after which a fight ends
 SWING = 1.3  # rad off the target's bearing at which it swings aside between NEAR and FAR
 OPEN_UP, CLOSE_IN = 2.2, 0.6  # rad; the same within NEAR and beyond FAR
+STEADY, BACK = 0.4, -0.7  # forward stick while it aims, beyond NEAR and within it
+FULL, LOW = 0.6, 0.1  # charge of the meter from which it starts turbo, and below which it stops
 ROOM = 150.0  # px that must be clear on the side to which it swings
 DETOUR = 340.0  # px; it fetches pick-ups nearer than this
 SNATCH = 150.0  # px; it fetches these even in a fight, and in the finale
 INVULNERABLE = 20  # ticks of protection left above which a shot is wasted
-STUCK_TICKS = 30  # ticks of driving without moving that count as stuck
+HIDDEN = 400.0  # px by which an opponent out of sight counts as farther away than it is
+WAITING = 4.0  # px for each tick for which it cannot be hit
+EXPOSED = 300.0  # px by which a lit opponent counts as nearer, and for each point of bounty
 
-HUNT, FIGHT, COLLECT, BREAK_FREE = range(4)
+WATCH, SWING_ASIDE, AIM = range(3)  # parts of a fight
+HUNT, FIGHT, COLLECT = 0, 1, 3  # states, with BREAK_FREE of `fsm`, which is 2
 
 
 @record
@@ -49,13 +54,12 @@ class GunnerMind:
     obs: Observation
     spread: float  # standard deviation of the aiming error, rad
     lead: float  # share of the target's movement that the aim allows for
-    steady: float  # share of its speed at which it aims
     watch: int  # ticks for which it watches a shot before it aims again
     swing: int  # ticks for which it swings aside after a shot
     trigger: int  # ticks for which the gun must point at the target
-    tactics: int  # 0: nearest opponent, no dodging
+    loyalty: float  # px by which its target counts as nearer than other opponents
     random: int
-    next_look: int  # tick of the next decision; the first is at random, so that no seat is always ahead of another
+    wait: int  # ticks until the next decision; at random at first, so that no seat is always ahead of another
     state: int
     since: int  # ticks in this state
     unseen: int  # ticks since the target was last in sight
@@ -76,9 +80,10 @@ class GunnerMind:
 @kernel
 def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
-    if match.tick < mind.next_look:
+    mind.wait -= 1
+    if mind.wait > 0:
         return
-    mind.next_look = match.tick + PERIOD
+    mind.wait = PERIOD
     observe(match, seat, mind.senses, mind.obs)
     act(match, mind.obs, mind, match.actions[seat])
 
@@ -90,6 +95,9 @@ def act(match: Any, obs: Any, mind: Any, action: Any) -> None:
     mind.shot += PERIOD
     choose_target(obs, mind)
     draw_error(mind)
+    if obs.knocked_out:
+        set_action(action, 0.0, 0.0, 0, 0)
+        return
     detect_stuck(obs, mind, action)
     state = mind.state
     if state == HUNT:
@@ -102,7 +110,7 @@ def act(match: Any, obs: Any, mind: Any, action: Any) -> None:
         after = break_free(obs, mind, action)
     if after != state:
         mind.state, mind.since = after, 0
-    if mind.tactics and after != BREAK_FREE:
+    if after != BREAK_FREE and obs.threat > obs.protected * DT:
         dodge(obs, action)
 
 
@@ -139,15 +147,17 @@ def fight(match: Any, obs: Any, mind: Any, action: Any) -> int:
     if mind.target < 0 or mind.unseen > LOST or obs.others[mind.target].distance > REACH:
         return hunt(obs, mind, action)
     other = obs.others[mind.target]
-    go_to(mind, other.x, other.y)
-    if mind.shot < mind.watch:
-        set_action(action, 0.3, 0.0, 0, 0)
-    elif swings(mind, other):
+    mind.senses.route.active = 0
+    phase = rhythm(obs, mind, other)
+    if phase == WATCH:
+        set_action(action, STEADY, 0.0, 0, 0)
+    elif phase == SWING_ASIDE:
         choose_side(match, obs, mind, other)
         aside = turn_to(other.bearing + swing_angle(other) * mind.weave)
-        set_action(action, 1.0, turn_stick(aside, obs.angular, obs.turn_rate, PERIOD), 0, 0)
+        dash = 1 if other.distance < NEAR and charged(obs, action) else 0
+        set_action(action, 1.0, turn_stick(aside, obs.angular, obs.turn_rate, PERIOD), 0, dash)
     else:
-        speed = -mind.steady if other.distance < NEAR else mind.steady
+        speed = STEADY if other.distance > NEAR else BACK
         turn = turn_stick(aim(mind, other), obs.angular, obs.turn_rate, PERIOD)
         set_action(action, speed, turn, pull_trigger(obs, mind), 0)
     return COLLECT if wants_prize(obs, mind) else FIGHT
@@ -171,7 +181,7 @@ def choose_target(obs: Any, mind: Any) -> None:
         if other.present and not other.mate:
             cost = price(other)
             if i == mind.target:
-                cost -= 120.0
+                cost -= mind.loyalty
             if cost < least:
                 best, least = i, cost
     if best != mind.target:
@@ -187,11 +197,9 @@ def choose_target(obs: Any, mind: Any) -> None:
 
 @kernel
 def price(other: Any) -> float:
-    """Cost of an opponent as a target, in px of distance."""
-    cost = other.distance
-    if not other.clear:
-        cost += 400.0
-    return cost + 4.0 * other.protected
+    """Cost of an opponent as a target: its distance in px, less what makes it rewarding."""
+    cost = other.distance + WAITING * other.protected - EXPOSED * (other.lit + other.bounty)
+    return cost if other.clear else cost + HIDDEN  # type: ignore[no-any-return]
 
 
 @kernel
@@ -204,32 +212,26 @@ def in_fight(obs: Any, mind: Any) -> int:
 
 @kernel
 def wants_prize(obs: Any, mind: Any) -> int:
-    """1 if the nearest pick-up is worth the way."""
-    if not obs.prize:
+    """1 if the nearest pick-up is worth the way; in the finale only if it is very near."""
+    if not obs.prize or obs.prize_distance > DETOUR:
         return 0
     if obs.prize_distance < SNATCH:
         return 1
-    other = obs.others[mind.target]
-    return 1 if obs.prize_distance < DETOUR and obs.prize_distance < other.distance and not in_fight(obs, mind) else 0
-
-
-@kernel
-def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
-    """Enter BREAK_FREE if the robot drives without moving for STUCK_TICKS."""
-    if mind.state == BREAK_FREE:
-        return
-    idle = action.linear == 0.0
-    if ticks_stuck(mind, obs.x, obs.y, idle, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
-        mind.state, mind.since = BREAK_FREE, 0
-        choose_escape(mind, -1.0 if action.linear > 0.0 else 1.0, 0.75)
+    return 0 if obs.finale or in_fight(obs, mind) or obs.prize_distance > obs.others[mind.target].distance else 1
 
 
 @kernel
 def follow(obs: Any, mind: Any, action: Any) -> None:
     """Follow the route; fire if the gun happens to point at the target."""
     bearing, speed = approach(obs.waypoint_bearing, obs.waypoint_distance)
-    dash = 1 if obs.goal_distance > 300.0 and obs.turbo > 0.5 and abs(bearing) < 0.3 else 0
+    dash = 1 if obs.goal_distance > 300.0 and abs(bearing) < 0.3 and charged(obs, action) else 0
     set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), pull_trigger(obs, mind), dash)
+
+
+@kernel
+def charged(obs: Any, action: Any) -> int:
+    """1 if the meter is full enough to start turbo, or to keep it on."""
+    return 1 if obs.turbo > (LOW if action.turbo else FULL) else 0
 
 
 @kernel
@@ -258,9 +260,12 @@ def pull_trigger(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def swings(mind: Any, other: Any) -> int:
-    """1 while it swings aside: after a shot, and while the target cannot be hit."""
-    return 1 if mind.shot - mind.watch < mind.swing or other.protected > INVULNERABLE else 0
+def rhythm(obs: Any, mind: Any, other: Any) -> int:
+    """Part of a fight: it watches its last shot, swings aside, aims. In the finale it takes half the time for it."""
+    pace = 2 if obs.finale or obs.overtime else 1
+    if pace * mind.shot < mind.watch:
+        return WATCH
+    return SWING_ASIDE if pace * mind.shot < mind.watch + mind.swing or other.protected > INVULNERABLE else AIM
 
 
 @kernel
@@ -286,37 +291,23 @@ def has_room(match: Any, obs: Any, direction: float) -> int:
     x, y = obs.x + ROOM * cos(direction), obs.y + ROOM * sin(direction)
     if not (RADIUS < x < WIDTH - RADIUS and RADIUS < y < HEIGHT - RADIUS):
         return 0
-    return is_clear(match, obs.x, obs.y, x, y, RADIUS)  # type: ignore[no-any-return]
-
-
-@kernel
-def dodge(obs: Any, action: Any) -> None:
-    """Drive across the path of a bullet, to the nearer side, if that can still succeed."""
-    if obs.threat > 0.7:
-        return
-    across = turn_to(obs.threat_bearing + 0.5 * pi)  # perpendicular to the path; the bullet's right is across - pi
-    ahead = 1.0 if abs(across) < 0.5 * pi else -1.0
-    lean = abs(abs(across) - 0.5 * pi)  # pi/2: the robot is perpendicular to the path; 0: along it
-    if lean < 0.5:
-        return
-    side = 1.0 if obs.threat_side >= 0.0 else -1.0
-    action.linear = -side * ahead
+    return is_clear(match, obs.x, obs.y, x, y, RADIUS)
 
 
 def make_reset(
-    delay: float, spread: float, lead: float, steady: float, watch: float, swing: float, trigger: float, tactics: int
+    delay: float, spread: float, lead: float, watch: float, swing: float, trigger: float, loyalty: float
 ) -> Any:
-    """A `reset` for a strength: times in s, `spread` in rad, the rest as in the mind."""
+    """A `reset` for a strength: times in s, the rest as in the mind."""
 
     def fill(mind: GunnerMind, seed: int) -> None:
-        mind.senses.delay, mind.spread, mind.lead, mind.steady = delay, spread, lead, steady
+        mind.senses.delay, mind.spread, mind.lead, mind.loyalty = delay, spread, lead, loyalty
         mind.watch, mind.swing, mind.trigger = round(watch * HZ), round(swing * HZ), round(trigger * HZ)
-        mind.tactics, mind.random, mind.target, mind.shot = tactics, seeded(seed), -1, HZ
-        mind.weave, mind.next_look = 1.0, int(uniform(mind) * PERIOD)
+        mind.random, mind.target, mind.shot, mind.weave = seeded(seed), -1, 10 * HZ, 1.0
+        mind.wait = 1 + int(uniform(mind) * PERIOD)
 
     return fill
 
 
-HAND1 = BrainKind("hand1", GunnerMind, think, make_reset(0.42, 0.14, 0.0, 0.3, 0.6, 0.0, 0.2, 0))
-HAND2 = BrainKind("hand2", GunnerMind, think, make_reset(0.24, 0.10, 0.8, 1.0, 0.0, 1.0, 0.1, 1))
-HAND3 = BrainKind("hand3", GunnerMind, think, make_reset(0.12, 0.05, 1.0, 1.0, 0.0, 0.8, 0.0, 1))
+HAND1 = BrainKind("hand1", GunnerMind, think, make_reset(0.40, 0.12, 0.0, 1.0, 0.8, 0.1, 350.0))
+HAND2 = BrainKind("hand2", GunnerMind, think, make_reset(0.25, 0.15, 0.8, 0.0, 1.4, 0.1, 150.0))
+HAND3 = BrainKind("hand3", GunnerMind, think, make_reset(0.12, 0.08, 1.0, 0.0, 1.2, 0.1, 100.0))
