@@ -5,6 +5,7 @@ from functools import partial
 
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
+from pigaming_app.scenes.views.race.lines import START
 from pigaming_app.scenes.views.race.recovery import beam, way_dot
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import ghost as blank
@@ -22,8 +23,8 @@ def jobs(seats: Sequence[int], words: Words | None, signs: Sequence[int]) -> Ite
     yield from _rising(seats, words)
     yield from _signs(seats, words, signs)
     yield from _light(seats)
-    for turn in range(race_signs.GHOST_TURNS):
-        yield partial(race_signs.ghost, turn)
+    if START not in signs:  # party has no ghost
+        yield from (partial(race_signs.ghost, turn) for turn in range(race_signs.GHOST_TURNS))
 
 
 def void_words(words: Words | None) -> tuple[str, ...]:
