@@ -182,10 +182,8 @@ class RaceEffects:
             self.particles.bloom(x, y, BEAM_LASTS, beam(seat))
 
     def _photo(self, x: float, y: float) -> None:
-        """Flash of a close finish."""
+        """Sparks of a close finish."""
         self.particles.burst(x, y, FOCUS, 30, 46, 150)
-        if self.options.flashes == "full":
-            self.particles.glow(x, y, FOCUS, 0.5)
 
     def record(self, x: float, y: float) -> None:
         """Effects of a new best lap ever on this track."""

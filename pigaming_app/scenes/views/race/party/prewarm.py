@@ -26,6 +26,6 @@ def party_jobs(state: Race, seats: Sequence[int], finish: LineFrame) -> Iterator
     for seat in seats:
         for place in range(len(seats)):
             yield from (partial(things.place_change, seat, up, str(place + 1)) for up in (True, False))
-        yield from (partial(effects.shield, seat, turn) for turn in range(things.SHIELD_SWAY + 1))
+        yield from (partial(effects.shield, seat, turn, 72) for turn in range(things.SHIELD_SWAY + 1))
     for size in effects.SPARK_SIZES:
         yield from (partial(effects.sparks, things.OIL, size, turn) for turn in range(effects.SPARK_TURNS))
