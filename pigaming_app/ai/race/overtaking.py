@@ -23,8 +23,8 @@ TAIL = 12.0  # px behind another robot at which it matches that robot's speed
 LEEWAY = 32.0  # px by which the lanes of two robots may overlap without a need to follow
 CHARGED = 0.3  # of the meter, from which it pulls out to pass in `party`
 PULL_OUT = 170.0  # px to a robot ahead, within which it does
-PASSING = 120.0  # cost of staying behind then
-TOW, TOW_REACH = 25.0, 230.0  # worth of a slipstream, px, and its length
+PASSING, STRAIGHT = 120.0, 0.3  # cost of staying behind then, on a straight; sine of the turn ahead from which it waits
+TOW, TOW_REACH = 25.0, 340.0  # worth of a slipstream, px, and its length
 PAD, PAD_HALF = 45.0, 30.0  # worth of a boost pad, px, and px aside of its middle that still reach it
 BOX, BOX_HALF = 35.0, 48.0  # the same of an item box
 SLICK, SLICK_HALF = 300.0, 46.0  # cost of oil, and px to either side that it wants to keep
@@ -52,6 +52,8 @@ def choose_lane(obs: Any, mind: Any) -> None:
 def lane_cost(obs: Any, mind: Any, lane: float) -> float:
     """Cost of the robots and features on a lane, px; 0 if there are none. `lane`: px right of the middle."""
     cost = feature_cost(obs, mind, lane) if obs.party else 0.0
+    ready = obs.party and (obs.turbo > CHARGED or obs.surge)
+    passing = PASSING * (1.0 - abs(obs.turn) / STRAIGHT) if ready else 0.0
     for i in range(OTHERS):
         other = obs.others[i]
         if not other.present or other.ahead < -CLEAR or other.distance > FAR:
@@ -66,8 +68,8 @@ def lane_cost(obs: Any, mind: Any, lane: float) -> float:
             closing = mind.speed * obs.speed - other.speed
             if other.speed < SLOW * obs.speed and other.distance - CLEAR < SOON * closing:
                 cost += 150.0 * (1.0 + (CLEAR - gap) / CLEAR)
-            elif obs.party and other.distance < PULL_OUT and (obs.turbo > CHARGED or obs.surge):
-                cost += PASSING * (1.0 - gap / CLEAR)
+            elif passing > 0.0 and other.distance < PULL_OUT:
+                cost += passing * (1.0 - gap / CLEAR)
     return cost
 
 

@@ -29,7 +29,7 @@ PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LOOK = 115.0  # lookahead along the course, px
 LATE = 0.05  # latency of the motors, s
 GRIP = 1.8  # commanded turn rate, as a share of the highest, above which it slows down
-SHIFT = 20.0  # px of lane change within one lookahead
+SHIFT, DASH_SHIFT = 20.0, 20.0  # px of lane change within one lookahead, and in `party`
 OUT = 30.0  # px inside the edge at which it aims when off the course
 SLACK = 25.0  # px past a line before it counts as missed: the rules may not have registered the crossing yet
 SAVE = 80.0  # px to a robot ahead within which it saves its turbo
@@ -120,7 +120,8 @@ def race(obs: Any, mind: Any, action: Any) -> int:
         room += OVER
         lane += -WIDE if obs.turn > 0.0 else WIDE
     keep = obs.aside - obs.ideal + mark.ideal  # the lane that keeps the present distance to the fastest line
-    lane = keep + SHIFT if lane > keep + SHIFT else keep - SHIFT if lane < keep - SHIFT else lane
+    shift = DASH_SHIFT if obs.party else SHIFT
+    lane = keep + shift if lane > keep + shift else keep - shift if lane < keep - shift else lane
     lane = room if lane > room else -room if lane < -room else lane
     x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
     pursue(obs, mind, action, x, y)

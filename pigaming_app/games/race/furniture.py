@@ -62,21 +62,24 @@ def grid(course: Course, line: float) -> tuple[StartPose, ...]:
         row += 10.0
 
 
-def place_pads(course: Course, lines: Sequence[float]) -> tuple[tuple[float, float], ...]:
-    """Boost pads, each at (along, aside) px, alternately left and right."""
-    spots = _spots(course, lines, (), PADS, -60.0, PAD_RUN)
-    return tuple((along, _aside(course, along, PAD_ASIDE if i % 2 else -PAD_ASIDE)) for i, along in enumerate(spots))
+def place_pads(course: Course, lines: Sequence[float]) -> tuple[float, ...]:
+    """Boost pads, px along the course."""
+    return tuple(_spots(course, lines, (), PADS, -60.0, PAD_RUN))
 
 
-def place_boxes(
-    course: Course, lines: Sequence[float], pads: Sequence[tuple[float, float]]
-) -> tuple[tuple[float, float], ...]:
+def pad_aside(course: Course, along: float, ideal: float) -> float:
+    """Offset of a pad, px: on the side away from the fastest line, which there is `ideal` px aside."""
+    return across(course, along, -PAD_ASIDE if ideal > 0.0 else PAD_ASIDE)
+
+
+def place_boxes(course: Course, lines: Sequence[float], pads: Sequence[float]) -> tuple[tuple[float, float], ...]:
     """Item boxes, each at (along, aside) px, in rows across the course."""
-    rows = _spots(course, lines, [along for along, _ in pads], BOXES // ABREAST, -80.0, 80.0)
-    return tuple((along, _aside(course, along, side)) for along in rows for side in (-BOX_ASIDE, BOX_ASIDE))
+    rows = _spots(course, lines, pads, BOXES // ABREAST, -80.0, 80.0)
+    return tuple((along, across(course, along, side)) for along in rows for side in (-BOX_ASIDE, BOX_ASIDE))
 
 
-def _aside(course: Course, along: float, share: float) -> float:
+def across(course: Course, along: float, share: float) -> float:
+    """A share of half the width of the course, px."""
     return share * half_width_at(course, *segment_at(course, along))
 
 

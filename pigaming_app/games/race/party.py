@@ -21,8 +21,8 @@ BOX = 20.0  # px, half the width of an item box
 DROP = 90.0  # px from the robot's centre to the oil that it drops
 PARALLEL = 0.7  # least cosine between the headings of two robots in a slipstream
 SLIP_SPEED = 100.0  # px/s, least speed of both
-LEADER_TURBO, STEP_TURBO = 0.1, 0.2  # chance that a box holds `turbo`: the leader's, and more for each place behind
-OIL_SHARE = 0.55  # of the other items
+LEADER_TURBO, STEP_TURBO = 0.05, 0.3  # chance that a box holds `turbo`: the leader's, and more for each place behind
+OIL_SHARE = 0.4  # of the other items
 CREEP = 0.2  # share of full speed in a spin
 
 

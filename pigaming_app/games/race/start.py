@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pigaming_app.games.game import ALONE, Setup, Variant, named
 from pigaming_app.games.race.circuit import read_course
 from pigaming_app.games.race.course import Course, half_width_at, locate, point_at, segment_at
-from pigaming_app.games.race.furniture import BEHIND, common_line, grid, place_boxes, place_pads, pose_at
+from pigaming_app.games.race.furniture import BEHIND, common_line, grid, pad_aside, place_boxes, place_pads, pose_at
 from pigaming_app.games.race.laps import progress
 from pigaming_app.games.race.racing_line import fastest_line
 from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, Rules, TimingLine
@@ -45,8 +45,8 @@ class TrackPlan:
     lines: tuple[float, ...]
     common: int  # index of the line that is everybody's start and finish
     grid: tuple[StartPose, ...]
-    pads: tuple[tuple[float, float], ...]  # (along, aside) px
-    boxes: tuple[tuple[float, float], ...]
+    pads: tuple[float, ...]  # px along the course
+    boxes: tuple[tuple[float, float], ...]  # (along, aside) px
 
 
 def read(table: TomlTable) -> Layout:
@@ -112,7 +112,8 @@ def _dealt(match: Race, party: bool) -> list[int]:
 
 def _furnish(match: Race, track: TrackPlan) -> None:
     """Put pads and boxes on the course."""
-    for pad, (along, aside) in zip(match.pads, track.pads, strict=True):
+    for pad, along in zip(match.pads, track.pads, strict=True):
+        aside = pad_aside(track.course, along, match.ideal[segment_at(track.course, along)[0]])
         pose = pose_at(track.course, along, aside)
         pad.x, pad.y, pad.heading, pad.along, pad.aside = pose.x, pose.y, pose.heading, along, aside
     for box, (along, aside) in zip(match.boxes, track.boxes, strict=True):

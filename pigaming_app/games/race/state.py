@@ -44,7 +44,7 @@ class Rules:
     pad_surge: int = added(round(0.7 * HZ))
     item_surge: int = added(round(1.2 * HZ))  # of the item `turbo`, which also fills the meter
     shield_life: int = added(10 * HZ)
-    box_pause: int = added(4 * HZ)  # until an item box that was taken is back
+    box_pause: int = added(HZ)  # until an item box that was taken is back
     oil_life: int = added(20 * HZ)
     oil_radius: float = added(30.0)
     spin: int = added(round(1.05 * HZ))
