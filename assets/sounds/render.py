@@ -144,6 +144,38 @@ def mud() -> Samples:
     )
 
 
+def boost() -> Samples:
+    """A rush of air that rises, over two rising plucks."""
+    rush = sweep(260.0, 1150.0, 0.34, 0.14, glide=0.12)
+    air = burst("boost", 0.34, 0.12, 700.0, 5200.0)
+    return together([(0.0, 0.5 * rush), (0.0, 0.5 * air), (0.0, 0.7 * melody("E4 B4", 0.06))])
+
+
+def oil() -> Samples:
+    """A squeal that winds down, and a splash."""
+    squeal = sweep(1250.0, 320.0, 0.5, 0.2, glide=0.22)
+    wobble: Samples = squeal * (0.65 + 0.35 * np.sin(2.0 * np.pi * 17.0 * times(0.5)))
+    return together([(0.0, 0.5 * wobble), (0.0, 0.8 * burst("oil", 0.2, 0.04, 150.0, 1500.0))])
+
+
+def slipstream() -> Samples:
+    """Air that swells and fades."""
+    air = burst("slipstream", 0.5, 0.4, 500.0, 2600.0)
+    return np.asarray(air * np.sin(np.pi * times(0.5) / 0.5) ** 2)
+
+
+def back_on_track() -> Samples:
+    """A shimmer that falls, and the robot's touch-down."""
+    shimmer = [(0.035 * i, 0.5 * pluck(hz, 0.2, 0.04, 0.3)) for i, hz in enumerate((2637.0, 1975.5, 1318.5, 987.8))]
+    return together([*shimmer, (0.15, sweep(170.0, 80.0, 0.16, 0.05))])
+
+
+def photo_finish() -> Samples:
+    """A shutter, then a bright chord."""
+    shutter = [(start, 0.7 * burst(f"shutter{start}", 0.05, 0.008, 1500.0, 7000.0)) for start in (0.0, 0.07)]
+    return together([*shutter, *((0.16, pluck(pitch(note), 0.6, 0.13, 0.5)) for note in ("E5", "G#5", "B5", "E6"))])
+
+
 def finish() -> Samples:
     """A run up to a chord, shorter than that of the winner."""
     chord = [(0.24, pluck(pitch(note), 0.6, 0.14, 0.5)) for note in ("E4", "B4", "G#5")]
@@ -326,6 +358,12 @@ SOUNDS: dict[str, tuple[Callable[[], Samples], float]] = {  # how it is made, an
     "missed": (lambda: melody("F4 C4", 0.12, half=0.09, bright=0.8), -17.0),
     "wrong_way": (lambda: melody("A4 A4 A4", 0.1, last=0.14, half=0.05, bright=0.8), -18.0),
     "mud": (mud, -21.0),
+    "boost": (boost, -18.0),
+    "oil": (oil, -17.0),
+    "slipstream": (slipstream, -23.5),
+    "overtake": (lambda: melody("G4 B4 E5", 0.05), -18.0),
+    "back_on_track": (back_on_track, -17.0),
+    "photo_finish": (photo_finish, -14.0),
     "finish": (finish, -15.0),
     "lift": (lift, -20.0),
     "set_down": (set_down, -20.0),

@@ -17,9 +17,10 @@ from pigaming_app.ui.sounds import FOLDER, Sounds, stereo
 PITCHED = [f"{name}{player}" for name in ("fire", "join", "ready") for player in (1, 2, 3, 4)]
 GAME = ["hit", "wall", "crumble", "shield", "pickup", "power_end", "drop", "mine"]
 MATCH = ["count", "go", "tick", "win", "lose", "tie"]
-RACE = ["lap", "best_lap", "last_lap", "missed", "wrong_way", "mud", "finish"]
+RACE = ["lap", "best_lap", "last_lap", "missed", "wrong_way", "mud", "finish", "back_on_track"]
+RACE_PARTY = ["boost", "oil", "slipstream", "overtake", "photo_finish"]
 FACTORY = ["lift", "set_down", "refused", "machine_done", "spoiled", "delivered", "freeze", "arrived"]
-CONTRACT = [*PITCHED, *GAME, *MATCH, *RACE, *FACTORY, "move", "accept", "back", "error"]
+CONTRACT = [*PITCHED, *GAME, *MATCH, *RACE, *RACE_PARTY, *FACTORY, "move", "accept", "back", "error"]
 
 
 def script() -> ModuleType:

@@ -15,7 +15,11 @@ from pigaming_app.sim.world import DT, HZ
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 
-FIRES = {"pitanks": "hint_fire", "factory": "hint_lift"}  # text key for FIRE in games that use it
+FIRES = {
+    "pitanks": "hint_fire",
+    "factory": "hint_lift",
+    "race": "hint_recover",
+}  # text key for FIRE in games that use it
 RULES: dict[str, tuple[Callable[[], Any], Callable[[Any, Setup], None]]] = {
     "pitanks": (PiTanksRules, pitanks_rules),
     "factory": (FactoryRules, factory_rules),

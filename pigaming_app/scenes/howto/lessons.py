@@ -1,13 +1,14 @@
 """The animated lessons of "how to play": each draws one moment of a loop, centred on a point.
 
-They use the sprites of the games. A picture may return the text key of a word to show under it.
+They use the sprites of the games. A picture may return the text key of a word to show under it. A game's lessons are
+shown in pages of four; PAGES names the rule set of each page, if a game has more than one.
 """
 
 from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.howto import factory, pitanks, race
+from pigaming_app.scenes.howto import factory, pitanks, race, race_party
 
 LessonPicture = Callable[[pygame.Surface, float, float, float], str | None]
 
@@ -29,5 +30,11 @@ LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the inner keys are 
         "lines": race.lines,
         "finish": race.finish,
         "mud": race.mud,
+        "draft": race_party.draft,
+        "pads": race_party.pads,
+        "items": race_party.items,
+        "recover": race_party.recover,
     },
 }
+PAGE = 4  # lessons on a page
+PAGES: dict[str, tuple[str, ...]] = {"race": ("standard", "party")}

@@ -68,7 +68,7 @@ def finish(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | 
 
 def mud(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
     """The same robot on the road and in the mud."""
-    _edge().draw(screen, round(x), round(y))
+    edge().draw(screen, round(x), round(y))
     for share, down in ((1.0, -APART), (SLOW, APART)):
         way = (seconds * SPEED * share) % (2 * WIDE + 180)
         if down < 0:
@@ -86,37 +86,37 @@ def mud(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | Non
 @cached
 def _round(lined: bool) -> LitImage:
     """A ring road, with one line or the lines of all four players."""
-    glow, crisp = _sheets()
+    glow, crisp = sheets()
     for out in (-ROAD, ROAD):
         glow.neon(ROUND.outline(out), EDGE, 5, True)
     for line in range(4 if lined else 1):
         x, y, heading, _ = ROUND.at(line * ROUND.length / 4)
         frame = LineFrame(x, y, math.cos(heading), math.sin(heading), ROAD)
         draw_line(glow, crisp, frame, PLAYERS[line])
-    return _lit(glow, crisp)
+    return lit(glow, crisp)
 
 
 @cached
 def _own() -> LitImage:
     """A straight road with the lines of two players."""
-    glow, crisp = _sheets()
+    glow, crisp = sheets()
     for side in (-1, 1):
         glow.neon([(-WIDE, side * STRAIGHT), (WIDE, side * STRAIGHT)], EDGE, 5)
     for line, at in ((0, YOURS), (1, THEIRS)):
         draw_line(glow, crisp, LineFrame(at, 0.0, 1.0, 0.0, STRAIGHT), PLAYERS[line])
         badge(glow, line, at, -STRAIGHT - 54, 34)
-    return _lit(glow, crisp)
+    return lit(glow, crisp)
 
 
 @cached
-def _edge() -> LitImage:
+def edge() -> LitImage:
     """The edge of the road, and contour lines of mud below it."""
-    glow, crisp = _sheets()
+    glow, crisp = sheets()
     glow.neon([(-WIDE, 0), (WIDE, 0)], EDGE, 5)
     for row in range(6):
         wave = [(u, 26 + 36 * row + 9 * math.sin(u / 34 + 1.7 * row)) for u in range(-WIDE, WIDE + 1, 10)]
         crisp.line(wave, dim(MUD, 0.55 - 0.05 * (row % 2)), THIN)
-    return _lit(glow, crisp)
+    return lit(glow, crisp)
 
 
 @cached
@@ -126,14 +126,14 @@ def _post(line: int, lit: bool) -> LitImage:
     return LitImage(ink.lit(0.6), (-60, -60))
 
 
-def _sheets() -> tuple[GlowCanvas, GlowCanvas]:
+def sheets() -> tuple[GlowCanvas, GlowCanvas]:
     """A glowing and a crisp canvas, centred on (0, 0)."""
     side = 2 * WIDE + 60
     glow, crisp = (GlowCanvas(side, side + 40).set_transform(side / 2, side / 2) for _ in range(2))
     return glow, crisp
 
 
-def _lit(glow: GlowCanvas, crisp: GlowCanvas) -> LitImage:
+def lit(glow: GlowCanvas, crisp: GlowCanvas) -> LitImage:
     out = glow.lit(0.6)
     run_to_end(crisp.downscale_onto(out))
     return LitImage(out, (-(WIDE + 30), -(WIDE + 30)))

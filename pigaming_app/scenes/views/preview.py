@@ -17,7 +17,20 @@ from pigaming_app.scenes.views.race.track import draw_track
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
-from pigaming_app.ui.draw import ADD, HAIR, MIST, PLAYERS, STEEL, THIN, WALL, GlowCanvas, cut_box, dim, shape_points
+from pigaming_app.ui.draw import (
+    ADD,
+    HAIR,
+    ICE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    WALL,
+    GlowCanvas,
+    cut_box,
+    dim,
+    shape_points,
+)
 from pigaming_app.ui.draw.frame_budget import Steps
 
 MARGIN = 8  # px around the frame for its glow
@@ -61,7 +74,7 @@ def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     )
     yield from draw_track(glow, crisp, arena.plan)
     for along in arena.plan.lines:
-        draw_line(glow, crisp, frame(arena.plan.course, along), MIST)
+        draw_line(glow, crisp, frame(arena.plan.course, along), ICE)
     yield
     light = yield from glow.lit_steps(GLOW)
     out = pygame.Surface((w, h))

@@ -21,7 +21,8 @@ from pigaming_app.scenes.views.race.gaps import figure
 from pigaming_app.scenes.views.race.ghost_files import Ghost, file_of, ghost_of, load_ghost
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import RaceCard, card_bits
-from pigaming_app.scenes.views.race.track import edges, sign_post
+from pigaming_app.scenes.views.race.lines import sign_post
+from pigaming_app.scenes.views.race.track import edges
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
@@ -508,6 +509,7 @@ def test_a_ghost_that_is_not_whole_is_none(tmp_path, harm):
 
 def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp_path):
     scene = BusyRace(2, laps=5)
+    scene.state.racers[0].line = 2
     view = seen(scene)
     view.enable_persistence(tmp_path)
     drive_laps(scene, view, 0, [600, 500, 550])
@@ -517,7 +519,7 @@ def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp
     saved, _ = load_ghost(tmp_path, scene.arena)
     assert saved == view.recorder.ghost
     assert saved.seconds == 10.0
-    assert saved.line == 0
+    assert saved.line == 2
     assert saved.crossed == (0.0, 2.5, 5.0, 7.5)
     assert len(saved.poses) == 101
     assert saved.poses[50] == pytest.approx((200.0 + 249.0, 300.0, 0.5), abs=2.0)
@@ -541,16 +543,19 @@ def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_pat
     assert not (tmp_path / "ghosts").exists()
 
 
-def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_own(screen, tmp_path):
+@pytest.mark.parametrize(("line", "x"), [(1, 400.0), (3, 900.0)])
+def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_own(screen, tmp_path, line, x):
+    """`x`: where the ghost is 1 s after that line."""
     scene = BusyRace(2, laps=5)
+    scene.state.racers[1].line = line
     ghosts.save_ghost(tmp_path, scene.arena, a_ghost()).join()
     view = seen(scene, ["hard", "human", "off", "off"])
     view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
     assert view.recorder.pose(state, 1.0) is None  # it waits for the line
     racer.passed, racer.lap_start, state.tick = 1, 100.0, 150
-    assert view.recorder.pose(state, 1.0) == pytest.approx((400.0, 100.0, 0.0))  # 1 s after line 1
-    box = (160 + 400 - 40, 140 + 100 - 40, 80, 80)
+    assert view.recorder.pose(state, 1.0) == pytest.approx((x, 100.0, 0.0))
+    box = (160 + int(x) - 40, 140 + 100 - 40, 80, 80)
     with_ghost = shown(screen, view, state, box)
     state.tick = 100 + 501
     assert view.recorder.pose(state, 1.0) is None
@@ -563,7 +568,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
     view = seen(scene)
     view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
-    racer.passed, racer.lap_start, state.tick = 1, 100.0, 150
+    racer.passed, racer.lap_start, racer.line, state.tick = 1, 100.0, 1, 150
     view.watch(state)
     racer.passed, racer.splits[1], state.tick = 2, 90.0, 192  # line 2 follows line 1 after 2 s, 100 ticks
     view.watch(state)

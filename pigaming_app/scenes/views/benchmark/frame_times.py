@@ -54,7 +54,7 @@ class BusyFactory:
 BUSY: dict[str, Callable[[], BenchmarkMatch]] = {
     "pitanks": busy.BusyPiTanks,
     "factory": BusyFactory,
-    "race": lambda: race_busy.BusyRace(laps=max(games()["race"].default.goals)),
+    "race": lambda: race_busy.BusyRace(laps=max(games()["race"].default.goals), variant="party"),
 }
 
 

@@ -12,7 +12,7 @@ from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
 from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
-from pigaming_app.scenes.views.race.lines import sign_color
+from pigaming_app.scenes.views.race.lines import CHECKPOINT, sign_color
 from pigaming_app.scenes.views.race.party.sprites import OIL, place_change
 from pigaming_app.scenes.views.race.recovery import BEAM_LASTS, beam
 from pigaming_app.scenes.views.view import Pose, SoundCue, ViewOptions, decimal
@@ -45,6 +45,7 @@ SOUNDS = {  # by event, the most important first
 BY_WEIGHT = list(SOUNDS)
 LASTS, RISE = 1.7, 46.0  # s and px of an announcement
 ABOVE = 70.0  # px from a robot to its announcement
+HIGHEST = 170.0  # px from the upper edge of the arena to a robot, below which its announcements go below it
 STACK_PITCH = 76.0  # px between stacked announcements
 
 
@@ -76,9 +77,10 @@ class Announcements:
             width = note.sprite.image.get_width() if note.sprite else number_width(note.text, SUB) + 70
             t = (now - note.born) / LASTS
             x = min(max(poses[note.seat][0], LEFT + width / 2), LEFT + WIDTH - width / 2)
-            y = poses[note.seat][1] - ABOVE - RISE * (1.0 - (1.0 - t) ** 2)
+            away = 1.0 if poses[note.seat][1] - TOP < HIGHEST else -1.0  # below a robot near the upper edge
+            y = poses[note.seat][1] + away * (ABOVE + RISE * (1.0 - (1.0 - t) ** 2))
             while any(abs(x - px) < (width + w) / 2 and abs(y - py) < STACK_PITCH for px, py, w in placed):
-                y -= STACK_PITCH
+                y += away * STACK_PITCH
             y = max(y, TOP + 60)
             placed.append((x, y, width))
             if note.sprite:
@@ -129,8 +131,9 @@ class RaceEffects:
         x, y, color = LEFT + robot.x, TOP + robot.y, PLAYERS[event.seat]
         match event.kind:
             case "line":
-                particles.burst(x, y, sign_color(self.signs[int(event.number)]), 10, 40, 50)
-                if int(event.number) != racer.line:
+                if (sign := self.signs[int(event.number)]) < CHECKPOINT:
+                    particles.burst(x, y, sign_color(sign), 10, 40, 50)
+                if int(event.number) != racer.line and not state.rules.party:
                     self._difference(event.seat, racer.delta if racer.delta_at == state.tick - 1 else None, ghost_delta)
             case "lap" if not racer.finished:
                 self._say(event.seat, decimal(self.words, f"{event.number:.2f}"), ICE)
@@ -147,7 +150,7 @@ class RaceEffects:
             case "finish":
                 self.celebrate(x, y, color)
             case "up" | "down" if state.rules.party and not racer.finished:
-                self._say(event.seat, "", color, place_change(event.kind == "up", f"{event.number:.0f}"))
+                self._say(event.seat, "", color, place_change(event.seat, event.kind == "up", f"{event.number:.0f}"))
             case "boost":
                 back = robot.heading + math.pi
                 particles.burst(x, y, FOCUS, 14, 40, 90, (back, 0.6))
@@ -179,10 +182,8 @@ class RaceEffects:
             self.particles.bloom(x, y, BEAM_LASTS, beam(seat))
 
     def _photo(self, x: float, y: float) -> None:
-        """Flash of a close finish."""
-        self.particles.burst(x, y, WHITE, 30, 46, 150)
-        if self.options.flashes == "full":
-            self.particles.glow(x, y, WHITE, 0.5)
+        """Sparks of a close finish."""
+        self.particles.burst(x, y, FOCUS, 30, 46, 150)
 
     def record(self, x: float, y: float) -> None:
         """Effects of a new best lap ever on this track."""

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from pigaming_app.games.race.state import LINES, Race
+from pigaming_app.games.race.state import LINES, Race, Racer
 from pigaming_app.sim.world import DT
 
 JUMP, TURN = 16.0, 0.5  # px and rad in a tick, above which a robot was put somewhere
@@ -56,7 +56,7 @@ class RaceEventDetector:
 
     def _store(self, state: Race) -> None:
         self.racers = [
-            (r.passed, r.missed, r.void, r.wrong > SHOWN_FROM, r.place.on, r.finished, r.best_lap) for r in state.racers
+            (r.passed, r.missed, r.void, drives_wrong(r), r.place.on, r.finished, r.best_lap) for r in state.racers
         ]
         self.asked = [bool(robot.recover) for robot in state.robots]
         self.poses = [(robot.x, robot.y, robot.heading) for robot in state.robots]
@@ -72,7 +72,7 @@ class RaceEventDetector:
             found.append(RaceEvent("void", seat, racer.missed - 1))
         elif racer.missed and racer.missed != missed:
             found.append(RaceEvent("missed", seat, racer.missed - 1))
-        if racer.wrong > SHOWN_FROM and not wrong and not racer.finished:
+        if drives_wrong(racer) and not wrong and not racer.finished:
             found.append(RaceEvent("wrong", seat))
         if on and not racer.place.on and not racer.finished:
             found.append(RaceEvent("mud", seat))
@@ -115,6 +115,11 @@ class RaceEventDetector:
             RaceEvent("up" if running.index(seat) < before.index(seat) else "down", seat, 1 + running.index(seat))
             for seat in moved
         ]
+
+
+def drives_wrong(racer: Racer) -> bool:
+    """True if driving the wrong way is shown; a spin is not."""
+    return racer.wrong > SHOWN_FROM and not racer.spin
 
 
 def was_put_back(state: Race, seat: int, before: tuple[float, float, float]) -> bool:

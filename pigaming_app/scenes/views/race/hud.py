@@ -13,7 +13,7 @@ from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud_parts import CLOCK, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.race import hud_cards as race_cards
-from pigaming_app.scenes.views.race.events import SHOWN_FROM
+from pigaming_app.scenes.views.race.events import drives_wrong
 from pigaming_app.scenes.views.race.gaps import Gaps, figure
 from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, RaceCard, W, card_bits
 from pigaming_app.scenes.views.race.lines import flag, line_signs
@@ -117,7 +117,7 @@ class RaceHud:
             turbo=round(64 * robot.turbo),
             way=FOOT if done else round(FOOT * max(0.0, min(1.0, share))),
             laps=laps,
-            sign="" if done else "missed" if racer.missed else "wrong" if racer.wrong > SHOWN_FROM else "",
+            sign="" if done else "missed" if racer.missed else "wrong" if drives_wrong(racer) else "",
             missed=self.signs[racer.missed - 1],
             moved=direction if state.tick - changed_at < MOVED else 0,
             done=done,

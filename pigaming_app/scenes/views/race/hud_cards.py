@@ -85,7 +85,10 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
     if card.item != "none":
         bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE), None))
     bits += _part_lit(
-        turbo(card.seat, True, card.slip), turbo(card.seat, False), (x + 17, Y + 80), card.turbo * CELLS * CELL / 64
+        turbo(card.seat, True, card.slip),
+        turbo(card.seat, False, False),
+        (x + 17, Y + 80),
+        card.turbo * CELLS * CELL / 64,
     )
     bits += _part_lit(
         foot(card.seat, card.laps, True), foot(card.seat, card.laps, False), (x + 20, Y + H - 3), card.way
@@ -156,7 +159,7 @@ def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
 
 
 @cached
-def turbo(seat: int, full: bool, slip: bool = False) -> pygame.Surface:
+def turbo(seat: int, full: bool, slip: bool) -> pygame.Surface:
     """Cells of a turbo bar, all lit or all dark; white in a slipstream, which refills it."""
     ink = GlowCanvas(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).set_transform(EDGE, EDGE)
     color = WHITE if slip else PLAYERS[seat]

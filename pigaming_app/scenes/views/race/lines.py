@@ -14,6 +14,7 @@ from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 from pigaming_app.ui.draw import (
     ADD,
     BLACK,
+    FOCUS,
     ICE,
     MIST,
     PLAYERS,
@@ -74,8 +75,8 @@ def line_signs(state: Race) -> tuple[int, ...]:
 
 
 def sign_color(sign: int) -> Color:
-    """Colour of a line and its sign."""
-    return PLAYERS[sign] if sign < ROBOTS else ICE
+    """Colour of the sparks on a line."""
+    return PLAYERS[sign] if sign < ROBOTS else FOCUS
 
 
 def draw_sign(ink: GlowCanvas, sign: int, x: float, y: float, r: float) -> None:
@@ -134,7 +135,7 @@ def line_sprite(line: LineFrame, sign: int) -> Sprite:
     if sign >= CHECKPOINT:
         draw_checkpoint(crisp, line)
     else:
-        draw_line(glow, crisp, line, sign_color(sign))
+        draw_line(glow, crisp, line, ICE if sign == START else PLAYERS[sign])
     image = glow.sprite(GLOW)
     run_to_end(crisp.downscale_onto(image))
     return trim(image, half, half)

@@ -5,6 +5,7 @@ from functools import partial
 
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
+from pigaming_app.scenes.views.race.lines import START
 from pigaming_app.scenes.views.race.recovery import beam, way_dot
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import ghost as blank
@@ -21,9 +22,9 @@ def jobs(seats: Sequence[int], words: Words | None, signs: Sequence[int]) -> Ite
     yield from _mud()
     yield from _rising(seats, words)
     yield from _signs(seats, words, signs)
-    yield from _light(seats)
-    for turn in range(race_signs.GHOST_TURNS):
-        yield partial(race_signs.ghost, turn)
+    yield from _light(seats, START in signs)
+    if START not in signs:  # party has no ghost
+        yield from (partial(race_signs.ghost, turn) for turn in range(race_signs.GHOST_TURNS))
 
 
 def void_words(words: Words | None) -> tuple[str, ...]:
@@ -64,14 +65,16 @@ def _signs(seats: Sequence[int], words: Words | None, signs: Sequence[int]) -> I
             yield partial(race_signs.tip, seat, turn)
 
 
-def _light(seats: Sequence[int]) -> Iterator[Job]:
+def _light(seats: Sequence[int], party: bool) -> Iterator[Job]:
     for color in {*(PLAYERS[seat] for seat in seats), WHITE}:
         yield from (partial(race_signs.confetti, color, turn) for turn in range(4))
     for color in (*PLAYERS, FOCUS, ALARM):
         for size in effects.SPARK_SIZES:
             for turn in range(effects.SPARK_TURNS):
                 yield partial(effects.sparks, color, size, turn)
-    for color in (*(PLAYERS[seat] for seat in seats), FOCUS):
+    for stage in range(0 if party else effects.WAVE_STEPS):
+        yield partial(effects.wave, FOCUS, stage)
+    for color in (PLAYERS[seat] for seat in seats):
         for stage in range(effects.WAVE_STEPS):
             yield partial(effects.wave, color, stage)
         for level in range(effects.LIGHT_LEVELS, 0, -1):

@@ -14,7 +14,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 
 PITCH, MARCH = 30.0, 60.0  # px between dots, px/s of their motion
 CLEAR = 96.0  # px from a robot to the first dot
-BEAM_LEVELS, BEAM_LASTS = 8, 0.5  # s
+BEAM_LEVELS, BEAM_LASTS = 6, 0.5  # s
 HIGH = 230.0  # px, of the beam
 
 

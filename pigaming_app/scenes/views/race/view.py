@@ -14,14 +14,14 @@ from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import RaceBackground
 from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, sound_cues, spray
-from pigaming_app.scenes.views.race.events import SHOWN_FROM, RaceEvent, RaceEventDetector
+from pigaming_app.scenes.views.race.events import RaceEvent, RaceEventDetector, drives_wrong
 from pigaming_app.scenes.views.race.ghost import GhostRecorder
 from pigaming_app.scenes.views.race.hud import RaceHud
 from pigaming_app.scenes.views.race.lines import LineFrame, frame
 from pigaming_app.scenes.views.race.party.events import PartyEventDetector
 from pigaming_app.scenes.views.race.party.floor import draw_air, draw_finish, draw_floor, finish_line
 from pigaming_app.scenes.views.race.party.prewarm import party_jobs
-from pigaming_app.scenes.views.race.party.sprites import SWIRL_TURNS, swirl
+from pigaming_app.scenes.views.race.party.sprites import SHIELD_SWAY, SWIRL_TURNS, swirl
 from pigaming_app.scenes.views.race.prewarm import jobs, void_words
 from pigaming_app.scenes.views.race.recovery import draw_way_back, target_of
 from pigaming_app.scenes.views.sprites import effects
@@ -155,7 +155,8 @@ class RaceView(MatchView):
         hidden = since < BLINKS and int(since / BLINK) % 2 and self.options.flashes != "off"
         put(over, blank(seat) if hidden else tank(seat, step(heading, HEADINGS)), x, y)
         if racer.shield:
-            put(light, effects.shield(seat, int(self.particles.clock * 24) % 24, self.reach(seat, 72)), x, y)
+            sway = abs(int(self.particles.clock * 10) % (2 * SHIELD_SWAY) - SHIELD_SWAY)
+            put(light, effects.shield(seat, sway, self.reach(seat, 72)), x, y)
         if racer.spin:
             turn = int(self.particles.clock * 30) * racer.spin_way % SWIRL_TURNS
             put(light, swirl(turn, self.reach(seat, 52)), x, y)
@@ -187,7 +188,7 @@ class RaceView(MatchView):
             return race_signs.place(seat, place, self.cards.endings[place - 1], below)
         if racer.missed:
             return race_signs.missed(self.signs[racer.missed - 1], below, self.void if said else ())
-        return race_signs.wrong_way(below) if racer.wrong > SHOWN_FROM else None
+        return race_signs.wrong_way(below) if drives_wrong(racer) else None
 
     def _shows_place(self, state: Race, racer: Racer) -> bool:
         """True while a place is shown: briefly after the finish and again at the end, as it would cover robots still

@@ -7,7 +7,6 @@ from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.race.lines import LineFrame
 from pigaming_app.scenes.views.race.party import sprites as things
 from pigaming_app.scenes.views.sprites import effects
-from pigaming_app.ui.draw import FOCUS, WHITE
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 
@@ -22,13 +21,11 @@ def party_jobs(state: Race, seats: Sequence[int], finish: LineFrame) -> Iterator
         yield from (partial(things.oil, shape, level) for level in range(things.OIL_LEVELS, 0, -1))
     for turn in range(things.AIR_TURNS):
         yield from (partial(things.air, turn, level) for level in range(things.AIR_LEVELS, 0, -1))
-    for place in range(len(seats)):
-        yield from (partial(things.place_change, up, str(place + 1)) for up in (True, False))
     yield from (partial(things.swirl, turn, 52) for turn in range(things.SWIRL_TURNS))
     yield from (partial(things.finish_pulse, finish, level) for level in range(things.PULSE_LEVELS, 0, -1))
     for seat in seats:
-        yield from (partial(effects.shield, seat, turn) for turn in range(24))
+        for place in range(len(seats)):
+            yield from (partial(things.place_change, seat, up, str(place + 1)) for up in (True, False))
+        yield from (partial(effects.shield, seat, turn, 72) for turn in range(things.SHIELD_SWAY + 1))
     for size in effects.SPARK_SIZES:
-        for color in (things.OIL, WHITE, FOCUS):
-            yield from (partial(effects.sparks, color, size, turn) for turn in range(effects.SPARK_TURNS))
-    yield from (partial(effects.light, WHITE, level) for level in range(effects.LIGHT_LEVELS, 0, -1))
+        yield from (partial(effects.sparks, things.OIL, size, turn) for turn in range(effects.SPARK_TURNS))

@@ -9,13 +9,15 @@ from pigaming_app.games.race.state import PAD_HALF
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
 from pigaming_app.scenes.views.race.lines import WIDE_LINE, LineFrame
 from pigaming_app.ui.draw import (
+    BODY,
     FOCUS,
     ICE,
-    LABEL,
+    PLAYERS,
     THIN,
     WHITE,
     Color,
     GlowCanvas,
+    cut_box,
     dim,
     mix,
     regular_polygon,
@@ -30,6 +32,7 @@ OIL_SHAPES = 3
 OIL_LEVELS = 3
 AIR_TURNS, AIR_LEVELS = 48, 3
 SWIRL_TURNS = 12
+SHIELD_SWAY = 3  # of 24 turns: few, as a shield takes much of the sprites' memory
 PULSE_LEVELS = 4
 OIL: Color = (168, 120, 255)
 SHEEN: Color = (70, 215, 200)
@@ -69,7 +72,7 @@ def item_box(turn: int) -> Sprite:
 def box_gone() -> Sprite:
     """Place of an item box that was taken."""
     ink = GlowCanvas(96, 96).set_transform(48, 48)
-    return trim(ink.dashes(regular_polygon(6, 30), dim(FOCUS, 0.35), 3, 9, 9).plain(), 48, 48)
+    return trim(ink.dashes(regular_polygon(6, 30), dim(FOCUS, 0.4), 3, 9, 9).sprite(0.2), 48, 48)
 
 
 @cached
@@ -78,7 +81,7 @@ def oil(shape: int, level: int) -> Sprite:
     if level < OIL_LEVELS:
         return faded(oil(shape, OIL_LEVELS), level / OIL_LEVELS)
     rng, ink = random.Random(40 + shape), GlowCanvas(128, 128, 3).set_transform(64, 64)
-    waves = [(k, rng.uniform(0.03, 0.12), rng.uniform(0.0, math.tau)) for k in (2, 3, 5)]
+    waves = [(k, share, rng.uniform(0.0, math.tau)) for k, share in ((2, 0.10), (3, 0.07), (5, 0.02))]
 
     def ring(radius: float, first: int = 0, last: int = 48) -> list[tuple[float, float]]:
         points = []
@@ -137,14 +140,14 @@ def finish_pulse(line: LineFrame, level: int) -> Sprite:
 
 
 @cached
-def place_change(up: bool, place: str) -> Sprite:
-    """A place gained or lost: an arrow and the new place."""
+def place_change(seat: int, up: bool, place: str) -> Sprite:
+    """A place gained or lost by a seat: a small plate with an arrow and the new place."""
     color, side = (GAIN, -1) if up else (LOSS, 1)
-    width = round(text_width(place, LABEL, "hero")) + 116
-    ink = GlowCanvas(width, 112)
-    x, y = 54.0, 56.0
-    plate = [(14, 22), (width - 14, 22), (width - 14, 90), (14, 90)]
-    ink.solid(plate)
-    ink.fill([(x - 20, y - 14 * side), (x + 20, y - 14 * side), (x, y + 20 * side)], color)
-    ink.text(place, LABEL, x + 32, y, color, "hero")
-    return trim(ink.sprite(0.7), width / 2, 56)
+    width = round(text_width(place, BODY, "hero")) + 104
+    ink = GlowCanvas(width, 96)
+    x, y = 46.0, 48.0
+    plate = cut_box(18, 20, width - 36, 56, 10)
+    ink.solid(plate).line(plate, dim(PLAYERS[seat], 0.7), 3, True)
+    ink.fill([(x - 15, y - 11 * side), (x + 15, y - 11 * side), (x, y + 15 * side)], color)
+    ink.text(place, BODY, x + 24, y, color, "hero")
+    return trim(ink.sprite(0.7), width / 2, 48)
