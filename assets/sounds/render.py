@@ -167,8 +167,35 @@ def spoiled() -> Samples:
     return together([(0.0, np.tanh(1.5 * crash)), (0.25, 0.6 * melody("C4 F#3", 0.12, half=0.08, bright=0.7))])
 
 
-def delivered() -> Samples:
-    return together([(0.0, melody("E4 B4 E5", 0.07)), (0.21, pluck(pitch("G#5"), 0.45, 0.11, 0.4))])
+def delivered_ice() -> Samples:
+    """Ice's jingle: bells that run up to a high, glassy chord."""
+    bells = melody("E5 G#5 B5", 0.07, half=0.07, bright=0.25)
+    chord = [(0.21, 0.7 * pluck(pitch(note), 0.6, 0.15, 0.2)) for note in ("E6", "G#6", "B6")]
+    return together([(0.0, bells), *chord])
+
+
+def delivered_fire() -> Samples:
+    """Fire's jingle: two blows of a brassy horn, the second one higher and longer."""
+    calls = ((0.0, 0.16, ("E4", "B4")), (0.17, 0.6, ("A3", "A4", "C#5", "E5")))
+    return together(
+        [(start, pluck(pitch(note), seconds, 0.16, 0.8)) for start, seconds, notes in calls for note in notes]
+    )
+
+
+def one_to_go() -> Samples:
+    """A rising call that is held: something is about to happen."""
+    return together([(0.0, melody("B4 E5 B4 E5", 0.08, half=0.06)), (0.32, melody("G#5 B5", 0.1, last=0.6, half=0.16))])
+
+
+def warning(last: bool) -> Samples:
+    """Two knocks on metal; the `last` ones are higher."""
+    hz = pitch("G#5" if last else "E5")
+    return together([(start, pluck(factor * hz, 0.1, 0.02, 0.7)) for start in (0.0, 0.07) for factor in (1.0, 1.52)])
+
+
+def stolen() -> Samples:
+    """A swoop down, and a cheeky answer."""
+    return together([(0.0, sweep(1100.0, 240.0, 0.25, 0.12, glide=0.09)), (0.17, melody("F4 E4 D#5", 0.09, last=0.3))])
 
 
 def freeze() -> Samples:
@@ -305,7 +332,19 @@ SOUNDS: dict[str, tuple[Callable[[], Samples], float]] = {  # how it is made, an
     "refused": (lambda: melody("A3 A3", 0.08, last=0.1, half=0.03, bright=0.8), -21.0),
     "machine_done": (machine_done, -19.0),
     "spoiled": (spoiled, -16.0),
-    "delivered": (delivered, -15.0),
+    "delivered_ice": (delivered_ice, -15.0),
+    "delivered_fire": (delivered_fire, -15.0),
+    "one_to_go": (one_to_go, -15.0),
+    "clearing": (partial(warning, False), -19.0),
+    "jamming": (partial(warning, True), -21.0),
+    "stolen": (stolen, -16.0),
+    "rush": (lambda: melody("B5 B5 E6 B5 B5 E6", 0.06, bright=0.3), -16.0),
+    "expired": (lambda: melody("E4 C4 A3", 0.12, bright=0.7), -18.0),
+    "fast": (
+        lambda: together([(0.0, sweep(180.0, 720.0, 0.45, 0.25, glide=0.2)), (0.3, pluck(pitch("E6"), 0.3, 0.07))]),
+        -17.0,
+    ),
+    "star_lost": (lambda: melody("E5 C5 A4", 0.11, last=0.5, half=0.12, bright=0.3), -16.0),
     "freeze": (freeze, -17.0),
     "arrived": (lambda: melody("E4 G4", 0.09, bright=0.3), -20.0),
     "move": (lambda: pluck(pitch("E5"), 0.06, 0.012, 0.3), -23.0),

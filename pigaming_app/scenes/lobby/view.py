@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import pygame
 
-from pigaming_app.games.game import FREE, PAIRS
+from pigaming_app.games.game import ALLIES, FREE, PAIRS
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.lobby import seat_card as card
@@ -105,7 +105,7 @@ class LobbyPage:
             name = controls.moves(place.device) or words(f"devices.{controls.name(place.device)}")
             card.driver("pad" if place.device.kind == "pad" else "keys", name).draw(screen, x, y)
         else:
-            card.driver("ai", words("lobby.ai")).draw(screen, x, y)
+            card.driver("ai", words("lobby.mate" if self.seats.team_mode == ALLIES else "lobby.ai")).draw(screen, x, y)
         if self.seats.mat:
             key = "lobby.real" if place.real else "lobby.simulated"
             middle = card.REAL_Y if self.seats.teams else card.TEAM_Y

@@ -5,7 +5,8 @@ import math
 import pygame
 
 from pigaming_app.games.factory.layout import BODY, Floor, SlotSpec
-from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_SLOTS, RAW, SHELVES, A
+from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_SLOTS, RAW, SHARED_SLOTS, SHELVES, A
+from pigaming_app.games.factory.state import ICE as FIRST_TEAM
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS, star, state_icon
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -21,8 +22,8 @@ Inks = tuple[GlowCanvas, GlowCanvas]  # glowing and crisp canvas
 
 @cached
 @resumable
-def bare(floor: Floor) -> Steps[pygame.Surface]:
-    """Static canvas of a floor."""
+def bare(floor: Floor, allies: bool = False, party: bool = False) -> Steps[pygame.Surface]:
+    """Static canvas of a floor; the warehouses of `allies` all belong to one team, a `party` has shared slots."""
     page = LayeredCanvas()
     for ink in (page.glow, page.crisp):
         ink.set_transform(LEFT, TOP)
@@ -30,32 +31,36 @@ def bare(floor: Floor) -> Steps[pygame.Surface]:
         for y in range(50, int(HEIGHT), 50):
             page.crisp.disc(x, y, 1.6, (26, 37, 54))
     yield
-    yield from draw_floor((page.glow, page.crisp), floor)
+    yield from draw_floor((page.glow, page.crisp), floor, allies, party)
     for first in range(0, MACHINE_SLOTS, SHELVES):
-        _draw_storage((page.glow, page.crisp), floor.slots[first : first + SHELVES])
+        slots = floor.slots[first : first + SHELVES]
+        _draw_storage((page.glow, page.crisp), slots, _color(slots, allies))
     page.glow.line(cut_box(-3, -3, WIDTH + 6, HEIGHT + 6, 28), WALL, THIN, True)
     yield
     return (yield from page.render_steps())
 
 
-def draw_floor(canvases: Inks, floor: Floor) -> Steps[None]:
-    """Draw aisle, warehouses and machines in arena px."""
-    _aisle(canvases, floor.aisle)
+def draw_floor(canvases: Inks, floor: Floor, allies: bool = False, party: bool = False) -> Steps[None]:
+    """Draw aisle, warehouses, machines and shared slots in arena px."""
+    _aisle(canvases, floor.aisle, walkers=not party)
+    for slot in floor.slots[SHARED_SLOTS:] if party else ():
+        _shared_slot(canvases[1], slot.x, slot.y)
     yield
     for first in range(0, MACHINE_SLOTS, SHELVES):
-        _warehouse(canvases, floor.slots[first : first + SHELVES])
+        slots = floor.slots[first : first + SHELVES]
+        _warehouse(canvases, slots, _color(slots, allies))
         yield
     for m, machine in enumerate(floor.machines):
         _machine(canvases, floor, m, machine.kind, machine.x, machine.y)
         yield
 
 
-def _aisle(canvases: Inks, aisle: tuple[float, float, float, float]) -> None:
+def _aisle(canvases: Inks, aisle: tuple[float, float, float, float], walkers: bool) -> None:
     x, y, w, h = aisle
     _, crisp = canvases
     crisp.dashes(cut_box(x, y, w, h, 20), dim(WALKWAY, 0.9), 5, 24, 18)
     tall = h > w
-    for share in (0.18, 0.82):
+    for share in (0.18, 0.82) if walkers else ():  # shared slots may lie there
         px, py = (x + w / 2, y + h * share) if tall else (x + w * share, y + h / 2)
         _walker(crisp, px, py, dim(WALKWAY, 0.8))
 
@@ -67,9 +72,13 @@ def _walker(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
         ink.line([(x + u, y + v) for u, v in limb], color, 8)
 
 
-def _warehouse(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
+def _color(slots: tuple[SlotSpec, ...], allies: bool) -> Color:
+    return TEAMS[FIRST_TEAM if allies else slots[0].team]
+
+
+def _warehouse(canvases: Inks, slots: tuple[SlotSpec, ...], color: Color) -> None:
     glow, crisp = canvases
-    color, x = TEAMS[slots[0].team], slots[0].x
+    x = slots[0].x
     top, bottom = slots[0].y, slots[-1].y
     box = cut_box(x - 54, top - 56, 108, bottom - top + 112, 16)
     glow.fill(box, dim(color, 0.05)).neon(box, color, LINE, True)
@@ -85,6 +94,14 @@ def draw_slot(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
             ink.line(
                 [(x + sx * h, y + sy * (h - k)), (x + sx * h, y + sy * h), (x + sx * (h - k), y + sy * h)], color, THIN
             )
+
+
+def _shared_slot(ink: GlowCanvas, x: float, y: float) -> None:
+    """Draw the corners of a slot for both teams."""
+    for sx, color in ((-1, TEAMS[FIRST_TEAM]), (1, TEAMS[1 - FIRST_TEAM])):
+        for sy in (-1, 1):
+            h, k = sx * SLOT / 2, sx * 20
+            ink.line([(x + h, y + sy * (34 - 20)), (x + h, y + sy * 34), (x + h - k, y + sy * 34)], color, THIN)
 
 
 def draw_machine(canvases: Inks, kind: int, x: float, y: float) -> None:
@@ -111,10 +128,10 @@ def _machine(canvases: Inks, floor: Floor, m: int, kind: int, x: float, y: float
         crisp.fill([(cx + u * c - v * s, cy + u * s + v * c) for u, v in ((8, 0), (-6, 13), (-6, -13))], WALL)
 
 
-def _draw_storage(canvases: Inks, slots: tuple[SlotSpec, ...]) -> None:
+def _draw_storage(canvases: Inks, slots: tuple[SlotSpec, ...], color: Color) -> None:
     """Draw a shelf or lorry beside a warehouse, outside the arena, with the direction of the pallets."""
     glow, _ = canvases
-    color, entry = TEAMS[slots[0].team], slots[0].kind == ENTRY
+    entry = slots[0].kind == ENTRY
     left = slots[0].x < WIDTH / 2
     x, y = -MARGIN_X if left else WIDTH + MARGIN_X, (slots[0].y + slots[-1].y) / 2
     if entry:

@@ -2,8 +2,9 @@
 
 from collections.abc import Iterable
 
-from pigaming_app.games.factory.state import Factory
+from pigaming_app.games.factory.state import FIRE, ICE, Factory
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.factory.announcements import Announcements
 from pigaming_app.scenes.views.factory.events import (
     DELIVERY,
     DONE,
@@ -18,9 +19,12 @@ from pigaming_app.scenes.views.factory.events import (
 from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
-from pigaming_app.ui.draw import ALARM
+from pigaming_app.ui.draw import ALARM, FOCUS, PLAYERS
 
 POP = 0.12  # s, pop animation of a moved crate
+JINGLES = {ICE: "delivered_ice", FIRE: "delivered_fire"}
+WORD_UP, WORD_DOWN = 118.0, 110.0  # px from a pallet to a word over it, or below it near the upper edge
+UPPER_EDGE = 230.0  # px
 
 
 class CratePops:
@@ -40,24 +44,45 @@ class CratePops:
 
 
 def react(
-    events: Iterable[FactoryEvent], state: Factory, particles: Particles, pops: CratePops, options: ViewOptions
+    events: Iterable[FactoryEvent],
+    state: Factory,
+    particles: Particles,
+    pops: CratePops,
+    notes: Announcements,
+    options: ViewOptions,
 ) -> list[SoundCue]:
-    """Add particles for the events; returns their sounds."""
+    """Add particles and words for the events; returns their sounds."""
     cues: list[SoundCue] = []
     for event in events:
-        x, y = LEFT + event.x, TOP + event.y
+        x, y, sound = LEFT + event.x, TOP + event.y, event.kind
+        word_y = y - WORD_UP if event.y > UPPER_EDGE else y + WORD_DOWN
         if event.kind in (LIFTED, SET_DOWN, DELIVERY, SPOILED, DONE, RENEWED, STARTED):
             pops.begin(event.what, particles.clock)
         match event.kind:
             case "delivered":
-                color = TEAMS[state.pallets[event.what].team]
+                team = state.pallets[event.what].team
+                color, sound = TEAMS[team], JINGLES[team]
                 particles.burst(x, y, color, 30, 30, 120)
                 if options.flashes != "off":
                     particles.shock(x, y, color)
                 if options.flashes == "full":
                     particles.glow(x, y, color)
+                notes.add(particles.clock, x, word_y, "delivered", color)
                 if event.player is not None:
-                    particles.score(x, y - 70, "+1", event.player)
+                    particles.score(x, y - 20, f"+{event.worth}", event.player)
+            case "stolen" if event.player is not None:
+                particles.burst(x, y, PLAYERS[event.player], 24, 30, 110)
+                if options.flashes != "off":
+                    particles.shock(x, y, TEAMS[event.worth])
+                notes.add(particles.clock, x, word_y, "stolen", TEAMS[1 - event.worth])
+            case "rush":
+                particles.burst(x, y, FOCUS, 20, 34, 90)
+                notes.add(particles.clock, x, word_y, "rush", FOCUS)
+            case "expired":
+                particles.burst(x, y, ALARM, 14, 34, 60)
+                notes.add(particles.clock, x, word_y, "expired", ALARM)
+            case "fast":
+                particles.burst(x, y, FOCUS, 24, 80, 70)
             case "spoiled":
                 particles.burst(x, y, ALARM, 24, 26, 100)
                 if options.flashes == "full" and options.shake:
@@ -69,5 +94,5 @@ def react(
             case _:
                 pass
         if event.kind not in (THAWED, STARTED):
-            cues.append((event.kind, event.player, event.x))
+            cues.append((sound, event.player, event.x))
     return cues

@@ -3,27 +3,33 @@
 from collections.abc import Iterator, Sequence
 from functools import partial
 
-from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, MAX_PALLETS, SHELVES, TEAMS, A, B
+from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, MAX_PALLETS, SHELVES, TEAMS, A, B, Factory
+from pigaming_app.games.factory.state import ICE as ICE_TEAM
+from pigaming_app.scenes.views.factory import contest, countdowns
+from pigaming_app.scenes.views.factory.announcements import Announcements
 from pigaming_app.scenes.views.factory.next_step import AIMS
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import factory as crates
+from pigaming_app.scenes.views.sprites import factory_signs as signs
 from pigaming_app.scenes.views.sprites import pickups as things
-from pigaming_app.ui.draw import ALARM, ICE, PLAYERS, TITLE, dim
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, TITLE, dim
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
 from pigaming_app.ui.draw.text import glyph
 
 
-def jobs(seats: Sequence[int]) -> Iterator[Job]:
-    """One small job per sprite."""
-    for team in range(TEAMS):
+def jobs(seats: Sequence[int], state: Factory, notes: Announcements) -> Iterator[Job]:
+    """One small job per sprite of a match that begins in `state`."""
+    rules = state.rules
+    for team in (ICE_TEAM,) if rules.allies else range(TEAMS):
         for turn in range(HEADINGS):
             yield partial(crates.forks, team, turn)
-        for state in range(DELIVERED + 1):
+        for form in range(DELIVERED + 1):
             for tenths in (10, 13, 12, 11):
-                yield partial(crates.crate, team, state, tenths)
+                yield partial(crates.crate, team, form, tenths)
         yield from (partial(crates.busy, team, kind) for kind in (A, B))
         yield from (partial(crates.count, number, team) for number in range(1, MAX_PALLETS + 1 - SHELVES))
+        yield from notes.jobs(("delivered", crates.TEAMS[team]))
     for working in (False, True):
         for stride in range(crates.STRIDE):
             for turn in range(crates.PERSON_TURNS):
@@ -38,19 +44,26 @@ def jobs(seats: Sequence[int]) -> Iterator[Job]:
     for seat in seats:
         yield partial(crates.target, PLAYERS[seat], False)
         yield partial(crates.target, dim(PLAYERS[seat], AIMS), True)
+        yield partial(signs.dot, PLAYERS[seat])
+        yield from (partial(signs.task, seat, lifts) for lifts in (False, True))
         for turn in range(HEADINGS):
             yield partial(crates.dash, PLAYERS[seat], turn)
             yield partial(crates.arrow, PLAYERS[seat], turn)
-    yield from _moments(seats)
+    yield from countdowns.jobs()
+    if rules.party:
+        yield from contest.jobs()
+        yield from notes.jobs(*(("stolen", color) for color in crates.TEAMS), ("rush", FOCUS), ("expired", ALARM))
+    yield from _moments(seats, bool(rules.party))
 
 
-def _moments(seats: Sequence[int]) -> Iterator[Job]:
+def _moments(seats: Sequence[int], party: bool) -> Iterator[Job]:
     for number in (1, 2, 3):
         yield partial(crates.digit, number)
     for seconds in range(1, 11):
         yield partial(crates.awaited, seconds)
     yield from (crates.exclaim, crates.cross)
-    for color in (*crates.TEAMS, ALARM, crates.STATES[HALF], crates.STATES[DONE]):
+    sparks = (*crates.TEAMS, ALARM, FOCUS, *(PLAYERS[seat] for seat in seats)) if party else (*crates.TEAMS, ALARM)
+    for color in (*sparks, crates.STATES[HALF], crates.STATES[DONE]):
         for size in effects.SPARK_SIZES:
             for turn in range(effects.SPARK_TURNS):
                 yield partial(effects.sparks, color, size, turn)
@@ -62,3 +75,5 @@ def _moments(seats: Sequence[int]) -> Iterator[Job]:
     for seat in seats:
         for level in range(things.POPUP_LEVELS, 0, -1):
             yield partial(things.popup, "+1", seat, level)
+            if party:
+                yield partial(things.popup, "+2", seat, level)

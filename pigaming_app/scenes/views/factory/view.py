@@ -2,10 +2,10 @@
 
 import math
 from functools import partial
-from typing import Any
 
 import pygame
 
+from pigaming_app.games.factory.pallets import side_of
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DONE,
@@ -20,21 +20,25 @@ from pigaming_app.games.factory.state import (
     WORKING,
     A,
     Factory,
+    Slot,
 )
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
+from pigaming_app.scenes.views.factory import contest, countdowns
+from pigaming_app.scenes.views.factory.announcements import Announcements
 from pigaming_app.scenes.views.factory.background import bare
 from pigaming_app.scenes.views.factory.effects import CratePops, react
-from pigaming_app.scenes.views.factory.events import FactoryEventDetector, spot
-from pigaming_app.scenes.views.factory.hud import FactoryHud, pulse
-from pigaming_app.scenes.views.factory.hud import X as PANELS
-from pigaming_app.scenes.views.factory.hud import Y as TOP_OF_PANELS
+from pigaming_app.scenes.views.factory.events import STOLEN, FactoryEventDetector, spot
+from pigaming_app.scenes.views.factory.hud import FactoryHud
 from pigaming_app.scenes.views.factory.next_step import NextStepGuide
+from pigaming_app.scenes.views.factory.panels import X as PANELS
+from pigaming_app.scenes.views.factory.panels import Y as TOP_OF_PANELS
+from pigaming_app.scenes.views.factory.panels import pulse
 from pigaming_app.scenes.views.factory.prewarm import jobs
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
 
@@ -50,20 +54,32 @@ class FactoryView(MatchView):
     def __init__(
         self, arena: Arena, state: Factory, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
-        super().__init__(state, players, options, words, Background(partial(bare, arena.plan)))
-        self.hud = FactoryHud(self.background, players)
+        super().__init__(
+            state,
+            players,
+            options,
+            words,
+            Background(partial(bare, arena.plan, bool(state.rules.allies), bool(state.rules.party))),
+        )
+        self.hud = FactoryHud(self.background, players, state, words)
         self.detector = FactoryEventDetector(state)
         self.guide = NextStepGuide(players)
         self.pops = CratePops()
+        self.notes = Announcements(words)
         self.people = self.people_before = _people(state)
-        self.add_prewarm_jobs(self.hud.jobs())
-        self.add_prewarm_jobs(jobs(self.seats))
+        self.add_prewarm_jobs(self.hud.jobs(state))
+        self.add_prewarm_jobs(jobs(self.seats, state, self.notes))
 
     def watch(self, state: Factory) -> list[SoundCue]:
         self.record_poses(state)
         self.people_before, self.people = self.people, _people(state)
         self.guide.update(state)
-        return react(self.detector.detect(state), state, self.particles, self.pops, self.options)
+        events = self.detector.detect(state)
+        for event in events:
+            if event.kind == STOLEN and self.options.flashes != "off":
+                self.particles.bloom(PANELS[event.worth], TOP_OF_PANELS, 0.4, pulse(event.worth))
+        cues = react(events, state, self.particles, self.pops, self.notes, self.options)
+        return [*cues, *countdowns.sounds(state)]
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
         self.particles.advance(seconds)
@@ -74,15 +90,19 @@ class FactoryView(MatchView):
         over: Batch = []
         light: Batch = []
         top: Batch = []
+        if state.rules.party:
+            contest.draw_floor(light, state, self.particles.clock)
         poses = {seat: self.pose(seat, blend) for seat in self.seats}
         self._machines(over, light, state)
-        self._crates(over, state)
-        self._people(over, top, state, blend)
+        self._crates(over, light, top, state)
+        self._people(over, light, top, state, blend)
         for seat, pose in poses.items():
             self._robot(under, over, light, top, state, seat, pose)
-            self.guide.draw(light, state, seat, pose, self.particles.clock)
+            self.guide.draw(light, top, state, seat, pose, self.particles.clock)
+        countdowns.draw(light, top, state)
         self._counts(light, state)
         self.particles.draw_light(light)
+        self.notes.draw(top, self.particles.clock)
         self.particles.draw_scores(top)
         self.paint(screen, under, over, light, top)
 
@@ -96,18 +116,21 @@ class FactoryView(MatchView):
                 part = round(crates.COUNTS * (1.0 - machine.left / rules.process))
                 put(light, crates.progress(HALF if machine.kind == A else DONE, part), x, y)
 
-    def _crates(self, over: Batch, state: Factory) -> None:
+    def _crates(self, over: Batch, light: Batch, top: Batch, state: Factory) -> None:
         """Draw the crates in slots; carried ones are drawn with their carrier."""
         for p in range(PALLETS):
             pallet = state.pallets[p]
             if pallet.exists and pallet.place == IN_SLOT:
                 x, y = spot(state, p)
-                put(over, self._crate(p, pallet), LEFT + x, TOP + y)
+                self._crate(over, light, top, state, p, LEFT + x, TOP + y)
 
-    def _crate(self, p: int, pallet: Any) -> Any:
-        return crates.crate(pallet.team, pallet.state, self.pops.tenths(p, self.particles.clock))
+    def _crate(self, over: Batch, light: Batch, top: Batch, state: Factory, p: int, x: float, y: float) -> None:
+        """Draw pallet p at (x, y), canvas px."""
+        pallet = state.pallets[p]
+        put(over, contest.crate(pallet, self.pops.tenths(p, self.particles.clock)), x, y)
+        contest.mark_rush(light, top, state, pallet, x, y)
 
-    def _people(self, over: Batch, top: Batch, state: Factory, blend: float) -> None:
+    def _people(self, over: Batch, light: Batch, top: Batch, state: Factory, blend: float) -> None:
         for old, new, worker in zip(self.people_before, self.people, state.workers, strict=True):
             x, y = LEFT + old[0] + (new[0] - old[0]) * blend, TOP + old[1] + (new[1] - old[1]) * blend
             working = worker.task == WORKING
@@ -116,7 +139,7 @@ class FactoryView(MatchView):
             put(over, crates.person(step(worker.heading, crates.PERSON_TURNS), stride, working), x, y)
             if worker.pallet:
                 p, c, s = worker.pallet - 1, math.cos(worker.heading), math.sin(worker.heading)
-                put(over, self._crate(p, state.pallets[p]), x + HANDS * c, y + HANDS * s)
+                self._crate(over, light, top, state, p, x + HANDS * c, y + HANDS * s)
             if any(t and load.frozen for t, load in zip(worker.touched, state.loads, strict=True)):
                 put(top, crates.exclaim(), x + 26, y - 56)
 
@@ -134,7 +157,7 @@ class FactoryView(MatchView):
         ahead = FORK if seat not in self.real else BEFORE
         fork_x, fork_y = x + ahead * math.cos(heading), y + ahead * math.sin(heading)
         if load.pallet:
-            put(over, self._crate(load.pallet - 1, state.pallets[load.pallet - 1]), fork_x, fork_y)
+            self._crate(over, light, top, state, load.pallet - 1, fork_x, fork_y)
         if refused:
             put(top, crates.cross(), fork_x, fork_y)
         if load.frozen:
@@ -144,23 +167,27 @@ class FactoryView(MatchView):
 
     def _counts(self, light: Batch, state: Factory) -> None:
         """Draw the numbers of waiting and delivered pallets, and the time until the next one."""
-        for team in range(TEAMS):
-            entry = state.slots[team * 2 * SHELVES]
-            left = entry.x < 800
-            waiting = sum(pallet.place == WAITING and pallet.team == team and pallet.exists for pallet in state.pallets)
-            shipped = sum(pallet.place == SHIPPED and pallet.team == team for pallet in state.pallets)
-            gate = LEFT + entry.x + (-150 if left else 150)
+        for side in range(TEAMS):
+            entry, out = state.slots[side * 2 * SHELVES], state.slots[side * 2 * SHELVES + SHELVES]
+            waiting = sum(p.exists and p.place == WAITING and p.at == side for p in state.pallets)
+            shipped = sum(p.place == SHIPPED and p.at == side for p in state.pallets)
             if waiting:
-                put(light, crates.count(waiting, team), gate, TOP + entry.y - 14)
+                put(light, crates.count(waiting, entry.team), _beside(entry), TOP + entry.y - 14)
             if shipped:
-                out = state.slots[team * 2 * SHELVES + SHELVES]
-                put(light, crates.count(shipped, team), LEFT + out.x + (-150 if out.x < 800 else 150), TOP + out.y - 14)
+                put(light, crates.count(shipped, out.team), _beside(out), TOP + out.y - 14)
             damaged = [
-                pallet for pallet in state.pallets if pallet.exists and pallet.team == team and pallet.state == DAMAGED
+                pallet
+                for p, pallet in enumerate(state.pallets)
+                if pallet.exists and pallet.state == DAMAGED and side_of(state, p) == side
             ]
             for i, pallet in enumerate(damaged):
                 seconds = -(-(state.rules.replace - pallet.waited) // HZ)
-                put(light, crates.awaited(seconds), gate, TOP + entry.y + 3 * 88 - 60 * i)
+                put(light, crates.awaited(seconds), _beside(entry), TOP + entry.y + 3 * 88 - 60 * i)
+
+
+def _beside(slot: Slot) -> float:
+    """Canvas x in the margin beside a warehouse's slot."""
+    return LEFT + slot.x + (-150.0 if slot.x < WIDTH / 2 else 150.0)
 
 
 def _people(state: Factory) -> list[tuple[float, float]]:

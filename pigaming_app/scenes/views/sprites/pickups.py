@@ -2,8 +2,7 @@
 
 import math
 
-import pygame
-
+from pigaming_app.scenes.views.sprites.lettering import edged
 from pigaming_app.ui.draw import (
     ALARM,
     BLACK,
@@ -16,7 +15,6 @@ from pigaming_app.ui.draw import (
     Color,
     GlowCanvas,
     dim,
-    font,
     icon,
     mix,
     regular_polygon,
@@ -61,14 +59,4 @@ def popup(text: str, player: int, level: int = POPUP_LEVELS) -> Sprite:
     """Rising score, opacity `level` of POPUP_LEVELS; a dark edge keeps it readable on any background."""
     if level < POPUP_LEVELS:
         return faded(popup(text, player), level / POPUP_LEVELS)
-    face = font("hero", 2 * SUB)
-    edge = face.render(text, True, BLACK)
-    w, h = edge.get_width() // 2 + 64, SUB + 64
-    ink = GlowCanvas(w, h).text(text, SUB, w / 2, h / 2, PLAYERS[player], "hero", "c")
-    dark = pygame.Surface(ink.sheet.get_size(), pygame.SRCALPHA)
-    x, y = w - edge.get_width() / 2, h - face.get_ascent() + 0.7 * SUB
-    for i in range(12):
-        dark.blit(edge, (x + 10 * math.cos(i * math.tau / 12), y + 10 * math.sin(i * math.tau / 12)))
-    out = pygame.transform.smoothscale(dark, (w, h))
-    out.blit(ink.lit(0.9), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
-    return trim(out, w / 2, h / 2)
+    return edged(text, SUB, PLAYERS[player])

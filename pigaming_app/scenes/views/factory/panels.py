@@ -1,0 +1,113 @@
+"""Pieces of the HUD panels of Robot Factory: frames, crates, robots, banners."""
+
+from collections.abc import Iterator
+
+import pygame
+
+from pigaming_app.games.factory.state import ICE as FIRST_TEAM
+from pigaming_app.scenes.views.background import Bit
+from pigaming_app.scenes.views.factory.background import draw_lorry
+from pigaming_app.scenes.views.hud_parts import number_bits
+from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
+from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
+from pigaming_app.ui.draw import LABEL, LINE, MIST, PLAYERS, SUB, Color, GlowCanvas, badge, cut_box, dim, icon
+from pigaming_app.ui.draw.sprites import Sprite, faded
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size, number_width
+
+Y, H, W, EDGE = 26, 104, 652, 24  # px: top, height and width of a panel, margin around its sprites
+X = (160, 1108)
+EMBLEM, NUMBER = 58, 106  # px from a panel's outer edge
+MIDDLE = Y + H / 2
+Mate = tuple[int, bool, int]  # seat, whether an AI drives it, turbo in sixteenths
+
+
+@cached
+def frame(team: int, lorry: bool = False) -> pygame.Surface:
+    """Outline and emblem of a panel; with a lorry for its emblem if there is only one team."""
+    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    _outline(ink, team)
+    if lorry:
+        ink.set_transform(EDGE + EMBLEM, EDGE + H / 2, 0.0, 0.8)
+        draw_lorry(ink, 0, 0, COLORS[team], 1)
+    else:
+        emblem(ink, team, EMBLEM if team == FIRST_TEAM else W - EMBLEM, H / 2, 34)
+    return ink.lit(0.6)
+
+
+@cached
+def plain_frame(team: int) -> pygame.Surface:
+    """Outline of a panel without an emblem."""
+    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    _outline(ink, team)
+    return ink.lit(0.6)
+
+
+def _outline(ink: GlowCanvas, team: int) -> None:
+    ink.fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.05)).line(cut_box(0, 0, W, H), COLORS[team], LINE, True)
+
+
+@cached
+def banner(team: int, text: str) -> pygame.Surface:
+    """A whole panel with a call instead of its content."""
+    ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), COLORS[team]
+    ink.fill(cut_box(0, 0, W, H), dim(color, 0.2)).line(cut_box(0, 0, W, H), color, LINE + 4, True)
+    ink.text(text, fit_size(text, SUB, W - 80, "hero"), W / 2, H / 2, color, "hero", "c")
+    return ink.lit(0.7)
+
+
+@cached
+def small_crate(team: int, state: int, size: int) -> pygame.Surface:
+    """Crate in a panel."""
+    ink = GlowCanvas(size + 28, size + 28, 3)
+    draw_crate(ink, team, state, size / 2 + 14, size / 2 + 14, size)
+    return ink.lit(0.5)
+
+
+@cached
+def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
+    """Robot in a panel: badge, AI mark, and turbo in sixteenths."""
+    ink = GlowCanvas(120, 52, 3)
+    badge(ink, seat, 34, 22, 18)
+    if ai:
+        icon(ink, "ai", 80, 20, 13, MIST, 3)
+    ink.line([(14, 46), (104, 46)], dim(PLAYERS[seat], 0.2), 4)
+    if turbo:
+        ink.line([(14, 46), (14 + 90 * turbo / 16, 46)], PLAYERS[seat], 4)
+    return ink.lit(0.4)
+
+
+@cached
+def pulse(team: int) -> tuple[Sprite, ...]:
+    """Fade-out of a panel flash after a delivery, relative to its top left."""
+    ink = (
+        GlowCanvas(W + 2 * EDGE, H + 2 * EDGE)
+        .set_transform(EDGE, EDGE)
+        .fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.24))
+    )
+    whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
+    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
+
+
+def centred(image: pygame.Surface, x: float, y: float) -> Bit:
+    """An image centred at (x, y)."""
+    return image, (round(x) - image.get_width() // 2, round(y) - image.get_height() // 2), None
+
+
+def count_width(number: str, rest: str) -> float:
+    """Width of a large number and what follows it in smaller type, px."""
+    return number_width(number, SUB) + 4 + number_width(rest, LABEL)
+
+
+def count_bits(number: str, rest: str, x: float, color: Color) -> Iterator[Bit]:
+    """A large number from `x`, and what follows it in smaller type."""
+    yield from number_bits(number, SUB, x, MIDDLE, color)
+    yield from number_bits(rest, LABEL, x + number_width(number, SUB) + 4, MIDDLE + 7, MIST)
+
+
+def robot_bits(mates: tuple[Mate, ...], xs: tuple[float, ...]) -> Iterator[Bit]:
+    """Robots in columns centred at `xs`, at most two in each."""
+    columns = [mates[2 * i : 2 * i + 2] for i in range(len(xs))]
+    for x, column in zip(xs, columns, strict=True):
+        for i, (seat, ai, turbo) in enumerate(column):
+            yield centred(robot_sign(seat, ai, turbo), x, MIDDLE + (0 if len(column) == 1 else -25 + 50 * i))
