@@ -76,6 +76,7 @@ class Variant:
     team_mode: str = FREE  # FREE, ALONE, PAIRS or ALLIES
     teams: tuple[int, int, int, int] = (0, 1, 2, 3)  # default team of each seat
     overtime: float = 0.0  # s, by which a level match may exceed its minutes
+    columns: tuple[str, ...] = ()  # of the results table; empty: those of the game
 
 
 @dataclass(frozen=True)

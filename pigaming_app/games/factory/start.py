@@ -28,7 +28,15 @@ GOALS = tuple(range(2, MAX_PALLETS + 1))
 OVERTIME = 30  # s
 VARIANTS = named(
     Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1)),
-    Variant("party", (2, 3, 5), 3, team_mode=PAIRS, teams=(0, 1, 0, 1), overtime=OVERTIME),
+    Variant(
+        "party",
+        (2, 3, 5),
+        3,
+        team_mode=PAIRS,
+        teams=(0, 1, 0, 1),
+        overtime=OVERTIME,
+        columns=("score", "delivered", "stolen"),
+    ),
     Variant("together", (3, 5, 8), 5, (4, 6, 8, 10, 12), 8, ALLIES, teams=(0, 0, 0, 0)),
 )
 STEPS_PER_DELIVERY = 1000.0  # steps of work that weigh as much as one delivery: more than a match can have
@@ -120,9 +128,17 @@ def ranking_key(match: Factory, seat: int) -> float:
 
 
 def stats(match: Factory, seat: int) -> Mapping[str, float]:
-    """Statistics of a seat: pallets delivered, steps of work on pallets it fed to machines, people driven over."""
+    """Statistics of a seat: pallets delivered, steps of work on pallets it fed to machines, people driven over.
+
+    In party also pallets taken from the other team; for allies their stars.
+    """
     load = match.loads[seat]
-    return {"delivered": load.delivered, "steps": load.steps, "bumps": load.hits}
+    facts = {"delivered": load.delivered, "steps": load.steps, "bumps": load.hits}
+    if match.rules.party:
+        facts["stolen"] = load.stolen
+    if match.rules.allies:
+        facts["stars"] = match.stars
+    return facts
 
 
 def records(match: Factory, seat: int) -> Mapping[str, int]:

@@ -56,7 +56,7 @@ def last_variant(settings: Settings, game: str) -> Variant:
 
 def match_length(words: Words, game: Game, minutes: float, goal: int) -> str:
     """The length of a match: laps, pallets, or minutes."""
-    return words(f"setup.count_{game.goal}", count=goal) if game.goal else words("setup.min", minutes=f"{minutes:g}")
+    return words(f"setup.count_{game.goal}", count=goal) if goal else words("setup.min", minutes=f"{minutes:g}")
 
 
 def rule_numbers(game: str, minutes: float, variant: str) -> dict[str, str]:

@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import pygame
 
-from pigaming_app.games.game import PAIRS, Game, Seat, Setup, Variant
+from pigaming_app.games.game import ALLIES, PAIRS, Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
@@ -232,7 +232,8 @@ class MatchSetupPage:
         left = (1.0 - self.slide / SLIDE_SECONDS) ** 2
         dx = round(self.direction * 160 * left)
         screen.set_clip(FRAME.inflate(-12, -12))
-        picture(self.game.name, self.chosen.arena).draw(screen, dx)
+        allies = self.variant.team_mode == ALLIES
+        picture(self.game.name, self.chosen.arena, allies).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
         starts = start_positions(self.game.name, self.chosen.arena, self.seats.seats())
@@ -245,16 +246,16 @@ class MatchSetupPage:
                     (round(x0 + dx + k * starts[i][0] + wave.dx), round(y0 + k * starts[i][1] + wave.dy)),
                     special_flags=pygame.BLEND_RGB_ADD,
                 )
-            if self.variant.team_mode == PAIRS:  # start positions depend on the team
+            if self.variant.team_mode in (PAIRS, ALLIES):  # start positions depend on the team
                 choice.mark(i).draw(screen, round(x0 + dx + k * starts[i][0]), round(y0 + k * starts[i][1]))
         screen.set_clip(None)
 
 
 @cached
 @resumable
-def picture(game: str, name: str) -> Steps[LitImage]:
-    """Large preview of an arena, positioned for the page."""
-    image = yield from preview(load_cached(game, name), *PICTURE.size)
+def picture(game: str, name: str, allies: bool) -> Steps[LitImage]:
+    """Large preview of an arena, positioned for the page. `allies`: all robots are in one team."""
+    image = yield from preview(load_cached(game, name), *PICTURE.size, allies)
     return LitImage(image, PICTURE.topleft)
 
 

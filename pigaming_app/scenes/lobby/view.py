@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import pygame
 
 from pigaming_app.ai.registry import STRENGTHS
-from pigaming_app.games.game import FREE, PAIRS
+from pigaming_app.games.game import ALLIES, FREE, PAIRS
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
@@ -117,7 +117,7 @@ class LobbyPage:
             color = self._selected(seat, DRIVE)
             card.driving(words(f"lobby.drive_{style}"), PICTURES[style], color).draw(screen, x, y)
         else:
-            card.driver("ai", words("lobby.ai")).draw(screen, x, y)
+            card.driver("ai", words("lobby.mate" if self.seats.team_mode == ALLIES else "lobby.ai")).draw(screen, x, y)
         if self.seats.mat:
             key = "lobby.real" if place.real else "lobby.simulated"
             color = self._selected(seat, REAL)

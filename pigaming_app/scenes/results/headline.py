@@ -3,15 +3,17 @@
 from collections.abc import Sequence
 
 from pigaming_app.ai.registry import RIVALS
-from pigaming_app.games.game import PAIRS, Outcome, Setup
+from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.sprites.factory import TEAMS
-from pigaming_app.ui.draw import ICE, PLAYERS, Color
+from pigaming_app.ui.draw import FOCUS, ICE, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
 
 
 def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int] = ()) -> str:
     """Title for a completed match; an AI has driven for the people in `absent`."""
+    if is_allied(setup):
+        return words(f"results.stars_{stars(outcome)}")
     if not outcome.winners:
         return words("results.tie")
     seat = outcome.winners[0]
@@ -41,7 +43,19 @@ def winning_color(outcome: Outcome, setup: Setup) -> Color:
     if not outcome.winners:
         return ICE
     seat = outcome.winners[0]
+    if is_allied(setup):
+        return FOCUS if stars(outcome) else ICE
     return TEAMS[setup.seats[seat].team] if _in_pairs(setup) else PLAYERS[seat]
+
+
+def is_allied(setup: Setup) -> bool:
+    """True if all robots were in one team, against the clock."""
+    return games()[setup.game].variants[setup.variant].team_mode == ALLIES
+
+
+def stars(outcome: Outcome) -> int:
+    """The stars of allies, 0 to 3."""
+    return round(outcome.rows[0].stats["stars"])
 
 
 def _in_pairs(setup: Setup) -> bool:

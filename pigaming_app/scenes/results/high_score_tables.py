@@ -1,12 +1,12 @@
 """High-score rules: the table of each feat, the matches that count, the format of values.
 
 A table covers one arena, one set of rules, one duration (minutes, laps or pallets) and one number of people. A match
-counts for a seat only if every opponent is a person or an AI at least as strong as `normal`.
+counts for a seat only if every opponent is a person or an AI at least as strong as `normal`; allies have no opponents.
 """
 
 from dataclasses import dataclass, replace
 
-from pigaming_app.games.game import RecordKind, Setup
+from pigaming_app.games.game import ALLIES, RecordKind, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, ScoreTable
 
@@ -28,6 +28,8 @@ class HighScoreTable:
 def counts(setup: Setup, seat: int) -> bool:
     """True if a seat's results in this match can enter a table."""
     own = setup.seats[seat]
+    if games()[setup.game].variants[setup.variant].team_mode == ALLIES:
+        return True
     opponents = [other.brain for other in setup.seats if other.brain != "off" and other.team != own.team]
     return bool(opponents) and all(brain == "human" or brain in STRONG for brain in opponents)
 

@@ -193,7 +193,8 @@ def conditions(words: Words, contest: ScoreTable) -> str:
     if len(game.variants) > 1 and contest.rules:
         parts.append(words(f"setup.{contest.game}_{contest.rules}"))
     if contest.length:
-        parts.append(match_length(words, game, contest.length, round(contest.length)))
+        by_goal = game.variants.get(contest.rules, game.default).goals
+        parts.append(match_length(words, game, contest.length, round(contest.length) if by_goal else 0))
     if contest.people:
         parts.append(words("best.person") if contest.people == 1 else words("best.people", count=contest.people))
     if contest.side == contest.people and contest.side:

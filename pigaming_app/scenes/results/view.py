@@ -12,9 +12,12 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.results.celebration import Celebration
-from pigaming_app.scenes.results.headline import headline, winning_color
+from pigaming_app.scenes.results.headline import headline, is_allied, stars, winning_color
 from pigaming_app.scenes.results.high_score_tables import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
+from pigaming_app.scenes.results.stars import APART as STAR_APART
+from pigaming_app.scenes.results.stars import HIGH, StarRow, empty, sign
+from pigaming_app.scenes.results.stars import POPS as STAR_POPS
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
@@ -71,13 +74,16 @@ class ResultsPage:
         self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
         game = games()[setup.game]
-        self.columns = ("score", *game.columns) if setup.game in SCORED else game.columns
-        self.winners = outcome.winners if finished else ()
+        columns = game.variants[setup.variant].columns or game.columns
+        self.columns = ("score", *columns) if setup.game in SCORED else columns
+        self.stars = stars(outcome) if finished and is_allied(setup) else 0
+        self.winners = outcome.winners if finished and (self.stars or not is_allied(setup)) else ()
         self.title_at = FIRST + APART * len(self.teams) + 0.15
         self.ready_at = self.title_at + 0.4
         self.parts: list[Part] = []
         self.plot: Plot
         self.finale: Celebration | None = None
+        self.star_row: StarRow | None = None
         self._rendering = self._render_parts()
 
     def prewarm(self, milliseconds: float) -> bool:
@@ -96,13 +102,17 @@ class ResultsPage:
         rows = [(FIRST + APART * i, "move", team[0].seat) for i, team in enumerate(reversed(self.teams))]
         if not self.finished:
             return [*rows]
+        if is_allied(self.setup):
+            lit = [(self.title_at + STAR_APART * i, "ready", i) for i in range(self.stars)]
+            return [*rows, *lit, (self.title_at + STAR_APART * self.stars, "win" if self.stars else "lose", None)]
         cheer = "tie" if not self.winners else "win" if not humans or set(self.winners) & set(humans) else "lose"
         return [*rows, (self.title_at, cheer, self.winners[0] if self.winners else None)]
 
     def update(self, seconds: float, age: float) -> None:
         """Advance the celebration."""
-        if self.finale and age >= self.title_at:
-            self.finale.update(seconds)
+        for show in (self.finale, self.star_row):
+            if show and age >= self.title_at:
+                show.update(seconds)
 
     def draw(self, screen: pygame.Surface, age: float) -> None:
         """Draw the page `age` seconds after it was opened."""
@@ -128,6 +138,8 @@ class ResultsPage:
             self.steel.draw(screen, begin=share_of(self.steel, LEFT + reach))
             drawn_whole = not self.finale and reach >= SHORT
             self.colored.draw(screen, share=1.0 if drawn_whole else share_of(self.colored, LEFT + reach))
+            if self.star_row:
+                self.star_row.draw(screen)
             if self.finale:
                 self.crown.draw(screen, dy=-70 * max(0.0, 1 - (age - self.title_at) / 0.3) ** 2)
                 self.finale.draw(screen)
@@ -161,6 +173,13 @@ class ResultsPage:
             yield True
         x, w = span(6, 6)
         self.plot = self._plot(x, w)
+        if is_allied(self.setup) and self.finished:
+            self.star_row = StarRow(self.stars, x, TOP + HIGH / 2, w, self.context.settings.flashes != "off")
+            for pop in range(STAR_POPS):
+                sign(pop)
+                yield True
+            empty()
+            yield True
         self.parts.append(Part(self.plot.grid(), 0.1))
         yield True
         self.lines = self.plot.lines()
@@ -176,15 +195,15 @@ class ResultsPage:
         words = self.context.words
         layer = Layer(LEFT, 54, RIGHT - LEFT, 116)
         x = LEFT
-        for seat in self.winners:
+        for seat in () if self.stars else self.winners:
             badge(layer.glow, seat, x + 52, 110, 50)
             x += 128
-        x += 14 if self.winners else 0
+        x += 14 if self.winners and not self.stars else 0
         ended = headline(words, self.outcome, self.setup, self.absent)
         text = ended if self.finished else words("results.ended")
         size = fit_size(text, TITLE, self.room - x - (130 if self.winners else 0))
         layer.canvas.text(text, size, x, 112, self._color())
-        if self.winners:
+        if self.winners and not self.stars:
             at = x + text_width(text, size) + 70
             ink = GlowCanvas(160, 140).set_transform(80, 70)
             icon(ink, "crown", 0, 0, 40, FOCUS, LINE)
@@ -212,14 +231,18 @@ class ResultsPage:
         layer = Layer(x, 206, 2 * w, 60)
         heads = [words(f"results.{name}") for name in self.columns]
         ends = self._ends()
+        team = words("results.together" if is_allied(self.setup) else "results.team")
         if self.by_team:
-            layer.canvas.body(words("results.team"), x + 24, 236, MIST)
-        begins = [24 + text_width(words("results.team"), BODY, "body") if self.by_team else 0, *ends]
+            layer.canvas.body(team, x + 24, 236, MIST)
+        begins = [24 + text_width(team, BODY, "body") if self.by_team else 0, *ends]
         rooms = [end - begin - APART_X for begin, end in zip(begins, ends, strict=False)]
         size = min(fit_size(head, BODY, room, "body") for head, room in zip(heads, rooms, strict=True))
         for head, end in zip(heads, ends, strict=True):
             layer.canvas.body(head, x + end, 236, MIST, "r", size)
-        layer.canvas.body(words(f"results.plot_{self.setup.game}"), plot_x, 236, MIST)
+        if not is_allied(self.setup):
+            points = "score" in self.columns
+            heading = words("results.plot_pitanks" if points else f"results.plot_{self.setup.game}")
+            layer.canvas.body(heading, plot_x, 236, MIST)
         return layer.render()
 
     def _team(self, rows: Sequence[Row], y: int) -> LitImage:
@@ -228,13 +251,16 @@ class ResultsPage:
         h = PITCH * len(rows) - (PITCH - ROW)
         wins = rows[0].seat in self.winners
         layer = Layer(x, y, w, h)
-        panel(layer.glow, x, y, w, h, PLAYERS[min(row.seat for row in rows)] if wins else STEEL, LINE if wins else THIN)
+        panel(layer.glow, x, y, w, h, self._team_color(rows) if wins else STEEL, LINE if wins else THIN)
         number = str(rows[0].place) if not self.by_team else signed(sum(row.score for row in rows))
         color = ICE if wins else MIST
         layer.canvas.text(number, fit_size(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
             self._row(layer, row, x, y + ROW / 2 + PITCH * i, color)
         return layer.render()
+
+    def _team_color(self, rows: Sequence[Row]) -> Color:
+        return FOCUS if self.stars else PLAYERS[min(row.seat for row in rows)]
 
     def _row(self, layer: Layer, row: Row, x: int, y: float, color: Color) -> None:
         """One robot: badge, score and the statistics of the game."""
@@ -285,7 +311,8 @@ class ResultsPage:
             rows = sorted(self.outcome.rows, key=lambda row: row.seat)
             laps = [Curve((row.seat,), tuple((i + 1.0, lap) for i, lap in enumerate(row.times))) for row in rows]
             return LapPlot(x, TOP, w, 528, laps, self.setup.goal)
-        return Plot(x, TOP, w, 528, self._curves(), self.outcome.seconds)
+        top = TOP + HIGH if is_allied(self.setup) and self.finished else TOP
+        return Plot(x, top, w, 528 + TOP - top, self._curves(), self.outcome.seconds)
 
     def _curves(self) -> list[Curve]:
         series = self.outcome.series

@@ -36,8 +36,10 @@ from pigaming_app.ui.draw.frame_budget import Steps
 MARGIN = 8  # px around the frame for its glow
 
 
-def preview(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
-    """Preview as additive light, scaled to fit w x h px and centred."""
+def preview(arena: Arena, w: int, h: int, allies: bool = False) -> Steps[pygame.Surface]:
+    """Preview as additive light, scaled to fit w x h px and centred. `allies`: all robots are in one team."""
+    if allies:
+        return (yield from floor(arena, w, h, allies))
     return (yield from PREVIEWS.get(type(arena.plan), walls)(arena, w, h))
 
 
@@ -84,17 +86,17 @@ def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     return out
 
 
-def floor(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
+def floor(arena: Arena, w: int, h: int, allies: bool = False) -> Steps[pygame.Surface]:
     """Preview of a factory floor: warehouses, machines, the aisle, start positions by team."""
     left, top, k = fitted(w, h)
     glow, crisp = (
         GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
         GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
     )
-    yield from draw_floor((glow, crisp), arena.plan)
+    yield from draw_floor((glow, crisp), arena.plan, allies)
     glow.line(cut_box(0, 0, WIDTH, HEIGHT, 28), MIST, THIN / k, True)
     for i, start in enumerate(arena.starts):
-        glow.ring(start.x, start.y, 36, TEAMS[i % 2], 8)
+        glow.ring(start.x, start.y, 36, TEAMS[0 if allies else i % 2], 8)
     out = yield from glow.lit_steps(GLOW)
     yield from crisp.downscale_onto(out)
     return out

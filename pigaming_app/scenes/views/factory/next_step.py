@@ -7,12 +7,13 @@ where it will set one down.
 import math
 
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, FORK, INPUT, Factory
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, FORK, INPUT, NOBODY, Factory
 from pigaming_app.games.factory.workers import fits
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import factory_signs as signs
 from pigaming_app.scenes.views.view import Pose
+from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import PLAYERS, dim
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 
@@ -57,8 +58,8 @@ class NextStepGuide:
             _arrow(light, seat, (from_x, from_y, angle), way, clock)
         else:
             _dots(light, seat, (from_x, from_y, angle), way)
-            side = 1 if y < TOP + SIGN + 40 else -1
-            put(top, signs.task(seat, not state.loads[seat].pallet), x, y + side * SIGN)
+            dx, dy = _beside(state, s)
+            put(top, signs.task(seat, not state.loads[seat].pallet), x + dx, y + dy)
 
     def _has_human_mate(self, state: Factory, seat: int) -> bool:
         team = state.robots[seat].team
@@ -66,6 +67,17 @@ class NextStepGuide:
             driver == "human" and robot.present and robot.team == team
             for driver, robot in zip(self.players, state.robots, strict=True)
         )
+
+
+def _beside(state: Factory, s: int) -> tuple[float, float]:
+    """Offset of a task's sign from slot s, px: towards the outer wall, away from a machine's worker, or above."""
+    slot = state.slots[s]
+    if slot.machine < 0:
+        return (0.0, -SIGN) if slot.team == NOBODY else (-SIGN if slot.x < WIDTH / 2 else SIGN, 0.0)
+    machine = state.machines[slot.machine]
+    dx, dy = machine.x - machine.spot_x, machine.y - machine.spot_y
+    far = math.hypot(dx, dy)
+    return SIGN * dx / far, SIGN * dy / far
 
 
 def _arrow(light: Batch, seat: int, start: Pose, way: float, clock: float) -> None:
