@@ -1,13 +1,14 @@
 """The animated lessons of "how to play": each draws one moment of a loop, centred on a point.
 
-They use the sprites of the games. A picture may return the text key of a word to show under it.
+They use the sprites of the games. A picture may return the text key of a word to show under it. A game's lessons are
+shown in pages of four; PAGES names the rule set of each page, if a game has more than one.
 """
 
 from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.howto import factory, pitanks, race
+from pigaming_app.scenes.howto import factory, factory_party, factory_together, pitanks, race
 
 LessonPicture = Callable[[pygame.Surface, float, float, float], str | None]
 
@@ -23,6 +24,14 @@ LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the inner keys are 
         "work": factory.work,
         "deliver": factory.deliver,
         "people": factory.people,
+        "rush": factory_party.rush,
+        "loose": factory_party.loose,
+        "claim": factory_party.claim,
+        "fast": factory_party.fast,
+        "allies": factory_together.allies,
+        "stars": factory_together.stars,
+        "tasks": factory_together.tasks,
+        "clear": factory_together.clear,
     },
     "race": {
         "laps": race.laps,
@@ -31,3 +40,5 @@ LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the inner keys are 
         "mud": race.mud,
     },
 }
+PAGE = 4  # lessons on a page
+PAGES: dict[str, tuple[str, ...]] = {"factory": ("standard", "party", "together")}

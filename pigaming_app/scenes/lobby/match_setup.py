@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import pygame
 
-from pigaming_app.games.game import ALLIES, PAIRS, Game, Seat, Setup, Variant
+from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
@@ -236,7 +236,7 @@ class MatchSetupPage:
         picture(self.game.name, self.chosen.arena, allies).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
-        starts = start_positions(self.game.name, self.chosen.arena, self.seats.seats())
+        starts = start_positions(self._setup())
         for i, _ in self._lineup():
             stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
             if stage < effects.WAVE_STEPS // 2:
@@ -260,11 +260,10 @@ def picture(game: str, name: str, allies: bool) -> Steps[LitImage]:
 
 
 @lru_cache(maxsize=16)
-def start_positions(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
-    """Start positions of the robots of these seats, px."""
-    rules, state = games()[game], games()[game].state()
-    setup = Setup(game, name, seats, rules.default.default_minutes, 1, rules.default.name, rules.default.default_goal)
-    rules.start(state, load_cached(game, name), setup)
+def start_positions(setup: Setup) -> list[tuple[float, float]]:
+    """Start positions of the robots in a match, px."""
+    rules, state = games()[setup.game], games()[setup.game].state()
+    rules.start(state, load_cached(setup.game, setup.arena), setup)
     return [(robot.x, robot.y) for robot in state.robots]
 
 
