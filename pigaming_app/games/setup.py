@@ -56,12 +56,14 @@ def make_setup(
 
 def check_teams(rules: Game, variant: Variant, playing: Sequence[int]) -> None:
     """Raises ChoiceError unless the variant of a game permits these teams, one for each robot that plays."""
+    if variant.team_mode == ALLIES:
+        if not playing:
+            raise ChoiceError("at least one seat must be taken")
+        if {*playing} != {0}:
+            raise ChoiceError(f"in {rules.name}, {variant.name}, all robots are in team 0")
+        return
     if len(playing) < 2:
         raise ChoiceError("at least two seats must be taken")
-    if variant.team_mode == ALLIES:
-        if len(set(playing)) > 1:
-            raise ChoiceError(f"in {rules.name}, {variant.name}, all robots are in one team")
-        return
     if len(set(playing)) < 2:
         raise ChoiceError("there must be at least two teams")
     if variant.team_mode == ALONE and len(set(playing)) < len(playing):

@@ -119,6 +119,12 @@ def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int
     return fill
 
 
-HAND1 = BrainKind("hand1", ForemanMind, think, make_reset(0.6, 2.8, 0.8, 0.4, 0, 0.5, 0))
-HAND2 = BrainKind("hand2", ForemanMind, think, make_reset(0.85, 0.4, 0.15, 0.2, 0, 0.0, 1))
-HAND3 = BrainKind("hand3", ForemanMind, think, make_reset(1.0, 0.0, 0.03, 0.1, 1, 0.0, 1))
+HAND1 = BrainKind(
+    "hand1", ForemanMind, think, make_reset(speed=0.5, pause=3.2, noise=0.8, delay=0.4, dash=0, slip=0.6, joint=0)
+)
+HAND2 = BrainKind(
+    "hand2", ForemanMind, think, make_reset(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0, slip=0.0, joint=1)
+)
+HAND3 = BrainKind(
+    "hand3", ForemanMind, think, make_reset(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1, slip=0.0, joint=1)
+)

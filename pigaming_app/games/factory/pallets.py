@@ -19,6 +19,7 @@ from pigaming_app.games.factory.state import (
     WORKERS,
 )
 from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.rng import uniform
 
 
 @kernel
@@ -79,10 +80,18 @@ def is_destination(match: Any, s: int) -> bool:
 
 @kernel
 def free_shared(match: Any) -> int:
-    """The first free shared slot; -1 if there is none."""
+    """A free shared slot, drawn at random; -1 if there is none."""
+    count = 0
+    for s in range(SHARED_SLOTS, match.slot_count):
+        count += 0 if match.slots[s].pallet else 1
+    if not count:
+        return -1
+    drawn = int(uniform(match) * count)
     for s in range(SHARED_SLOTS, match.slot_count):
         if not match.slots[s].pallet:
-            return s
+            if not drawn:
+                return s
+            drawn -= 1
     return -1
 
 

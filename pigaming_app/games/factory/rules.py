@@ -50,7 +50,9 @@ def judge(match: Any) -> None:
     if match.over:
         stop_all(match)
         return
-    for k in range(ROBOTS):
+    first = match.tick % ROBOTS if match.rules.party else 0  # of two forks at one pallet no seat is always the first
+    for i in range(ROBOTS):
+        k = (first + i) % ROBOTS
         if match.robots[k].present:
             track_motion(match.motions[k], match.robots[k])
             use_fork(match, k)
