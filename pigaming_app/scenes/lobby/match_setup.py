@@ -151,13 +151,17 @@ class MatchSetupPage:
             arena = arena_title(load_cached(game.name, now.arena), words.language)
             return choice.row(sizes, words(f"setup.arena_{game.name}"), arena, position)
         if name == "goal":
-            return choice.chips(sizes, words(f"setup.{game.goal}"), tuple(map(str, self.variant.goals)), str(now.goal))
+            return choice.chips(sizes, self._goal_name(), tuple(map(str, self.variant.goals)), str(now.goal))
         if name == "minutes":
             return choice.chips(sizes, words("setup.minutes"), tuple(map(str, self.variant.minutes)), str(now.minutes))
         if name == "rules":
             line = words(f"setup.{now.variant}_line")
             return choice.row(sizes, words("setup.rules"), words(f"setup.{now.variant}"), line=line)
         return choice.start_button(words("setup.go"))
+
+    def _goal_name(self) -> str:
+        allied = self.variant.team_mode == ALLIES
+        return self.context.words(f"setup.{self.game.goal}_of_all" if allied else f"setup.{self.game.goal}")
 
     def _change(self, name: str, delta: int) -> None:
         """Step a row's value by `delta`."""
