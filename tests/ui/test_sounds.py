@@ -19,7 +19,8 @@ GAME = ["hit", "wall", "crumble", "shield", "pickup", "power_end", "drop", "mine
 MATCH = ["count", "go", "tick", "win", "lose", "tie"]
 RACE = ["lap", "best_lap", "last_lap", "missed", "wrong_way", "mud", "finish", "back_on_track"]
 RACE_PARTY = ["boost", "oil", "slipstream", "overtake", "photo_finish"]
-FACTORY = ["lift", "set_down", "refused", "machine_done", "spoiled", "delivered", "freeze", "arrived"]
+FACTORY = ["lift", "set_down", "refused", "machine_done", "spoiled", "delivered_ice", "delivered_fire", "freeze"]
+FACTORY += ["arrived", "one_to_go", "clearing", "jamming", "stolen", "rush", "expired", "fast", "star_lost"]
 CONTRACT = [*PITCHED, *GAME, *MATCH, *RACE, *RACE_PARTY, *FACTORY, "move", "accept", "back", "error"]
 
 

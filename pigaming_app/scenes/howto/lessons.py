@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.howto import factory, pitanks, race, race_party
+from pigaming_app.scenes.howto import factory, factory_party, factory_together, pitanks, race, race_party
 
 LessonPicture = Callable[[pygame.Surface, float, float, float], str | None]
 
@@ -24,6 +24,14 @@ LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the inner keys are 
         "work": factory.work,
         "deliver": factory.deliver,
         "people": factory.people,
+        "rush": factory_party.rush,
+        "loose": factory_party.loose,
+        "claim": factory_party.claim,
+        "fast": factory_party.fast,
+        "allies": factory_together.allies,
+        "stars": factory_together.stars,
+        "tasks": factory_together.tasks,
+        "clear": factory_together.clear,
     },
     "race": {
         "laps": race.laps,
@@ -37,4 +45,4 @@ LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the inner keys are 
     },
 }
 PAGE = 4  # lessons on a page
-PAGES: dict[str, tuple[str, ...]] = {"race": ("standard", "party")}
+PAGES: dict[str, tuple[str, ...]] = {"factory": ("standard", "party", "together"), "race": ("standard", "party")}

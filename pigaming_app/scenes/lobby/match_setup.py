@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import pygame
 
-from pigaming_app.games.game import ALLIES, PAIRS, Game, Seat, Setup, Variant
+from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
@@ -41,8 +41,7 @@ FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 PICTURE = FRAME.inflate(-24, -24)
 MARGIN = 8  # px around the arena preview
 ROW_X, ROW_W = span(8, 4)
-HEIGHTS = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px, row heights
-GAP = 16  # px between rows
+FULL = 4  # so many rows have to be tight
 GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
 log = logging.getLogger(__name__)
 
@@ -146,19 +145,23 @@ class MatchSetupPage:
 
     def _row(self, name: str) -> LitImage:
         """Render a row."""
-        words, now, game = self.context.words, self.chosen, self.game
+        words, now, game, sizes = self.context.words, self.chosen, self.game, row_sizes(self.game, self.variant)
         if name == "arena":
             position = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
             arena = arena_title(load_cached(game.name, now.arena), words.language)
-            return choice.row(words(f"setup.arena_{game.name}"), arena, position)
+            return choice.row(sizes, words(f"setup.arena_{game.name}"), arena, position)
         if name == "goal":
-            return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, self.variant.goals)), str(now.goal))
+            return choice.chips(sizes, self._goal_name(), tuple(map(str, self.variant.goals)), str(now.goal))
         if name == "minutes":
-            return choice.chips(words("setup.minutes"), tuple(map(str, self.variant.minutes)), str(now.minutes))
+            return choice.chips(sizes, words("setup.minutes"), tuple(map(str, self.variant.minutes)), str(now.minutes))
         if name == "rules":
             line = words(f"setup.{game.name}_{now.variant}_line")
-            return choice.row(words("setup.rules"), words(f"setup.{game.name}_{now.variant}"), line=line)
+            return choice.row(sizes, words("setup.rules"), words(f"setup.{game.name}_{now.variant}"), line=line)
         return choice.start_button(words("setup.go"))
+
+    def _goal_name(self) -> str:
+        allied = self.variant.team_mode == ALLIES
+        return self.context.words(f"setup.{self.game.goal}_of_all" if allied else f"setup.{self.game.goal}")
 
     def _change(self, name: str, delta: int) -> None:
         """Step a row's value by `delta`."""
@@ -210,14 +213,15 @@ class MatchSetupPage:
 
     def _records(self, screen: pygame.Surface) -> None:
         """Draw the best scores for this selection, if the rows leave room."""
-        low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
+        gap = row_sizes(self.game, self.variant).gap
+        low = max(box.bottom for name, box in self.rows.items() if name != "go") + gap
         lines = []
         for feat in self.game.record_kinds:
             best = self.context.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.context.words(f"setup.best_{feat.name}")
                 lines.append((name, self.context.words.decimal(format_score(best[0].score, feat)), best[0].initials))
-        if lines and low + choice.records_height(len(lines)) <= GO.top - GAP:
+        if lines and low + choice.records_height(len(lines)) <= GO.top - gap:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 
     def _lineup(self) -> tuple[tuple[int, str], ...]:
@@ -236,7 +240,7 @@ class MatchSetupPage:
         picture(self.game.name, self.chosen.arena, allies).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
-        starts = start_positions(self.game.name, self.chosen.arena, self.seats.seats())
+        starts = start_positions(self._setup())
         for i, _ in self._lineup():
             stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
             if stage < effects.WAVE_STEPS // 2:
@@ -260,28 +264,37 @@ def picture(game: str, name: str, allies: bool) -> Steps[LitImage]:
 
 
 @lru_cache(maxsize=16)
-def start_positions(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
-    """Start positions of the robots of these seats, px."""
-    rules, state = games()[game], games()[game].state()
-    setup = Setup(game, name, seats, rules.default.default_minutes, 1, rules.default.name, rules.default.default_goal)
-    rules.start(state, load_cached(game, name), setup)
+def start_positions(setup: Setup) -> list[tuple[float, float]]:
+    """Start positions of the robots in a match, px."""
+    rules, state = games()[setup.game], games()[setup.game].state()
+    rules.start(state, load_cached(setup.game, setup.arena), setup)
     return [(robot.x, robot.y) for robot in state.robots]
 
 
 def rows(game: Game, variant: Variant) -> dict[str, pygame.Rect]:
     """Rectangles of the rows that offer a choice, and of the start button."""
+    sizes, boxes, y = row_sizes(game, variant), {}, FRAME.top
+    for name in row_names(game, variant):
+        height = sizes.described if name == "rules" else sizes.choice
+        boxes[name] = pygame.Rect(ROW_X, y, ROW_W, height)
+        y += height + sizes.gap
+    return {**boxes, "go": GO}
+
+
+def row_names(game: Game, variant: Variant) -> list[str]:
+    """The rows that offer a choice, top to bottom."""
     there = {
         "arena": True,
         "goal": bool(variant.goals),
         "minutes": len(variant.minutes) > 1,
         "rules": len(game.variants) > 1,
     }
-    boxes, y = {}, FRAME.top
-    for name, height in HEIGHTS.items():
-        if there[name]:
-            boxes[name] = pygame.Rect(ROW_X, y, ROW_W, height)
-            y += height + GAP
-    return {**boxes, "go": GO}
+    return [name for name, offered in there.items() if offered]
+
+
+def row_sizes(game: Game, variant: Variant) -> choice.RowSizes:
+    """Sizes with which all rows fit above the start button."""
+    return choice.WIDE if len(row_names(game, variant)) < FULL else choice.TIGHT
 
 
 def step_clamped(values: Sequence[int], value: int, delta: int) -> int:

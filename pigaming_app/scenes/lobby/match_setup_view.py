@@ -1,5 +1,7 @@
 """Rows and small widgets of the match setup page."""
 
+from dataclasses import dataclass
+
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
@@ -26,32 +28,52 @@ CHIP, APART, CLOSE = 112, 16, 8  # px: maximum chip width, gap for few chips, ga
 FEW = 4  # chips that fit at full width
 
 
+@dataclass(frozen=True)
+class RowSizes:
+    """Heights of the rows in px, and positions in them: of the name, the value and a description of two lines."""
+
+    choice: int
+    described: int  # height of a row with a description
+    gap: int  # between rows
+    name: int
+    value: int
+    line: int
+    pitch: int  # of the two lines
+    chip: int  # height of a chip
+
+
+WIDE = RowSizes(140, 236, 16, 38, 94, 156, 48, 60)
+TIGHT = RowSizes(108, 184, 12, 29, 76, 122, 40, 50)
+
+
 @cached
-def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
+def row(sizes: RowSizes, name: str, value: str, note: str = "", line: str = "") -> LitImage:
     """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
-    height = 236 if line else 140
-    layer = _layer(name, height)
-    layer.canvas.body(note, W - PAD, 38, MIST, "r")
+    layer = _layer(sizes, name, sizes.described if line else sizes.choice)
+    layer.canvas.body(note, W - PAD, sizes.name, MIST, "r")
     size = fit_size(value, LABEL, W - 2 * PAD - 100)
-    layer.canvas.text(value, size, W / 2, 94, ICE, "head", "c")
+    layer.canvas.text(value, size, W / 2, sizes.value, ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
-        icon(layer.glow, sign, x, 94, 20, MIST, LINE)
+        icon(layer.glow, sign, x, sizes.value, 20, MIST, LINE)
     room = W - 2 * PAD
     size, parts = fit_lines(line, room, 2)
     for i, part in enumerate(parts):
-        layer.canvas.body(part, PAD, 156 + 48 * i, MIST, "l", size)
+        layer.canvas.body(part, PAD, sizes.line + sizes.pitch * i, MIST, "l", size)
     return layer.render()
 
 
 @cached
-def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
+def chips(sizes: RowSizes, name: str, values: tuple[str, ...], value: str) -> LitImage:
     """All values side by side, the selected one lit; top left at (0, 0)."""
-    layer = _layer(name, 140)
+    layer = _layer(sizes, name, sizes.choice)
     width, pitch = chip_size(len(values))
+    top = sizes.value + 2 - sizes.chip / 2
     for i, label in enumerate(values):
         x, on = PAD + i * pitch, label == value
-        layer.glow.line(cut_box(x, 66, width, 60, 12 if width == CHIP else 10), ICE if on else STEEL, THIN, True)
-        layer.canvas.crisp.text(label, BODY, x + width / 2, 96, ICE if on else MIST, "head", "c")
+        layer.glow.line(
+            cut_box(x, top, width, sizes.chip, 12 if width == CHIP else 10), ICE if on else STEEL, THIN, True
+        )
+        layer.canvas.crisp.text(label, BODY, x + width / 2, sizes.value + 2, ICE if on else MIST, "head", "c")
     return layer.render()
 
 
@@ -127,8 +149,8 @@ def focus_outline(height: int) -> LitImage:
     return layer.render()
 
 
-def _layer(name: str, height: int) -> Layer:
+def _layer(sizes: RowSizes, name: str, height: int) -> Layer:
     layer = Layer(0, 0, W, height)
     layer.glow.line(cut_box(0, 0, W, height, 16), STEEL, THIN, True)
-    layer.canvas.body(name, PAD, 38, MIST)
+    layer.canvas.body(name, PAD, sizes.name, MIST)
     return layer

@@ -13,7 +13,7 @@ from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import Batch, put, step
 from pigaming_app.ui.draw.surface_cache import cached
 
-STARS, R, HIGH = 3, 92, 216  # number; px: radius, height of the row
+STARS, R, HIGH = 3, 92, 232  # number; px: radius, height of the row
 APART, POP, POPS = 0.5, 0.2, 4  # s from one star to the next; s in which one shrinks to its size, and its sizes then
 BURST = 40  # sparks of a star
 

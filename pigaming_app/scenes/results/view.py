@@ -239,11 +239,15 @@ class ResultsPage:
         size = min(fit_size(head, BODY, room, "body") for head, room in zip(heads, rooms, strict=True))
         for head, end in zip(heads, ends, strict=True):
             layer.canvas.body(head, x + end, 236, MIST, "r", size)
-        if not is_allied(self.setup):
-            points = "score" in self.columns
-            heading = words("results.plot_pitanks" if points else f"results.plot_{self.setup.game}")
-            layer.canvas.body(heading, plot_x, 236, MIST)
+        layer.canvas.body(self._plot_heading(), plot_x, 236, MIST)
         return layer.render()
+
+    def _plot_heading(self) -> str:
+        words = self.context.words
+        if self.stars:
+            seconds = int(self.outcome.seconds)
+            return words("results.all_in", time=f"{seconds // 60}:{seconds % 60:02}")
+        return words("results.plot_pitanks" if "score" in self.columns else f"results.plot_{self.setup.game}")
 
     def _team(self, rows: Sequence[Row], y: int) -> LitImage:
         """Panel with the row of one robot, or of all robots of a team."""

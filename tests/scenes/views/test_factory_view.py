@@ -198,7 +198,7 @@ def test_a_delivery_is_heard_once_sparks_and_counts(screen):
     feed(state, 0, EXIT_ICE)
     state.pallets[0].state, state.delivered[ICE] = DELIVERED, 1
     state.robots[0].score = state.loads[0].delivered = 1
-    assert view.watch(state) == [("delivered", 0, state.slots[EXIT_ICE].x)]
+    assert view.watch(state) == [("delivered_ice", 0, state.slots[EXIT_ICE].x)]
     assert view.particles.particles
     assert [(popup.text, popup.player) for popup in view.particles.scores] == [("+1", 0)]
     panel = pygame.Rect(160, 0, 652, 136)
@@ -354,6 +354,6 @@ def test_without_flashes_a_delivery_makes_no_wave(screen):
     view.watch(state)
     feed(state, 0, EXIT_ICE)
     state.pallets[0].state, state.delivered[ICE] = DELIVERED, 1
-    assert sounds(view, state) == ["delivered"]
+    assert sounds(view, state) == ["delivered_ice"]
     view.draw(screen, state, 1.0, 0.01)
     assert view.particles.blooms == []
