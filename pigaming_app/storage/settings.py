@@ -137,6 +137,7 @@ class Settings:
     sounds: int = _setting(8, Range(0, 10))
     flashes: str = _setting("full", OneOf(("off", "soft", "full")))
     shake: bool = _setting(True, Boolean())
+    rumble: bool = _setting(True, Boolean())  # of the pads
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Boolean())
     attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # without input

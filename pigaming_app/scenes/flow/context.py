@@ -58,6 +58,11 @@ class Context:
         """A page's row of button prompts, see `ButtonPrompts`."""
         return ButtonPrompts(self.words, self.controls, items, y, room, solid, device)
 
+    def hush(self) -> None:
+        """Stop music and rumbling, for a page over a match."""
+        self.sounds.music(False)
+        self.controls.stop_rumble()
+
     def stop_all_robots(self) -> None:
         """Stop all robots: after a scene failure, and when the arcade ends."""
         for stop in self.emergency_stops:

@@ -29,6 +29,7 @@ from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import Results, SceneFactory
+from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
@@ -67,7 +68,7 @@ class MatchScene:
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = new_match(setup, plant)
-        self.runner = MatchRunner(context, self.match)
+        self.runner = MatchRunner(context, self.match, rumble=self._rumble)
         self.countdown = Countdown(lead=LEAD_SECONDS)
         self.countdown_at = CENTRE
         self.rule_card: tuple[Caption, tuple[int, int]] | None = None
@@ -100,6 +101,9 @@ class MatchScene:
             self.countdown = Countdown(RESUME_STEP) if not self.countdown.locked else Countdown()
         self.begun = True
         self.idle = 0.0
+
+    def on_leave(self) -> None:
+        self.context.controls.stop_rumble()
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
@@ -343,6 +347,11 @@ class MatchScene:
             self.idle = 0.0
             self.idle_seats.touch(seat)
         return drive
+
+    def _rumble(self, seat: int, rumble: Rumble) -> None:
+        device = self.devices[seat]
+        if device and self.context.settings.rumble:
+            self.context.controls.rumble(device, *rumble)
 
     def _end(self, seconds: float) -> StackOperation:
         """Build the results while the last picture stays on the screen."""

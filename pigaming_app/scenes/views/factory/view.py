@@ -34,6 +34,7 @@ from pigaming_app.scenes.views.factory.panels import X as PANELS
 from pigaming_app.scenes.views.factory.panels import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.factory.panels import pulse
 from pigaming_app.scenes.views.factory.prewarm import jobs
+from pigaming_app.scenes.views.rumble import rumbles
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
@@ -75,6 +76,7 @@ class FactoryView(MatchView):
         self.people_before, self.people = self.people, _people(state)
         self.guide.update(state)
         events = self.detector.detect(state)
+        self.rumbles = rumbles("factory", ((event.kind, event.player) for event in events))
         for event in events:
             if event.kind == STOLEN and self.options.flashes != "off":
                 self.particles.bloom(PANELS[event.worth], TOP_OF_PANELS, 0.4, pulse(event.worth))
