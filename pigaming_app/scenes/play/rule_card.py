@@ -55,7 +55,10 @@ def in_two(text: str) -> list[str]:
     """A text on at most two lines: broken after a sentence if there are several, as evenly as possible."""
     parts = SENTENCE.split(text)
     halves = [(" ".join(parts[:i]), " ".join(parts[i:])) for i in range(1, len(parts))]
-    return list(min(halves, key=lambda half: abs(len(half[0]) - len(half[1])))) if halves else wrap_balanced(text, 2)
+    if not halves:
+        return wrap_balanced(text, 2)
+    first, second = min(halves, key=lambda half: abs(len(half[0]) - len(half[1])))
+    return [first, second]
 
 
 def free_place(size: tuple[int, int], robots: Sequence[tuple[float, float]], sign: tuple[int, int]) -> tuple[int, int]:
