@@ -16,10 +16,12 @@ from pigaming_app.games.arenas import parse
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.moments import KINDS, Moment, moments
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
 from pigaming_app.sim.action import STEPS, set_action
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.sim.plant import SimPlant
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.toml_table import printable, quote
 from pigaming_app.sim.world import HZ, ROBOTS
@@ -27,6 +29,7 @@ from pigaming_app.sim.world import HZ, ROBOTS
 FORMATS = ("pigaming-replay-1", "pigaming-replay-2")  # the last is written; 1 has the engine hash of 1.4.0 and before
 BYTES_PER_TICK = 3 * ROBOTS
 MAX_TICKS = 60 * 60 * HZ
+MAX_SCORE = 100_000
 MAX_HEAD = 1_000_000  # bytes; an arena file has at most 100,000, before JSON escapes
 MAX_BYTES = MAX_HEAD + BYTES_PER_TICK * MAX_TICKS  # upper bound: ticks are compressed
 
@@ -44,6 +47,14 @@ class Replay:
     ticks: bytes  # BYTES_PER_TICK for each tick
     digest: str  # of the state after the last tick
     engine: str  # hash of the engine that recorded it
+    scores: tuple[int, ...] = ()  # of each seat after the last tick; empty in files of 1.5.0 and before
+    winners: tuple[int, ...] = ()  # seats of the winning team
+    moments: tuple[Moment, ...] = ()  # worth showing again
+
+    @property
+    def length(self) -> int:
+        """Number of ticks."""
+        return len(self.ticks) // BYTES_PER_TICK
 
     @property
     def other_engine(self) -> bool:
@@ -51,18 +62,45 @@ class Replay:
         return self.engine != engine_hash()
 
 
+def replayable(match: Match) -> bool:
+    """False for a match of real or measured robots, which the actions alone do not determine."""
+    return isinstance(match.plant, SimPlant) and not match.plant.drivetrains
+
+
+def recorded(match: Match) -> Replay:
+    """The replay of a match, up to its current tick."""
+    return Replay(
+        match.setup,
+        match.arena.source,
+        bytes(match.log.ticks),
+        digest(match.state),
+        engine_hash(),
+        tuple(robot.score for robot in match.state.robots),
+        match.outcome().winners,
+        moments(match),
+    )
+
+
 def encode(match: Match) -> bytes:
     """The contents of a replay file of a match, up to its current tick."""
-    ticks = bytes(match.log.ticks)
+    return pack(recorded(match))
+
+
+def pack(replay: Replay) -> bytes:
+    """The contents of the file of a replay."""
+    ticks = replay.ticks
     columns = b"".join(ticks[i::BYTES_PER_TICK] for i in range(BYTES_PER_TICK))
     packed = zlib.compress(columns, 9)
     head: dict[str, Any] = {
         "format": FORMATS[-1],
-        "engine": engine_hash(),
-        "setup": asdict(match.setup),
-        "arena": match.arena.source,
-        "ticks": len(ticks) // BYTES_PER_TICK,
-        "digest": digest(match.state),
+        "engine": replay.engine,
+        "setup": asdict(replay.setup),
+        "arena": replay.source,
+        "ticks": replay.length,
+        "digest": replay.digest,
+        "scores": replay.scores,
+        "winners": replay.winners,
+        "moments": [asdict(moment) for moment in replay.moments],
     }
     head["check"] = _check(head, packed)
     return json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed
@@ -87,7 +125,7 @@ def to_match(replay: Replay) -> Match:
 def verify(replay: Replay) -> bool:
     """True if re-simulation ends in exactly the recorded state."""
     match = to_match(replay)
-    for _ in range(len(replay.ticks) // BYTES_PER_TICK):
+    for _ in range(replay.length):
         match.tick()
     return digest(match.state) == replay.digest
 
@@ -128,6 +166,7 @@ def _decode(raw: bytes) -> Replay:
         setup = _setup(head["setup"])
         count, source, last = int(head["ticks"]), str(head["arena"]), str(head["digest"])
         engine = str(head["engine"])
+        scores, winners, found = _result(head, count)
         parse(setup.game, source, setup.arena)
         if not 0 <= count <= MAX_TICKS:
             raise ValueError("ticks")
@@ -139,7 +178,24 @@ def _decode(raw: bytes) -> Replay:
     ticks = bytearray(len(columns))
     for i in range(BYTES_PER_TICK):
         ticks[i::BYTES_PER_TICK] = columns[i * count : (i + 1) * count]
-    return Replay(setup, source, bytes(ticks), last, engine)
+    return Replay(setup, source, bytes(ticks), last, engine, scores, winners, found)
+
+
+def _result(head: Mapping[str, Any], ticks: int) -> tuple[tuple[int, ...], tuple[int, ...], tuple[Moment, ...]]:
+    """Scores, winners and moments, all optional. Raises KeyError, TypeError or ValueError if they are invalid."""
+    scores, winners = (tuple(int(number) for number in head.get(name, ())) for name in ("scores", "winners"))
+    found = tuple(
+        Moment(str(one["kind"]), int(one["tick"]), int(one["seat"]), float(one["lead"]))
+        for one in head.get("moments", ())
+    )
+    seats = {*winners, *(moment.seat for moment in found)}
+    if len(scores) not in (0, ROBOTS) or any(abs(score) > MAX_SCORE for score in scores):
+        raise ValueError("scores")
+    if not seats <= {*range(ROBOTS)} or len(winners) > ROBOTS or len(found) > len(KINDS):
+        raise ValueError("result")
+    if any(moment.kind not in KINDS or not 0 <= moment.tick <= ticks for moment in found):
+        raise ValueError("moments")
+    return scores, winners, found
 
 
 def _setup(table: Mapping[str, Any]) -> Setup:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.flow.preload import Preloader
+from pigaming_app.scenes.recordings.highlights import Highlights
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
@@ -37,6 +38,7 @@ class Context:
     compiler: Compiler = field(default_factory=Compiler)  # for training in the Lab
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)
+    highlights: Highlights = field(default_factory=Highlights)  # for attract mode
     emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # callbacks that stop robots at once
 
     def __post_init__(self) -> None:

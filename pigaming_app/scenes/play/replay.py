@@ -1,22 +1,27 @@
-"""Replay viewer: pause, three speeds, restart, and captions."""
+"""Replay viewer: pause, jumps of five seconds, four speeds, a timeline to click on, restart, and captions."""
 
 import pygame
 
-from pigaming_app.games.replay import BYTES_PER_TICK, Replay, to_match
+from pigaming_app.games.replay import Replay
+from pigaming_app.games.timeline import Timeline
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.side_hints import SideHints, side_note
-from pigaming_app.sim.world import DT
+from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
 
-SPEEDS = (1, 2, 4)
+SPEEDS = {1.0: "1×", 2.0: "2×", 4.0: "4×", 0.5: "½×"}
+JUMP = 5 * HZ  # ticks
+EXPLORED = 40  # ticks played ahead per frame, for later jumps
 HINTS_SECONDS = 4.0  # seconds for which the hints stay after an input
 NOTICE, NOTICE_Y = 6.0, 990  # seconds of the match for which the other-engine notice is shown, and its y in px
 LINE_Y, LINE_LEFT, LINE_RIGHT = 1060, 160, 1760  # px, of the timeline
+REACH = 20  # px above the timeline in which a click counts
+MARK = 7  # px, half of the mark of a moment
 
 
 class ReplayScene:
@@ -24,15 +29,19 @@ class ReplayScene:
 
     def __init__(self, context: Context, replay: Replay) -> None:
         self.context, self.replay = context, replay
-        self.length = len(replay.ticks) // BYTES_PER_TICK * DT
-        self.speed, self.hints_left, self.playing = 0, HINTS_SECONDS, True
-        self.runner, self.prewarmed = MatchRunner(context, to_match(replay)), False
+        self.timeline = Timeline(replay)
+        self.speed, self.hints_left, self.playing = 1.0, HINTS_SECONDS, True
+        self.runner, self.prewarmed = MatchRunner(context, self.timeline.match_at(0)), False
 
     def on_enter(self) -> None:
         pass
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE pauses and resumes, LEFT and RIGHT change the speed, X restarts, BACK leaves."""
+        """FIRE pauses and resumes, LEFT and RIGHT jump, Y changes the speed, X restarts, BACK leaves, and a click on
+        the timeline jumps there.
+        """
+        if event.button is Button.CLICK and event.at and event.at[1] >= LINE_Y - REACH:
+            self.jump(round((event.at[0] - LINE_LEFT) / (LINE_RIGHT - LINE_LEFT) * self.timeline.length))
         event = self.hints.as_button(event)
         self.hints_left = HINTS_SECONDS
         match event.button:
@@ -42,9 +51,12 @@ class ReplayScene:
                 else:
                     self.playing = not self.playing
             case Button.LEFT:
-                self.speed = max(0, self.speed - 1)
+                self.jump(self.tick - JUMP)
             case Button.RIGHT:
-                self.speed = min(len(SPEEDS) - 1, self.speed + 1)
+                self.jump(self.tick + JUMP)
+            case Button.Y:
+                speeds = list(SPEEDS)
+                self.speed = speeds[(speeds.index(self.speed) + 1) % len(speeds)]
             case Button.X:
                 self._begin()
             case Button.BACK:
@@ -56,11 +68,19 @@ class ReplayScene:
     def update(self, seconds: float) -> StackOperation:
         self.hints_left -= seconds
         self.prewarmed = self.prewarmed or self.runner.prewarm(4.0)
+        self.timeline.explore(EXPLORED)
         if self.playing and not self.ended:
-            self.runner.advance(seconds, SPEEDS[self.speed])
+            self.runner.advance(seconds, self.speed)
         else:
             self.runner.wait(seconds)
         return None
+
+    def jump(self, tick: int) -> None:
+        """Continue from another tick, cut to the length of the replay."""
+        tick = max(0, min(tick, self.timeline.length))
+        self.runner = MatchRunner(self.context, self.timeline.match_at(tick - 1))
+        if tick:
+            self.runner.tick()  # the view derives flying bullets from two ticks
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the match; in the margins the timeline, the speed and the hints."""
@@ -68,19 +88,36 @@ class ReplayScene:
         words, seconds = self.context.words, self.runner.match.seconds
         if seconds < HINTS_SECONDS or not self.playing:
             self.runner.draw_captions(screen, [None] * len(self.replay.setup.seats))
-        x = LINE_LEFT + (LINE_RIGHT - LINE_LEFT) * min(1.0, seconds / max(DT, self.length))
-        pygame.draw.line(screen, STEEL, (LINE_LEFT, LINE_Y), (LINE_RIGHT, LINE_Y), 4)
-        pygame.draw.line(screen, ICE, (LINE_LEFT, LINE_Y), (x, LINE_Y), 6)
-        pygame.draw.circle(screen, FOCUS, (x, LINE_Y), 9)
+        self._draw_timeline(screen)
         if self.ended:
             caption(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
-        elif not self.playing or self.speed or seconds < HINTS_SECONDS:
+        elif not self.playing or self.speed != 1.0 or seconds < HINTS_SECONDS:
             label = words("replay.title") if self.playing else words("replay.hint_pause")
-            side_note(label, f"{SPEEDS[self.speed]}×").draw(screen)
+            side_note(label, SPEEDS[self.speed]).draw(screen)
         if self.replay.other_engine and seconds < NOTICE:
             caption(words("replay.other_engine"), FOCUS).draw(screen, 960, NOTICE_Y)
         if self.hints_left > 0.0 or not self.playing or self.ended:
             self.hints.draw(screen)
+
+    def _draw_timeline(self, screen: pygame.Surface) -> None:
+        """The line below the arena with the present tick, and a mark for each moment."""
+        now = self._x(self.tick)
+        pygame.draw.line(screen, STEEL, (LINE_LEFT, LINE_Y), (LINE_RIGHT, LINE_Y), 4)
+        pygame.draw.line(screen, ICE, (LINE_LEFT, LINE_Y), (now, LINE_Y), 6)
+        for moment in self.replay.moments:
+            x = self._x(moment.tick)
+            diamond = [(x - MARK, LINE_Y), (x, LINE_Y - MARK), (x + MARK, LINE_Y), (x, LINE_Y + MARK)]
+            pygame.draw.polygon(screen, ICE, diamond)
+        pygame.draw.circle(screen, FOCUS, (now, LINE_Y), 9)
+
+    def _x(self, tick: int) -> float:
+        """A tick's place on the timeline, px."""
+        return LINE_LEFT + (LINE_RIGHT - LINE_LEFT) * min(1.0, tick / max(1, self.timeline.length))
+
+    @property
+    def tick(self) -> int:
+        """The present tick."""
+        return int(self.runner.match.state.tick)
 
     @property
     def hints(self) -> SideHints:
@@ -90,17 +127,18 @@ class ReplayScene:
     @property
     def prompts(self) -> ButtonPrompts:
         """The current button prompts; at the end there is no pause or speed."""
-        hints = [(Button.FIRE, "replay.hint_again"), (Button.BACK, "replay.hint_back")]
-        if not self.ended:
-            fire = "replay.hint_pause" if self.playing else "replay.hint_play"
-            hints = [(Button.FIRE, fire), (Button.RIGHT, "replay.hint_speed"), (Button.X, hints[0][1]), hints[1]]
-        return self.context.prompts(hints)
+        jump, back = (Button.RIGHT, "replay.hint_jump"), (Button.BACK, "replay.hint_back")
+        if self.ended:
+            return self.context.prompts([(Button.FIRE, "replay.hint_again"), jump, back])
+        fire = "replay.hint_pause" if self.playing else "replay.hint_play"
+        speed, again = (Button.Y, "replay.hint_speed"), (Button.X, "replay.hint_again")
+        return self.context.prompts([(Button.FIRE, fire), jump, speed, again, back])
 
     @property
     def ended(self) -> bool:
         """True at the end of the recording."""
-        match = self.runner.match
-        return match.over or match.seconds >= self.length
+        return self.runner.match.over or self.runner.match.seconds >= self.timeline.length * DT
 
     def _begin(self) -> None:
-        self.runner, self.prewarmed, self.playing = MatchRunner(self.context, to_match(self.replay)), False, True
+        self.jump(0)
+        self.playing = True

@@ -18,6 +18,7 @@ from pigaming_app.scenes.play.last_hit import LastHit
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.scenes.views.rumble import Rumble
+from pigaming_app.scenes.views.view import SoundCue
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
@@ -61,17 +62,20 @@ class MatchRunner:
         for _ in range(self.timestep.due(seconds, speed)):
             if self.match.over:
                 break
-            self.match.tick()
-            if self.last_hit:
-                self.last_hit.record(self.match.state)
-            with self._tag_sprites():
-                sounds = self.view.watch(self.match.state)
-            for name, player, x in sounds:
+            for name, player, x in self.tick():
                 if self.loud:
                     self.context.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
             for seat, rumble in self.view.rumbles.items():
                 self.rumble(seat, rumble)
         self._count_down()
+
+    def tick(self) -> list[SoundCue]:
+        """Play one tick; returns its sounds."""
+        self.match.tick()
+        if self.last_hit:
+            self.last_hit.record(self.match.state)
+        with self._tag_sprites():
+            return list(self.view.watch(self.match.state))
 
     def wait(self, seconds: float) -> None:
         """Advance only the effects of the view: the match is halted."""

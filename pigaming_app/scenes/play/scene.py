@@ -17,6 +17,7 @@ from pigaming_app.ai.brain.driving import Driving
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.registry import DRIVING, make_brain, new_match
 from pigaming_app.games.game import Setup
+from pigaming_app.games.replay import recorded, replayable
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
@@ -358,6 +359,9 @@ class MatchScene:
         if self.results is None:
             finished = self.match.over and not self.stop_requested
             helped = self.ai_assisted if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
+            recording = recorded(self.match) if replayable(self.match) else None
+            if recording and finished:
+                self.context.highlights.add(recording)
             self.results = Results(
                 self.context,
                 self.match.outcome(),
@@ -367,6 +371,7 @@ class MatchScene:
                 finished,
                 helped,
                 self.game_choice,
+                recording,
             )
             if finished:
                 self.context.sounds.play("go")

@@ -27,12 +27,13 @@ class SideHints:
         self.prompts = prompts
 
     def as_button(self, event: InputEvent) -> InputEvent:
-        """A click on a hint as a press of its button; any other event unchanged."""
+        """A click on a hint as a press of its button, LEFT on the left half of "<>"; any other event unchanged."""
         if event.button is not Button.CLICK or event.at is None:
             return event
         for hint_button, box in zip(self.prompts.buttons, boxes(self.prompts.labels), strict=True):
             if box.collidepoint(event.at):
-                return replace(event, button=hint_button)
+                left = hint_button is Button.RIGHT and event.at[0] < box.centerx
+                return replace(event, button=Button.LEFT if left else hint_button)
         return event
 
     def draw(self, screen: pygame.Surface) -> None:

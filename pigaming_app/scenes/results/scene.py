@@ -10,18 +10,22 @@ from collections.abc import Callable, Collection, Sequence
 import pygame
 
 from pigaming_app.games.game import Outcome, Setup
+from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Swap
+from pigaming_app.scenes.recordings import store
+from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.initials import Initials, qualifying
 from pigaming_app.scenes.results.rematch_vote import RematchVote
 from pigaming_app.scenes.results.view import ResultsPage
-from pigaming_app.ui.draw import FOCUS
+from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
-from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
+from pigaming_app.ui.widgets.caption import Caption, caption
 
 INPUT_LOCKOUT = 2.5  # s during which input is ignored
 LATE, LEAVE = 5.0, 0.5  # s during which BACK is ignored; s it must be held afterwards
@@ -38,7 +42,8 @@ class Results:
     """Results of a match. `devices`: driver of each seat; `finished`: played to its end.
 
     `rematch`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `ai_assisted`: seats
-    that changed drivers during the match; their scores do not count as records.
+    that changed drivers during the match; their scores do not count as records. `recording`: the replay, if it can be
+    saved.
     """
 
     def __init__(
@@ -51,8 +56,10 @@ class Results:
         finished: bool = True,
         ai_assisted: Collection[int] = (),
         game_choice: SceneFactory | None = None,
+        recording: Replay | None = None,
     ) -> None:
         self.context, self.setup, self.rematch, self.game_choice = context, setup, rematch, game_choice
+        self.recording = recording
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
         self.ballot = RematchVote(context, seats, humans, devices)
@@ -63,15 +70,21 @@ class Results:
         self.initials = Initials(context, setup, self.claims)
         self.sounds = self.page.sounds(humans)
         self.age = self.idle = self.message_left = 0.0
+        self.message: Caption | None = None
         self.access = Access(context, lambda: self.ballot.devices)
         self.leaving, self.joining = HoldTimers(context.controls, LEAVE), HoldTimers(context.controls, TAKE_SECONDS)
+
+    @property
+    def prompts(self) -> ButtonPrompts:
+        """The current button prompts."""
         hints = [
             (Button.FIRE, "results.again"),
-            *([(Button.X, "results.change")] if game_choice else []),
+            *([(Button.X, "results.change")] if self.game_choice else []),
             (Button.Y, "results.scores"),
+            *([(Button.UP, "results.save")] if self.recording else []),
             (Button.BACK, "results.menu"),
         ]
-        self.prompts = context.prompts(hints, device=lambda: self.access.hint_device)
+        return self.context.prompts(hints, device=lambda: self.access.hint_device)
 
     def prewarm(self, milliseconds: float) -> bool:
         """Prewarm the page for at most this many milliseconds; True when complete."""
@@ -82,7 +95,7 @@ class Results:
         self.idle = 0.0
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE votes, START begins, X opens the game selection, BACK, held, returns to the title."""
+        """FIRE votes, START begins, X changes the game, UP saves the replay, BACK, held, returns to the title."""
         event = self.prompts.as_button(event)
         admitted = self.access.admit(event)
         if admitted is None and event.button is not Button.FIRE:
@@ -99,6 +112,8 @@ class Results:
             case Button.X if self.game_choice:
                 self.context.sounds.play("accept")
                 return Push(self.game_choice(self.context, self.setup, self.ballot.devices))
+            case Button.UP if self.recording and not event.repeat:
+                self._save(self.recording)
             case Button.Y:
                 return Push(HighScores(self.context, contest(self.setup)))
             case Button.BACK if admitted.device.kind == "mouse":
@@ -136,8 +151,8 @@ class Results:
         self.page.draw(screen, self.age)
         if self.age >= self.page.ready_at:
             self.ballot.draw(screen, self.joining.shares.values())
-            if self.message_left > 0.0:
-                caption(self.context.words("match.hold"), sign="ai").draw(screen, 960, self.prompts.y)
+            if self.message and self.message_left > 0.0:
+                self.message.draw(screen, 960, self.prompts.y)
             else:
                 self.prompts.draw(screen)
             if self.leaving.share:
@@ -149,7 +164,22 @@ class Results:
             self.context.sounds.play("ready", None)
         elif event.device not in self.ballot.devices and self.ballot.takeable:
             self.joining.begin(event)
-            self.message_left = MESSAGE_SECONDS
+            self._say(caption(self.context.words("match.hold"), sign="ai"))
+
+    def _save(self, recording: Replay) -> None:
+        """Save the replay, once; after a failure again on request."""
+        try:
+            store.save(recording)
+        except StoreError as error:
+            self._say(caption(self.context.words(str(error)), ALARM))
+            self.context.sounds.play("error")
+            return
+        self.recording = None
+        self._say(caption(self.context.words("results.saved"), sign="check"))
+        self.context.sounds.play("accept")
+
+    def _say(self, message: Caption) -> None:
+        self.message, self.message_left = message, MESSAGE_SECONDS
 
     def _leave(self) -> StackOperation:
         self.context.sounds.play("back")

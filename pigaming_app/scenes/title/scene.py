@@ -122,6 +122,10 @@ class Title:
             return HowTo(self.context, self.game)
         if name == "lab":
             return self._lab()
+        if name == "replays":
+            from pigaming_app.scenes.replays.page import ReplaysPage
+
+            return ReplaysPage(self.context)
         if name == "options":
             from pigaming_app.scenes.options.page import OptionsPage
 
@@ -157,7 +161,7 @@ class Title:
         return spots
 
     def _menu(self) -> tuple[str, ...]:
-        items = "howto", "lab", "options"
+        items = "howto", "lab", "replays", "options"
         return items if self.context.kiosk else (*items, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:

@@ -43,6 +43,7 @@ def tour(walker: TourWalker) -> None:
             play(walker, game, every_arena=language == LANGUAGES[0])
         lab(walker)
         home(walker)
+        replays(walker)
         walker.press("tab")
     attract(walker)
 
@@ -80,6 +81,19 @@ def lessons(walker: TourWalker) -> None:
     for _ in games():
         walker.wait(5.0)
         walker.press("d")
+    home(walker)
+
+
+def replays(walker: TourWalker) -> None:
+    """The list of replays, and the latest one: a jump, another speed, the end of a jump ahead."""
+    walker.set_screen("replays")
+    choose(walker, "replays")
+    walker.wait(0.5)
+    walker.press("space", pause=1.0)
+    if walker.shows("ReplayScene"):
+        walker.set_screen("replay")
+        walker.wait(2.0)
+        walker.press("a", "d", "tab", "d", pause=1.0)
     home(walker)
 
 

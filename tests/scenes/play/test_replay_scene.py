@@ -1,14 +1,17 @@
 """Demonstration matches and replays."""
 
 from pathlib import Path
+from time import perf_counter
 
 import pygame
 import pytest
 
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.registry import games
+from pigaming_app.games.replay import Replay
+from pigaming_app.games.replay import recorded as recording_of
 from pigaming_app.scenes.files import load_replay, save_replay
-from pigaming_app.scenes.play.replay import ReplayScene
+from pigaming_app.scenes.play.replay import LINE_LEFT, LINE_RIGHT, LINE_Y, ReplayScene
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.title.attract import PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.sim.record import digest
@@ -80,18 +83,84 @@ def test_a_replay_pauses_speeds_up_and_restarts(arcade: Arcade, recorded: tuple[
     before = scene.runner.match.state.tick
     arcade.wait(1.0, draw=True)
     assert scene.runner.match.state.tick == before
-    for button in (Button.FIRE, Button.RIGHT, Button.RIGHT, Button.RIGHT):
+    for button in (Button.FIRE, Button.Y, Button.Y):
         arcade.press(button)
     arcade.wait(1.0, draw=True)
     assert scene.runner.match.state.tick - before == pytest.approx(200, abs=5)
+    arcade.press(Button.Y)
+    before = scene.runner.match.state.tick
+    arcade.wait(1.0, draw=True)
+    assert scene.runner.match.state.tick - before == pytest.approx(25, abs=3)
     arcade.press(Button.X)
     assert scene.runner.match.state.tick == 0
-    arcade.press(Button.LEFT)
+    arcade.press(Button.Y)
     arcade.until(lambda: scene.ended)
     arcade.press(Button.FIRE)
     assert not scene.ended
     arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
+
+
+@pytest.fixture(scope="module")
+def long() -> Replay:
+    """A replay of 20 s."""
+    match = new_match(setup("hard easy normal off", 1 / 3))
+    while not match.over:
+        match.tick()
+    return recording_of(match)
+
+
+def tick(scene: ReplayScene) -> int:
+    return int(scene.runner.match.state.tick)
+
+
+def test_left_and_right_jump_by_five_seconds_to_the_same_states(arcade: Arcade, long: Replay) -> None:
+    scene = ReplayScene(arcade.context, long)
+    arcade.open(scene)
+    arcade.wait(8.0)
+    arcade.press(Button.FIRE)
+    here, state = tick(scene), digest(scene.runner.match.state)
+    arcade.press(Button.LEFT)
+    assert tick(scene) == here - 250
+    arcade.shown(ReplayScene)
+    arcade.press(Button.RIGHT)
+    assert (tick(scene), digest(scene.runner.match.state)) == (here, state)
+    for _ in range(3):
+        arcade.press(Button.LEFT)
+    assert tick(scene) == 0
+    for _ in range(5):
+        arcade.press(Button.RIGHT)
+    assert tick(scene) == 1000
+    assert scene.ended
+    assert digest(scene.runner.match.state) == long.digest
+    arcade.press(Button.LEFT)
+    assert not scene.ended
+    arcade.press(Button.FIRE)
+    arcade.until(lambda: scene.ended, 6.0)
+    assert digest(scene.runner.match.state) == long.digest
+
+
+def test_a_click_on_the_timeline_jumps_there(arcade: Arcade, long: Replay) -> None:
+    scene = ReplayScene(arcade.context, long)
+    arcade.open(scene)
+    arcade.click((LINE_LEFT + LINE_RIGHT) / 2, LINE_Y + 5)
+    assert tick(scene) == 500
+    arcade.click(LINE_RIGHT + 100, LINE_Y)
+    assert tick(scene) == 1000
+    arcade.click(0, LINE_Y)
+    assert tick(scene) == 0
+
+
+def test_a_jump_takes_less_than_50_ms(arcade: Arcade, long: Replay) -> None:
+    scene = ReplayScene(arcade.context, long)
+    arcade.open(scene)
+    arcade.wait(2.0)
+    durations = []
+    for button in (Button.RIGHT, Button.RIGHT, Button.LEFT, Button.RIGHT, Button.LEFT):
+        began = perf_counter()
+        arcade.press(button)
+        durations.append(perf_counter() - began)
+    assert min(durations) < 0.05
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
@@ -115,6 +184,8 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
         assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
     for button, box in zip(scene.prompts.buttons, boxes(scene.prompts.labels), strict=True):
         assert scene.hints.as_button(InputEvent(Button.CLICK, Device("mouse"), at=box.center)).button is button
+        left = scene.hints.as_button(InputEvent(Button.CLICK, Device("mouse"), at=(box.left + 1, box.centery))).button
+        assert left is (Button.LEFT if button is Button.RIGHT else button)
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
@@ -139,11 +210,11 @@ def test_a_replay_of_another_engine_plays_with_a_notice(
 def test_the_prompts_of_a_replay_match_its_state(arcade: Arcade, recorded: tuple[Path, str]) -> None:
     scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arcade.open(scene)
-    assert [text for _, text in scene.prompts.labels] == ["Pause", "Speed", "From the start", "Back"]
+    assert [text for _, text in scene.prompts.labels] == ["Pause", "5 seconds", "Speed", "From the start", "Back"]
     arcade.press(Button.FIRE)
     arcade.shown(ReplayScene)
     assert scene.prompts.labels[0][1] == "Play"
     arcade.press(Button.FIRE)
     arcade.until(lambda: scene.ended)
     arcade.shown(ReplayScene)
-    assert [text for _, text in scene.prompts.labels] == ["From the start", "Back"]
+    assert [text for _, text in scene.prompts.labels] == ["From the start", "5 seconds", "Back"]

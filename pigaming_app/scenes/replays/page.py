@@ -1,0 +1,174 @@
+"""The saved replays: watch one, or delete it with a second press. In a kiosk nothing can be deleted."""
+
+import pygame
+
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.play.replay import ReplayScene
+from pigaming_app.scenes.recordings import store
+from pigaming_app.scenes.recordings.store import StoreError
+from pigaming_app.scenes.replays import view
+from pigaming_app.scenes.replays.view import ROWS, Entry
+from pigaming_app.ui.draw import ALARM, ICE, LABEL, MIST
+from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, heading
+
+IDLE = 60.0  # s without input before the return to the title
+INPUT_LOCKOUT = 0.3  # s during which input is ignored
+CONFIRM_SECONDS = 3.0  # s for the second press
+MESSAGE_SECONDS = 4.0  # s, display time of a message
+
+
+class ReplaysPage:
+    """Pages of rows, the latest replay first. A file is read when its row is first shown."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.entries = [Entry(path) for path in store.paths()]
+        self.page, self.age, self.message, self.message_left, self.confirm_left = 0, 0.0, "", 0.0, 0.0
+        self.asked: Entry | None = None  # replay that a second press deletes
+        self.focus = Focus(self._spots())
+
+    def on_enter(self) -> None:
+        """First display, or return from a replay."""
+        self.age = 0.0
+        self.context.sounds.music(True)
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """FIRE plays, X deletes, LEFT and RIGHT turn the page, BACK leaves."""
+        event = self.prompts.as_button(event)
+        if event.button is Button.BACK or (not self.entries and event.button in (Button.FIRE, Button.START)):
+            self.context.sounds.play("back")
+            return Pop()
+        if not self.entries or self.age < INPUT_LOCKOUT:
+            return None
+        if event.button in (Button.LEFT, Button.RIGHT):
+            self._turn(1 if event.button is Button.RIGHT else -1)
+        elif event.button is Button.X and self.deletable:
+            self._delete(self.entry)
+        elif self._on_cross(event):
+            self.focus.handle(event)
+            self._delete(self.entry)
+        else:
+            if self.focus.handle(event):
+                self.context.sounds.play("move")
+            chosen = self.focus.activated(event)
+            return self._play(self.entries[int(chosen)]) if chosen else None
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        """Read the files of this page, one per frame; return to the title when idle."""
+        self.age += seconds
+        self.message_left -= seconds
+        self.confirm_left -= seconds
+        self.focus.update(seconds)
+        unread = next((entry for entry in self._shown() if not entry.read), None)
+        if unread:
+            unread.load(self.context.words.language)
+        return Home() if self.context.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words = self.context.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("replays.title"), f"{self.page + 1} / {self.pages}" if self.pages > 1 else "").draw(screen)
+        if not self.entries:
+            text(words("replays.none"), LABEL, ICE, "head").draw(screen, 960, 500)
+            text(words("replays.how"), 40, MIST).draw(screen, 960, 580)
+        black_out(screen, *map(view.row_box, range(len(self._shown()))))
+        for i, entry in enumerate(self._shown()):
+            box = view.row_box(i)
+            asked = entry is self.asked and self.confirm_left > 0.0
+            if asked:
+                label = words.key_name(self.context.controls.label(None, Button.X))
+                view.question(words("replays.sure", button="{button}"), label).draw(screen, *box.topleft)
+            elif entry.read:
+                view.row(words, entry, entry is self.entry).draw(screen, *box.topleft)
+            if self.deletable:
+                view.cross(asked).draw(screen, *view.cross_box(i).topleft)
+        if self.entries:
+            self.focus.draw(screen)
+        if self.message_left > 0.0:
+            caption(self.message, ALARM).draw(screen, 960, self.prompts.y)
+        else:
+            self.prompts.draw(screen)
+
+    # ---- inside
+
+    @property
+    def prompts(self) -> ButtonPrompts:
+        """The current button prompts."""
+        hints = [(Button.FIRE, "replays.hint_play")] if self.entries else []
+        hints += [(Button.RIGHT, "replays.hint_page")] if self.pages > 1 else []
+        hints += [(Button.X, "replays.hint_delete")] if self.entries and self.deletable else []
+        return self.context.prompts([*hints, (Button.BACK, "replays.hint_back")])
+
+    @property
+    def deletable(self) -> bool:
+        """False in a kiosk."""
+        return not self.context.kiosk
+
+    @property
+    def pages(self) -> int:
+        """Number of pages."""
+        return max(1, -(-len(self.entries) // ROWS))
+
+    @property
+    def entry(self) -> Entry:
+        """The focused replay."""
+        return self.entries[int(self.focus.name)]
+
+    def _shown(self) -> list[Entry]:
+        """The replays of this page."""
+        return self.entries[self.page * ROWS : (self.page + 1) * ROWS]
+
+    def _spots(self) -> list[FocusSpot]:
+        first = self.page * ROWS
+        rows = [FocusSpot(str(first + i), view.row_box(i)) for i in range(len(self._shown()))]
+        return rows or [FocusSpot("0", view.row_box(0))]
+
+    def _on_cross(self, event: InputEvent) -> bool:
+        """True for a click on the cross of a row."""
+        boxes = map(view.cross_box, range(len(self._shown())) if self.deletable else ())
+        return event.button is Button.CLICK and any(box.collidepoint(event.at or (0, 0)) for box in boxes)
+
+    def _turn(self, delta: int) -> None:
+        """Show another page, around the end."""
+        if self.pages > 1:
+            self.page = (self.page + delta) % self.pages
+            self.focus = Focus(self._spots())
+            self.context.sounds.play("move")
+
+    def _play(self, entry: Entry) -> StackOperation:
+        replay = store.load(entry.path)
+        if replay is None:
+            self._say("replays.gone")
+            entry.replay = None
+            return None
+        self.context.sounds.play("accept")
+        return Push(ReplayScene(self.context, replay))
+
+    def _delete(self, entry: Entry) -> None:
+        """Ask at the first press, delete at the second."""
+        if entry is not self.asked or self.confirm_left <= 0.0:
+            self.asked, self.confirm_left = entry, CONFIRM_SECONDS
+            self.context.sounds.play("move")
+            return
+        self.asked = None
+        try:
+            store.delete(entry.path)
+        except StoreError as error:
+            self._say(str(error))
+            return
+        self.entries.remove(entry)
+        self.page = min(self.page, self.pages - 1)
+        self.focus.set_spots(self._spots())
+        self.context.sounds.play("back")
+
+    def _say(self, key: str) -> None:
+        self.message, self.message_left = self.context.words(key), MESSAGE_SECONDS
+        self.context.sounds.play("error")

@@ -1,0 +1,142 @@
+"""Rows of the list of replays: game and arena, time, players with their points, a crown for the winners."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import pygame
+
+from pigaming_app.games.arenas import parse
+from pigaming_app.games.replay import Replay
+from pigaming_app.scenes.recordings import store
+from pigaming_app.ui.draw import (
+    ALARM,
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    WHITE,
+    badge,
+    button,
+    button_width,
+    cut_box,
+    icon,
+    mix,
+    text_width,
+)
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.i18n import Words
+
+ROWS = 7
+TOP, HIGH, PITCH = 212, 88, 104  # px
+CROSS = 72  # px, width of the box that deletes
+W = RIGHT - LEFT
+GAME, ARENA, TIME, PLAYERS_X, SLOT = 32, 372, 712, 956, 172  # px from a row's left edge; px, width of a player
+ROOM = 316  # px for the game and for the arena
+DATE = "%d.%m. %H:%M"
+
+
+@dataclass
+class Entry:
+    """One file of the list. `replay` is None while it is unread, and if it is damaged."""
+
+    path: Path
+    read: bool = False
+    replay: Replay | None = None
+    arena: str = ""
+
+    def load(self, language: str) -> None:
+        """Read the file."""
+        self.read, self.replay = True, store.load(self.path)
+        if self.replay:
+            setup = self.replay.setup
+            title = parse(setup.game, self.replay.source, setup.arena).title
+            self.arena = title.get(language, Path(setup.arena).stem)
+
+
+def row_box(i: int) -> pygame.Rect:
+    """Rectangle of the i-th row of a page."""
+    return pygame.Rect(LEFT, TOP + PITCH * i, W, HIGH)
+
+
+def cross_box(i: int) -> pygame.Rect:
+    """Rectangle of the cross in the i-th row."""
+    return pygame.Rect(RIGHT - CROSS - 8, TOP + PITCH * i + (HIGH - CROSS) // 2, CROSS, CROSS)
+
+
+def row(words: Words, entry: Entry, hot: bool) -> LitImage:
+    """The row of a file that has been read."""
+    replay = entry.replay
+    if replay is None:
+        return damaged(words("replays.damaged", name=entry.path.name))
+    seats = tuple(
+        (seat, other.brain == "human", replay.scores[seat] if replay.scores else None, seat in replay.winners)
+        for seat, other in enumerate(replay.setup.seats)
+        if other.brain != "off"
+    )
+    when = f"{store.saved_at(entry.path):{DATE}}"
+    return whole(words(f"games.{replay.setup.game}"), entry.arena, when, seats, hot)
+
+
+@cached
+def whole(
+    game: str, arena: str, when: str, seats: tuple[tuple[int, bool, int | None, bool], ...], hot: bool
+) -> LitImage:
+    """Row of a valid replay; `seats`: seat, whether a person drove, points if known, whether it won."""
+    layer, y = _frame(), HIGH / 2
+    layer.canvas.text(game, fit_size(game, LABEL, ROOM), GAME, y, FOCUS if hot else ICE, "head")
+    layer.canvas.body(arena, ARENA, y, MIST, "l", fit_size(arena, BODY, ROOM, "body"))
+    layer.canvas.body(when, TIME, y, MIST, "l", fit_size(when, BODY, PLAYERS_X - TIME - 24, "body"))
+    for i, (seat, human, score, won) in enumerate(seats):
+        x = PLAYERS_X + SLOT * i
+        badge(layer.glow, seat, x + 28, y + 4, 24)
+        icon(layer.glow, "pad" if human else "ai", x + 76, y + 20, 13, MIST, 3)
+        if won:
+            icon(layer.glow, "crown", x + 76, y - 18, 15, FOCUS, 3)
+        if score is not None:
+            said = str(score).replace("-", "−")
+            size = fit_size(said, LABEL, SLOT - 104, "hero")
+            layer.canvas.text(said, size, x + 100, y + 4, mix(PLAYERS[seat], WHITE, 0.3), "hero")
+    return layer.render()
+
+
+@cached
+def damaged(line: str) -> LitImage:
+    """Row of a file that cannot be played."""
+    layer = _frame()
+    icon(layer.glow, "cross", GAME + 20, HIGH / 2, 18, ALARM, THIN)
+    room = W - GAME - 64 - CROSS - 40
+    layer.canvas.body(line, GAME + 64, HIGH / 2, MIST, "l", fit_size(line, BODY, room, "body"))
+    return layer.render()
+
+
+@cached
+def question(sentence: str, label: str) -> LitImage:
+    """Row that asks for the second press; `sentence` contains {button}."""
+    layer, y = _frame(), HIGH / 2
+    before, _, after = sentence.partition("{button}")
+    x = float(GAME)
+    layer.canvas.text(before.strip(), LABEL, x, y, FOCUS, "head")
+    x += text_width(before.strip(), LABEL) + 20
+    button(layer.canvas, x, y, label, FOCUS)
+    layer.canvas.text(after.strip(), LABEL, x + button_width(label) + 20, y, FOCUS, "head")
+    return layer.render()
+
+
+@cached
+def cross(lit: bool) -> LitImage:
+    """The cross that deletes; top left at (0, 0)."""
+    layer = Layer(0, 0, CROSS, CROSS)
+    icon(layer.glow, "cross", CROSS / 2, CROSS / 2, 16, FOCUS if lit else STEEL, THIN)
+    return layer.render()
+
+
+def _frame() -> Layer:
+    layer = Layer(0, 0, W, HIGH)
+    layer.glow.line(cut_box(0, 0, W, HIGH, 16), STEEL, THIN, True)
+    return layer
