@@ -19,7 +19,7 @@ from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
-from pigaming_app.ai.registry import make_brain
+from pigaming_app.ai.registry import LEVELS, make_brain
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
 from pigaming_app.games.factory import pedestrians as walker
@@ -184,7 +184,7 @@ def test_every_variant_and_strength_has_its_column():
     assert columns == set(games()["pitanks"].variants)
     for section in GAME_OF:
         columns = {row.column for row in ROWS if row.section == "Opponents" and row.first == section}
-        assert columns == {"easy", "normal", "hard"}
+        assert columns == set(LEVELS.values())
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Registry of all brains by game and name.
+"""Registry of all brains by game and name, and the levels that the lobby offers.
 
 The registry also attaches each brain's `explain`, so that no brain imports its own explanation.
 """
@@ -10,7 +10,7 @@ from typing import Any
 from pigaming_app.ai.brain import baselines
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.factory import foreman, foreman_thoughts
-from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts
+from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.race import racer, racer_thoughts
 from pigaming_app.games.game import Setup
@@ -18,13 +18,13 @@ from pigaming_app.games.match import Match
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import ROBOTS
 
-BRAINS: dict[str, dict[str, BrainKind]] = {
+KINDS: dict[str, dict[str, BrainKind]] = {
     "pitanks": {
         "idle": baselines.IDLE,
         "random": baselines.RANDOM,
-        "easy": replace(fsm.EASY, explain=fsm_thoughts.explain),
-        "normal": replace(fsm.NORMAL, explain=fsm_thoughts.explain),
-        "hard": replace(fsm.HARD, explain=fsm_thoughts.explain),
+        "hand1": gunner.HAND1,
+        "hand2": gunner.HAND2,
+        "hand3": gunner.HAND3,
         "fsm": replace(fsm.FSM, explain=fsm_thoughts.explain),
         "classic": replace(classic.CLASSIC, explain=classic_thoughts.explain),
         "q1": table_files.shipped_brain("q1"),
@@ -33,22 +33,26 @@ BRAINS: dict[str, dict[str, BrainKind]] = {
     "factory": {
         "idle": baselines.IDLE,
         "random": baselines.RANDOM,
-        "easy": replace(foreman.EASY, explain=foreman_thoughts.explain),
-        "normal": replace(foreman.NORMAL, explain=foreman_thoughts.explain),
-        "hard": replace(foreman.HARD, explain=foreman_thoughts.explain),
+        "hand1": replace(foreman.HAND1, explain=foreman_thoughts.explain),
+        "hand2": replace(foreman.HAND2, explain=foreman_thoughts.explain),
+        "hand3": replace(foreman.HAND3, explain=foreman_thoughts.explain),
     },
     "race": {
         "idle": baselines.IDLE,
         "random": baselines.RANDOM,
-        "easy": replace(racer.EASY, explain=racer_thoughts.explain),
-        "normal": replace(racer.NORMAL, explain=racer_thoughts.explain),
-        "hard": replace(racer.HARD, explain=racer_thoughts.explain),
+        "hand1": replace(racer.HAND1, explain=racer_thoughts.explain),
+        "hand2": replace(racer.HAND2, explain=racer_thoughts.explain),
+        "hand3": replace(racer.HAND3, explain=racer_thoughts.explain),
     },
 }
 
-STRENGTHS = ("easy", "normal", "hard")
+LEVELS = {"easy": "hand1", "normal": "hand2", "hard": "hand3"}  # the brain behind each level, in every game
+STRENGTHS = tuple(LEVELS)
+BRAINS = {
+    game: {**kinds, **{level: kinds[name] for level, name in LEVELS.items()}} for game, kinds in KINDS.items()
+}  # by game; brains answer to their own names and to those of their levels
 RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in the order in which it steps through them
-    "pitanks": (*STRENGTHS, "q1", "q2"),
+    "pitanks": (*STRENGTHS, "q1", "q2", "fsm"),
     "factory": STRENGTHS,
     "race": STRENGTHS,
 }

@@ -15,7 +15,7 @@ from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.sim.world import HZ
 
-HANDMADE = "hard"  # the strongest hand-written brain
+HANDMADE = "hand3"  # the strongest hand-written brain
 
 
 class Evaluation:

@@ -110,6 +110,6 @@ def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int
     return fill
 
 
-EASY = BrainKind("easy", ForemanMind, think, make_reset(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
-NORMAL = BrainKind("normal", ForemanMind, think, make_reset(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
-HARD = BrainKind("hard", ForemanMind, think, make_reset(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))
+HAND1 = BrainKind("hand1", ForemanMind, think, make_reset(speed=0.6, pause=1.2, noise=0.5, delay=0.4, dash=0))
+HAND2 = BrainKind("hand2", ForemanMind, think, make_reset(speed=0.85, pause=0.4, noise=0.15, delay=0.2, dash=0))
+HAND3 = BrainKind("hand3", ForemanMind, think, make_reset(speed=1.0, pause=0.0, noise=0.03, delay=0.1, dash=1))

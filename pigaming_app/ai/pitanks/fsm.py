@@ -276,7 +276,7 @@ def make_reset(delay: float, spread: float, patience: float) -> Any:
     return fill
 
 
-EASY = BrainKind("easy", FsmMind, think, make_reset(delay=0.42, spread=0.14, patience=4.0))
-NORMAL = BrainKind("normal", FsmMind, think, make_reset(delay=0.24, spread=0.09, patience=2.5))
-HARD = BrainKind("hard", FsmMind, think, make_reset(delay=0.12, spread=0.045, patience=1.5))
+HAND1 = BrainKind("hand1", FsmMind, think, make_reset(delay=0.42, spread=0.14, patience=4.0))
+HAND2 = BrainKind("hand2", FsmMind, think, make_reset(delay=0.24, spread=0.09, patience=2.5))
+HAND3 = BrainKind("hand3", FsmMind, think, make_reset(delay=0.12, spread=0.045, patience=1.5))
 FSM = BrainKind("fsm", FsmMind, think, make_reset(delay=0.24, spread=0.09, patience=2.5))

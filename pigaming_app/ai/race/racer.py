@@ -203,6 +203,6 @@ def make_reset(speed: float, line: float, spread: float, boost: float, delay: fl
     return fill
 
 
-EASY = BrainKind("easy", RacerMind, think, make_reset(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35))
-NORMAL = BrainKind("normal", RacerMind, think, make_reset(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2))
-HARD = BrainKind("hard", RacerMind, think, make_reset(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))
+HAND1 = BrainKind("hand1", RacerMind, think, make_reset(speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35))
+HAND2 = BrainKind("hand2", RacerMind, think, make_reset(speed=1.0, line=0.35, spread=5.0, boost=0.5, delay=0.2))
+HAND3 = BrainKind("hand3", RacerMind, think, make_reset(speed=1.0, line=1.0, spread=0.0, boost=0.12, delay=0.05))

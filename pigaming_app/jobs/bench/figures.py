@@ -1,7 +1,7 @@
 """The figures of `bench`: speed of the engine, frames, start and memory on this machine.
 
 Each speed is the best of several runs: other programs can only slow a run down, so the best is nearest to the cost of
-the code itself. The scene is a full match: the game's first arena, full rules, four normal AIs and the longest goal, so
+the code itself. The scene is a full match: the game's first arena, full rules, four hand2 AIs and the longest goal, so
 that it does not end during the measurement.
 """
 
@@ -63,10 +63,10 @@ def measure(game: str) -> dict[str, Any]:
 def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
     """The scene as a batch of `matches` matches."""
     rules = games()[game].default
-    one, two, three, four = (Seat("normal", team) for team in rules.teams)
+    one, two, three, four = (Seat("hand2", team) for team in rules.teams)
     arena, goal = arenas(game)[0], max(rules.goals, default=0)
     setups = [Setup(game, arena, (one, two, three, four), 5.0, seed + i, rules.name, goal) for i in range(matches)]
-    return Batch(setups, [BRAINS[game]["normal"]] * 4, fast)
+    return Batch(setups, [BRAINS[game]["hand2"]] * 4, fast)
 
 
 def compiled_ticks(game: str, seed: int) -> float:

@@ -119,11 +119,11 @@ def lobby(context: "Context", state: str) -> "Scene":
 
 
 def match(context: "Context", state: str) -> "Scene":
-    """A match of four normal AIs in the first arena of the game `state`."""
+    """A match of four hand2 AIs in the first arena of the game `state`."""
     from pigaming_app.scenes.play.scene import MatchScene
 
     rules = games()[state].default
-    one, two, three, four = (Seat("normal", team) for team in rules.teams)
+    one, two, three, four = (Seat("hand2", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     return MatchScene(context, Setup(state, arenas(state)[0], (one, two, three, four), MINUTES, 1, rules.name, goal))
 

@@ -51,7 +51,7 @@ class Unproven(Exception):
 
 
 class Job(NamedTuple):
-    """One match on the mat. `mashed`: played by random button mashing, else by the normal AIs; `carried`: the robots
+    """One match on the mat. `mashed`: played by random button mashing, else by the hand2 AIs; `carried`: the robots
     are set down on their places, else they drive there."""
 
     game: str
@@ -109,14 +109,14 @@ def jobs() -> list[Job]:
 def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
     """Play a match on its own emulated mat, which is calibrated first unless a `ground` is given."""
     rules = games()[job.game].default
-    one, two, three, four = (Seat("normal", team) for team in rules.teams)
+    one, two, three, four = (Seat("hand2", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.name, goal)
     bed = Testbed(job.seed, job.fps, LOST, RadioChannel(loss=LOST, duplicates=LOST / 2, broken=LOST / 4), ground)
     match = Match(setup, lambda world: RealPlant(world, bed.rig))
     for seat in range(ROBOTS):
         seed = ROBOTS * job.seed + seat
-        match.sit(seat, ButtonMasher(seed) if job.mashed else make_brain(job.game, "normal", seed))
+        match.sit(seat, ButtonMasher(seed) if job.mashed else make_brain(job.game, "hand2", seed))
         if job.carried:
             robot = match.state.robots[seat]
             bed.arena.place(seat, (robot.x, robot.y, robot.heading))

@@ -11,7 +11,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, ScoreTable
 
 NONE = "–"
-STRONG = frozenset({"normal", "hard", "fsm", "q1", "q2"})
+STRONG = frozenset({"normal", "hard", "hand2", "hand3", "fsm", "q1", "q2"})
 """AIs no weaker than `normal`. `duel pitanks NAME normal --matches 200`: `fsm` wins 46 and loses 46 (it is the same
 machine), q1 180 and 8, q2 132 and 35. `classic` wins none, and 1 of 200 against `easy`."""
 

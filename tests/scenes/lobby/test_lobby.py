@@ -105,17 +105,17 @@ def test_directions_make_the_ais_stronger_and_that_is_remembered(arcade: Arcade)
     assert Lobby(arcade.context, "pitanks").seats.strength == "hard"
 
 
-def test_self_taught_ais_follow_the_strongest_one_and_play(arcade: Arcade) -> None:
+def test_the_other_ais_follow_the_strongest_one_and_play(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     arcade.press(Button.Y)
-    for wanted in ("hard", "q1", "q2", "q2"):
+    for wanted in ("hard", "q1", "q2", "fsm", "fsm"):
         arcade.press(Button.UP)
         assert arcade.shown(Lobby).seats.places[1].strength == wanted
         arcade.frame(draw=True)
     assert arcade.context.settings.strength == "hard"
     arcade.press(Button.START)
     arcade.press(Button.START)
-    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["human", "q2", "off", "off"]
+    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["human", "fsm", "off", "off"]
 
 
 def test_left_and_right_choose_the_team_and_a_match_needs_two_teams(arcade: Arcade) -> None:

@@ -1,0 +1,24 @@
+"""Names of brains: the hand-written strengths, the levels behind which they stand, and what the lobby offers."""
+
+import pytest
+
+from pigaming_app.ai.registry import BRAINS, LEVELS, RIVALS, STRENGTHS
+from pigaming_app.games.registry import games
+from pigaming_app.storage.settings import Settings
+
+
+@pytest.mark.parametrize("game", games())
+def test_a_level_is_a_name_of_a_brain(game):
+    kinds = BRAINS[game]
+    assert [kinds[level].name for level in ("easy", "normal", "hard")] == ["hand1", "hand2", "hand3"]
+    assert all(kinds[level] is kinds[LEVELS[level]] for level in STRENGTHS)
+
+
+@pytest.mark.parametrize("game", games())
+def test_the_lobby_offers_brains_and_begins_with_a_level(game):
+    assert set(RIVALS[game]) <= set(BRAINS[game])
+    assert Settings().strength in RIVALS[game]
+
+
+def test_the_old_machine_is_offered_after_all_others():
+    assert RIVALS["pitanks"][-1] == "fsm"
