@@ -13,12 +13,12 @@ ROBOTS = "robots"
 
 def options(parser: ArgumentParser) -> None:
     game_option(parser, more=(ROBOTS,))
-    shared(parser, "--json")
+    shared(parser, "--variant", "--json")
 
 
 def run(arguments: Namespace) -> int:
     """Measure and print the figures. Raises Refusal."""
-    figures = _robots() if arguments.game == ROBOTS else _game(arguments.game)
+    figures = _robots() if arguments.game == ROBOTS else _game(arguments.game, arguments.variant)
     if arguments.json:
         print(json.dumps(figures))
     else:
@@ -26,15 +26,17 @@ def run(arguments: Namespace) -> int:
     return 0
 
 
-def _game(game: str) -> dict[str, Any]:
+def _game(game: str, variant: str | None) -> dict[str, Any]:
     from pigaming_app.games.registry import games
     from pigaming_app.games.setup import ChoiceError, require_one_of
 
     with refused(ChoiceError):
         require_one_of("game", game, [*games(), ROBOTS])
+        variant = variant or games()[game].default.name
+        require_one_of("variant", variant, list(games()[game].variants))
     from pigaming_app.jobs.bench.figures import measure
 
-    return measure(game)
+    return measure(game, variant)
 
 
 def _robots() -> dict[str, Any]:

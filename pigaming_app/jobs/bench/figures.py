@@ -34,18 +34,19 @@ FRAMES = 600  # of the frame times
 STARTS = 3  # of the program
 
 
-def measure(game: str) -> dict[str, Any]:
-    """All figures by name. Without numba those of compiled play are None."""
-    plain = min(_plain_run(game, seed) for seed in range(1, RUNS + 1))
+def measure(game: str, variant: str) -> dict[str, Any]:
+    """All figures by name, those of matches under the rules of `variant`. Without numba those of compiled play are None."""
+    plain = min(_plain_run(game, variant, seed) for seed in range(1, RUNS + 1))
     single = both = None
     if can_compile():
-        compiled_ticks(game, 0)
-        single = min(1.0 / rate for rate in (compiled_ticks(game, seed) for seed in range(1, RUNS + 1)))
-        both = max(1.0 / single, *(_two_processes(game) for _ in range(3)))
-    frames = _frames(game)
+        compiled_ticks(game, variant, 0)
+        single = min(1.0 / rate for rate in (compiled_ticks(game, variant, seed) for seed in range(1, RUNS + 1)))
+        both = max(1.0 / single, *(_two_processes(game, variant) for _ in range(3)))
+    frames = _frames(game, variant)
     slowest = measure_screens()
     return {
         "game": game,
+        "variant": variant,
         "plain_us_per_tick": 1e6 * plain,
         "compiled_us_per_tick": None if single is None else 1e6 * single,
         "compiled_ticks_per_second": both,
@@ -60,18 +61,18 @@ def measure(game: str) -> dict[str, Any]:
     }
 
 
-def batch(game: str, seed: int, matches: int, fast: bool) -> Batch:
+def batch(game: str, variant: str, seed: int, matches: int, fast: bool) -> Batch:
     """The scene as a batch of `matches` matches."""
-    rules = games()[game].default
+    rules = games()[game].variants[variant]
     one, two, three, four = (Seat("hand2", team) for team in rules.teams)
     arena, goal = arenas(game)[0], max(rules.goals, default=0)
-    setups = [Setup(game, arena, (one, two, three, four), 5.0, seed + i, rules.name, goal) for i in range(matches)]
+    setups = [Setup(game, arena, (one, two, three, four), 5.0, seed + i, variant, goal) for i in range(matches)]
     return Batch(setups, [BRAINS[game]["hand2"]] * 4, fast)
 
 
-def compiled_ticks(game: str, seed: int) -> float:
+def compiled_ticks(game: str, variant: str, seed: int) -> float:
     """Ticks a second of one compiled loop. Seed 0 only compiles."""
-    matches = batch(game, 1000 * seed + 1, MATCHES, True)
+    matches = batch(game, variant, 1000 * seed + 1, MATCHES, True)
     if seed == 0:
         matches.play(0)
         return 0.0
@@ -80,9 +81,9 @@ def compiled_ticks(game: str, seed: int) -> float:
     return matches.ticks() / (perf_counter() - began)
 
 
-def work(game: str, seed: int, start_at: float) -> tuple[float, float, int]:
+def work(game: str, variant: str, seed: int, start_at: float) -> tuple[float, float, int]:
     """Play in a separate process from `start_at` on; returns begin, end (s since the epoch) and ticks played."""
-    matches = batch(game, 1000 * seed + 1, 2 * MATCHES, True)
+    matches = batch(game, variant, 1000 * seed + 1, 2 * MATCHES, True)
     matches.play(0)
     while time() < start_at:
         pass
@@ -106,25 +107,25 @@ def machine() -> str:
     return f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores, {python}"
 
 
-def _plain_run(game: str, seed: int) -> float:
-    matches = batch(game, seed, 1, False)
+def _plain_run(game: str, variant: str, seed: int) -> float:
+    matches = batch(game, variant, seed, 1, False)
     began = perf_counter()
     matches.play(PLAIN_TICKS)
     return (perf_counter() - began) / matches.ticks()
 
 
-def _two_processes(game: str) -> float:
+def _two_processes(game: str, variant: str) -> float:
     """Ticks a second of two processes together, from the first start to the last end."""
     with ProcessPoolExecutor(2, get_context("spawn")) as pool:
         start_at = time() + 4.0
-        spans = [job.result() for job in [pool.submit(work, game, seed, start_at) for seed in (1, 2)]]
+        spans = [job.result() for job in [pool.submit(work, game, variant, seed, start_at) for seed in (1, 2)]]
     ticks = sum(ticks for _, _, ticks in spans)
     return ticks / (max(end for _, end, _ in spans) - min(begin for begin, _, _ in spans))
 
 
-def _frames(game: str) -> list[float]:
+def _frames(game: str, variant: str) -> list[float]:
     """Milliseconds of each frame of a busy match, sorted, on a dummy display."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
     from pigaming_app.scenes.views.benchmark.frame_times import frame_times
 
-    return sorted(frame_times(game, FRAMES))
+    return sorted(frame_times(game, variant, FRAMES))

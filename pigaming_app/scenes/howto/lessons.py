@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.howto import factory, factory_party, factory_together, pitanks, race, race_party
+from pigaming_app.scenes.howto import factory, factory_party, factory_together, pitanks, pitanks_party, race, race_party
 
 LessonPicture = Callable[[pygame.Surface, float, float, float], str | None]
 
@@ -18,6 +18,10 @@ LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the inner keys are 
         "shoot": pitanks.shoot,
         "walls": pitanks.walls,
         "pickups": pitanks.pickups,
+        "knockout": pitanks_party.knockout,
+        "light": pitanks_party.light,
+        "bounty": pitanks_party.bounty,
+        "finale": pitanks_party.finale,
     },
     "factory": {
         "lift": factory.lift,
@@ -45,4 +49,8 @@ LESSONS: dict[str, dict[str, LessonPicture]] = {  # by game; the inner keys are 
     },
 }
 PAGE = 4  # lessons on a page
-PAGES: dict[str, tuple[str, ...]] = {"factory": ("standard", "party", "together"), "race": ("standard", "party")}
+PAGES: dict[str, tuple[str, ...]] = {
+    "pitanks": ("plain", "party"),
+    "factory": ("standard", "party", "together"),
+    "race": ("standard", "party"),
+}

@@ -102,18 +102,23 @@ class HowTo:
             name = words(f"howto.{PAGES[self.game][self.page]}")
             pages(name, self.page, count).draw(screen)
             left += pages_width(name, count) + 40
-        limits = limits_line(words, self.game, self._minutes())
+        limits = limits_line(words, self.game, self._minutes(), self._variant())
         text(limits, BODY, ICE, "body", "l", round(RIGHT - left)).draw(screen, left, LIMITS_Y)
 
     def _minutes(self) -> int:
         """The minutes of the last match, or by default those of another rule set that the page is about."""
         settings, last = self.context.settings, last_variant(self.context.settings, self.game)
-        shown = PAGES.get(self.game, (last.name,))[self.page]
+        shown = self._variant()
         return (
             last_minutes(settings, self.game)
             if shown == last.name
             else games()[self.game].variants[shown].default_minutes
         )
+
+    def _variant(self) -> str:
+        """The rule set of the page; if the game has only one page, that of the last match."""
+        names = PAGES.get(self.game, (last_variant(self.context.settings, self.game).name,))
+        return names[self.page]
 
     def _names(self) -> list[tuple[str, pygame.Rect]]:
         """The games and the rectangles of their names, at the right end of the heading."""

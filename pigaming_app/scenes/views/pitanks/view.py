@@ -121,7 +121,7 @@ class PiTanksView(MatchView):
         put(over, tank.tank(seat, fine) if here else tank.ghost(seat), x, y)
         self._powers(light, state, seat, x, y)
         if held.knocked_out:
-            turn = int(now * 60) % party.STAR_TURNS
+            turn = int(now * 40) % party.STAR_TURNS
             put(light, party.stars(turn, self.reach(seat, party.STAR_R)), x, y)
         if now - self.flashed[seat] < FLASH and self.options.flashes != "off":
             flash = effects.flash(seat, coarse)

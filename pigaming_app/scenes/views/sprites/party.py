@@ -22,7 +22,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.sprites import Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
-STARS, STAR_TURNS = 5, 12  # stars round a robot; rotation steps from one star to the next
+STARS, STAR_TURNS = 5, 8  # stars round a robot; rotation steps from one star to the next
 STAR_R = 58  # px from a robot to its stars
 STAGE = round(Rules().camp_radius + RADIUS)  # px: a lit robot that drives out of the light is free of it
 LAMP = (255, 232, 170)
