@@ -137,6 +137,7 @@ class Settings:
     sounds: int = _setting(8, Range(0, 10))
     flashes: str = _setting("full", OneOf(("off", "soft", "full")))
     shake: bool = _setting(True, Boolean())
+    rumble: bool = _setting(True, Boolean())  # of the pads
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Boolean())
     attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # without input
@@ -158,6 +159,8 @@ class Settings:
     radios: list[int] = field(
         default_factory=lambda: [1, 2, 3, 4], metadata={"validator": SeatNumbers(True)}
     )  # of each marker
+    pad_driving: str = _setting("", ShortText())  # driving style last chosen on a pad; empty: never
+    keys_driving: str = _setting("", ShortText())  # the same on the keyboard
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:

@@ -7,8 +7,9 @@ large, so they live in a separate read-only record that all seats share and no m
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Protocol
+from typing import Any
 
+from pigaming_app.ai.brain.driving import Controller, Driving, turn_and_drive
 from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import packed, record
@@ -64,29 +65,14 @@ class BrainPlayer:
         return self.kind.explain(state, seat, self.mind, self.weights) if self.kind.explain else None
 
 
-class Controller(Protocol):
-    """State of an input device: stick axes in [-1, 1] and two buttons."""
-
-    @property
-    def linear(self) -> float: ...
-
-    @property
-    def angular(self) -> float: ...
-
-    @property
-    def fire(self) -> bool: ...
-
-    @property
-    def turbo(self) -> bool: ...
-
-
 class HumanPlayer:
     """A person on a seat; `read` polls the input device on the tick that uses it."""
 
-    def __init__(self, read: Callable[[], Controller]) -> None:
-        self.read = read
+    def __init__(self, read: Callable[[], Controller], driving: Driving = turn_and_drive) -> None:
+        self.read, self.driving = read, driving
 
     def think(self, state: Any, seat: int) -> None:
         """Set the seat's action from the device's present state."""
         device = self.read()
-        set_action(state.actions[seat], device.linear, device.angular, int(device.fire), int(device.turbo))
+        linear, angular = self.driving(state, seat, device)
+        set_action(state.actions[seat], linear, angular, int(device.fire), int(device.turbo))

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
@@ -35,7 +36,11 @@ class Context:
     session: "RobotSession | None" = None  # of real robots
     compiler: Compiler = field(default_factory=Compiler)  # for training in the Lab
     preloader: Preloader = field(default_factory=Preloader)
+    driving: DrivingStyles = field(init=False)
     emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # callbacks that stop robots at once
+
+    def __post_init__(self) -> None:
+        self.driving = DrivingStyles(self.settings)
 
     @property
     def robots(self) -> bool:
@@ -52,6 +57,11 @@ class Context:
     ) -> ButtonPrompts:
         """A page's row of button prompts, see `ButtonPrompts`."""
         return ButtonPrompts(self.words, self.controls, items, y, room, solid, device)
+
+    def hush(self) -> None:
+        """Stop music and rumbling, for a page over a match."""
+        self.sounds.music(False)
+        self.controls.stop_rumble()
 
     def stop_all_robots(self) -> None:
         """Stop all robots: after a scene failure, and when the arcade ends."""

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.ai.registry import RIVALS, STRENGTHS
+from pigaming_app.ai import registry
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
@@ -21,7 +21,7 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
-from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, PLACES, Seats
+from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
 from pigaming_app.scenes.lobby.view import LobbyPage, LobbyState, problem, spots
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
@@ -41,7 +41,9 @@ class Lobby:
     def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.context, self.game = context, game
         team_mode = games()[game].variants[last_choice(context, game).variant].team_mode
-        self.seats = Seats(context.settings.strength, team_mode=team_mode, rivals=RIVALS[game], mat=context.robots)
+        self.seats = Seats(
+            context.settings.strength, team_mode=team_mode, rivals=registry.RIVALS[game], mat=context.robots
+        )
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in context.settings.real and not settings_problem(context.settings)
         for seat, driver in enumerate(drivers):
@@ -49,10 +51,20 @@ class Lobby:
                 self.seats.seat(seat, driver)
         self.now = LobbyState()
         self.access = Access(context, self.seats.devices)
-        self.page = LobbyPage(context, self.seats, self.now, lambda: choice_summary(context, game), self.access)
+        self.page = LobbyPage(
+            context, self.seats, self.now, lambda: choice_summary(context, game), self.access, self._driving
+        )
         self.focus = Focus(spots(self.seats))
         self.prewarm_queue = PrewarmQueue(card.prewarm_jobs())
         self.warmup: MatchRunner | None = None
+
+    @property
+    def variant(self) -> str:
+        """The rule set chosen last."""
+        return last_choice(self.context, self.game).variant
+
+    def _driving(self, device: Device) -> str:
+        return self.context.driving.of(device, self.game, self.variant)
 
     def on_enter(self) -> None:
         """Reset on first display and on return from match setup: everyone has to confirm again."""
@@ -195,7 +207,8 @@ class Lobby:
             self.context.sounds.play("back")
 
     def _add_ai(self) -> None:
-        """Add one AI; remove all if every seat is taken."""
+        """Add one AI; if every seat is taken, remove as many as possible. The countdown begins again."""
+        self.now.starting = None
         seat = self.seats.add_ai()
         if seat is None:
             self.seats.remove_ais()
@@ -204,23 +217,39 @@ class Lobby:
             self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
 
-    def _direct(self, device: Device, act: Button) -> None:
-        """Left and right select the device's own team if teams are on, up and down its robot if a mat is present; the
-        remaining directions set the strength of the AIs.
+    def _direct(self, device: Device, button: Button) -> None:
+        """Up and down select a row of the device's own card, left and right change it. Without a seat, all directions
+        change the strength of the AIs.
         """
         seat = self.seats.seat_of(device)
-        if self.seats.mat and seat is not None and act in (Button.UP, Button.DOWN):
+        delta = 1 if button in (Button.RIGHT, Button.UP) else -1
+        if seat is None:
+            self._change_strength(delta)
+        elif button in (Button.LEFT, Button.RIGHT):
+            self._change_row(seat, self.seats.row(seat), delta)
+        elif self.seats.step_row(seat, -delta):
+            self.context.sounds.play("move")
+
+    def _change_row(self, seat: int, row: str, delta: int) -> None:
+        """Change a row of a person's card."""
+        if row == REAL:
             self._swap(seat)
-            return
-        if self.seats.teams and seat is not None and act in (Button.LEFT, Button.RIGHT):
+        elif row == TEAM:
             self._change_team(seat)
-        elif self.seats.change_strength(1 if act in (Button.RIGHT, Button.UP) else -1):
+        elif row == RIVALS:
+            self._change_strength(delta)
+        elif device := self.seats.places[seat].device:
+            self.context.driving.change(device, self.game, self.variant, delta)
+            self.context.sounds.play("move")
+
+    def _change_strength(self, delta: int, seat: int | None = None) -> None:
+        if self.seats.change_strength(delta, seat):
             self._save_strength()
             self.context.sounds.play("move")
 
     def _save_strength(self) -> None:
         """Save the AI strength as the default of the next lobby, unless only this game offers it."""
-        if self.seats.strength in STRENGTHS:
+        if self.seats.strength in registry.STRENGTHS:
             self.context.settings.strength = self.seats.strength
 
     def _swap(self, seat: int) -> None:
@@ -250,14 +279,10 @@ class Lobby:
             return
         what, seat = name.split()[0], int(name.split()[1])
         kind = self.seats.places[seat].kind
-        if what == "team":
-            self._change_team(seat)
-        elif what == "real":
-            self._swap(seat)
+        if what in (REAL, TEAM, DRIVE):
+            self._change_row(seat, what, 1)
         elif what in ("weaker", "stronger"):
-            self.seats.change_strength(1 if what == "stronger" else -1, seat)
-            self._save_strength()
-            self.context.sounds.play("move")
+            self._change_strength(1 if what == "stronger" else -1, seat)
         elif kind == AI:
             self.seats.leave(seat)
             self.context.sounds.play("back")

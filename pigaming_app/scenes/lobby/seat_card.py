@@ -15,6 +15,7 @@ from pigaming_app.ui.draw import (
     FOCUS,
     GREEN,
     GREY,
+    HAIR,
     ICE,
     LABEL,
     LINE,
@@ -32,21 +33,22 @@ from pigaming_app.ui.draw import (
     icon,
     panel,
     shape_points,
+    star_points,
     text_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.text import fit_size, wrap
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
-from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
+from pigaming_app.ui.widgets.player_card import MIDDLE, H, W
 
-ROBOT = (268, 2.1, 130)  # px, centre; scale; px, turntable radius
-ROBOT_IN_TEAM = (236, 1.7, 106)  # with one row below
-ROBOT_LOW = (204, 1.25, 78)  # with two rows below
-REAL_Y = 316
-TEAM_Y, DEVICE_Y = 378, 444
+ROBOTS = ((236, 1.7, 106), (204, 1.25, 78), (168, 0.85, 48))  # px, centre; scale; px, turntable radius: by extra rows
+REAL_Y, ROW_Y, DEVICE_Y, DRIVE_Y = 254, 316, 378, 444  # px, centres; ROW_Y: the team, or the real robot without teams
+ROW_H = 60
+STRENGTH = (24, 420, W - 48, 156)  # px
+STARS_Y, STAR, STAR_PITCH = 462, 19, 48
 PLUS_Y, OUTLINE = 256, 80  # px: centre and size of the shape on an empty seat
 ASKS_Y, BUTTONS_Y, BUTTON_PITCH, GAP = 398, 502, 66, 12
 SPOKES, TURNS = 5, 8  # arcs of a turntable, cached positions between two of them
@@ -125,58 +127,83 @@ def driver(sign: str, name: str) -> LitImage:
 
 
 @cached
-def strength(text: str, upright: bool) -> LitImage:
-    """Strength of an AI, between the arrows that change it."""
-    layer = Layer(*BAR)
-    layer.glow.line(cut_box(*BAR, 14), STEEL, THIN, True)
-    layer.canvas.text(text, fit_size(text, LABEL, W - 190), MIDDLE, BAR_Y, ICE, "head", "c")
-    for name, x in zip(("down", "up") if upright else ("left", "right"), (60, W - 60), strict=True):
-        icon(layer.glow, name, x, BAR_Y, 20, MIST, LINE)
+def strength(text: str, stars: int, of: int, color: Color | None) -> LitImage:
+    """Strength of an AI, between the arrows that change it: `stars` of `of`, none without `of`. `color`: of the player
+    who has selected it, if any.
+    """
+    layer, room = Layer(*STRENGTH), W - 190
+    layer.glow.line(cut_box(*STRENGTH, 14), color or STEEL, THIN, True)
+    for i in range(of):
+        corners = star_points(STAR, MIDDLE + STAR_PITCH * (i - (of - 1) / 2), STARS_Y)
+        if i < stars:
+            layer.glow.fill(corners, FOCUS)
+        layer.glow.line(corners, FOCUS if i < stars else STEEL, HAIR, True)
+    size = LABEL if of else BODY
+    lines = [text] if of else wrap(text, size, room)
+    size = min(fit_size(line, size, room) for line in lines)
+    middle = 530 if of else 498
+    for i, line in enumerate(lines):
+        layer.canvas.text(line, size, MIDDLE, middle + 1.2 * size * (i - (len(lines) - 1) / 2), ICE, "head", "c")
+    _arrows(layer, 498, color or MIST, 20)
     return layer.render()
 
 
 @cached
-def team(text: str, number: int) -> LitImage:
-    """Team number and team bars, between the arrows that change it."""
-    layer, x, size = _team(text)
+def driving(text: str, picture: str, color: Color | None) -> LitImage:
+    """Driving style, its picture and name. `color`: see `strength`, also for the other rows."""
+    layer, x, size = _row(text, DRIVE_Y, color, 76)
+    icon(layer.glow, picture, x + 28, DRIVE_Y, 27, ICE, THIN)
+    layer.canvas.crisp.text(text, size, x + 76, DRIVE_Y, ICE, "head")
+    return layer.render()
+
+
+@cached
+def team(text: str, number: int, color: Color | None) -> LitImage:
+    """Team number and team bars."""
+    layer, x, size = _row(text, ROW_Y, color, 44)
     for i in range(number + 1):
-        layer.glow.line([(x + 14 * i, TEAM_Y - 17), (x + 14 * i, TEAM_Y + 17)], ICE, LINE)
-    layer.canvas.crisp.text(text, size, x + 44, TEAM_Y, ICE, "head")
+        layer.glow.line([(x + 14 * i, ROW_Y - 17), (x + 14 * i, ROW_Y + 17)], ICE, LINE)
+    layer.canvas.crisp.text(text, size, x + 44, ROW_Y, ICE, "head")
     return layer.render()
 
 
 @cached
-def side(text: str, number: int) -> LitImage:
-    """Side of the factory with its emblem and colour, between the arrows that change it."""
-    layer, x, size = _team(text)
-    emblem(layer.glow, number, x + 10, TEAM_Y, 24)
-    layer.canvas.crisp.text(text, size, x + 48, TEAM_Y, TEAMS[number], "head")
+def side(text: str, number: int, color: Color | None) -> LitImage:
+    """Side of the factory with its emblem and colour."""
+    layer, x, size = _row(text, ROW_Y, color, 48)
+    emblem(layer.glow, number, x + 10, ROW_Y, 24)
+    layer.canvas.crisp.text(text, size, x + 48, ROW_Y, TEAMS[number], "head")
     return layer.render()
 
 
 @cached
-def real(text: str, on: bool, middle: int) -> LitImage:
-    """Real or simulated robot, between the arrows that change it. `middle`: y of its centre, px."""
-    layer = Layer(24, middle - 30, W - 48, 60)
-    size = fit_size(text, BODY - 4, W - 250, "body")
-    x = MIDDLE - (text_width(text, size, "body") + 54) / 2
-    color = GREEN if on else MIST
-    layer.glow.ring(x + 18, middle, 18, color, THIN)
+def real(text: str, on: bool, middle: int, color: Color | None) -> LitImage:
+    """Real or simulated robot. `middle`: y of its centre, px."""
+    layer, x, size = _row(text, middle, color, 54, "body")
+    light = GREEN if on else MIST
+    layer.glow.ring(x + 18, middle, 18, light, THIN)
     if on:
         layer.canvas.crisp.disc(x + 18, middle, 12, GREY)
     layer.canvas.body(text, x + 54, middle, ICE if on else MIST, "l", size)
-    for name, cx in (("up", 60), ("down", W - 60)):
-        icon(layer.glow, name, cx, middle, 16, MIST, LINE)
     return layer.render()
 
 
-def _team(text: str) -> tuple[Layer, float, int]:
-    """Panel with the arrows that change a team. Returns the layer, x of the sign (px) and the font size."""
-    layer = Layer(24, TEAM_Y - 34, W - 48, 68)
-    size = fit_size(text, BODY, W - 240)
-    for name, cx in (("left", 60), ("right", W - 60)):
-        icon(layer.glow, name, cx, TEAM_Y, 18, MIST, LINE)
-    return layer, MIDDLE - (text_width(text, size) + 44) / 2, size
+def _row(text: str, middle: int, color: Color | None, sign: int, face: str = "head") -> tuple[Layer, float, int]:
+    """Row with the arrows that change it, outlined in `color` if selected. `sign`: px for the sign before the text.
+    Returns the layer, x of the sign (px) and the font size.
+    """
+    box = (24, middle - ROW_H / 2, W - 48, ROW_H)
+    layer = Layer(*box)
+    if color:
+        layer.glow.line(cut_box(*box, 12), color, THIN, True)
+    size = fit_size(text, BODY, W - 196 - sign, face)
+    _arrows(layer, middle, color or STEEL, 16)
+    return layer, MIDDLE - (text_width(text, size, face) + sign) / 2, size
+
+
+def _arrows(layer: Layer, middle: float, color: Color, r: int) -> None:
+    for name, x in (("left", 56), ("right", W - 56)):
+        icon(layer.glow, name, x, middle, r, color, LINE)
 
 
 @cached
@@ -200,13 +227,13 @@ def robot(player: int, turn: int, scale: float) -> Sprite:
 def prewarm_jobs() -> Iterator[Callable[[], object]]:
     """Prewarm jobs for the larger widgets, in the order of likely use."""
     for player in range(4):
-        yield partial(robot, player, UPRIGHT, ROBOT[1])
+        yield partial(robot, player, UPRIGHT, ROBOTS[0][1])
         for turn in range(TURNS):
-            yield partial(turntable, player, turn, False, ROBOT[2])
+            yield partial(turntable, player, turn, False, ROBOTS[0][2])
     for off in range(1, GLANCE + 1):
         for player in range(4):
-            yield partial(robot, player, UPRIGHT + off, ROBOT[1])
-            yield partial(robot, player, UPRIGHT - off, ROBOT[1])
+            yield partial(robot, player, UPRIGHT + off, ROBOTS[0][1])
+            yield partial(robot, player, UPRIGHT - off, ROBOTS[0][1])
     for player in range(4):
         for turn in range(TURNS):
-            yield partial(turntable, player, turn, True, ROBOT[2])
+            yield partial(turntable, player, turn, True, ROBOTS[0][2])

@@ -10,12 +10,15 @@ from pigaming_app.games.game import FREE, PAIRS, Seat
 from pigaming_app.ui.input.events import Device
 
 EMPTY, HUMAN, AI = "empty", "human", "ai"
+REAL, TEAM, DRIVE, RIVALS = "real", "team", "drive", "rivals"  # rows of a person's card, top to bottom
 PLACES = 4
 
 
 @dataclass
 class SeatState:
-    """One seat. `team`: 0 or 1, used only with teams; `real`: its robot stands on the mat."""
+    """One seat. `team`: 0 or 1, used only with teams; `real`: its robot stands on the mat; `filled`: an AI that nobody
+    asked for; `row`: the row that its player has selected, empty: none yet.
+    """
 
     kind: str = EMPTY
     device: Device | None = None
@@ -23,6 +26,8 @@ class SeatState:
     strength: str = "normal"
     team: int = 0
     real: bool = False
+    filled: bool = False
+    row: str = ""
 
 
 @dataclass
@@ -82,7 +87,24 @@ class Seats:
         """Occupied seats with real robots."""
         return [i for i, place in enumerate(self.places) if self.mat and place.real and place.kind != EMPTY]
 
+    def rows(self, seat: int) -> list[str]:
+        """The rows that the person on a seat can change, top to bottom. The last one is the strength of all AIs."""
+        there = {REAL: self.mat, TEAM: self.teams, DRIVE: self.places[seat].device, RIVALS: self.of_kind(AI)}
+        return [row for row, available in there.items() if available]
+
+    def row(self, seat: int) -> str:
+        """The selected row of a person: initially the team, else the driving style."""
+        rows, chosen = self.rows(seat), self.places[seat].row
+        return chosen if chosen in rows else TEAM if TEAM in rows else DRIVE
+
     # ---- changes
+
+    def step_row(self, seat: int, delta: int) -> bool:
+        """Select the next row up or down, if there is one. True if changed."""
+        rows = self.rows(seat)
+        now = rows.index(self.row(seat))
+        self.places[seat].row = rows[max(0, min(len(rows) - 1, now + delta))]
+        return rows.index(self.row(seat)) != now
 
     def swap(self, seat: int) -> None:
         """Toggle between the real and the simulated robot of a seat."""
@@ -90,8 +112,9 @@ class Seats:
 
     def join(self, device: Device) -> int | None:
         """Seat a device on the next empty seat, else on the last AI's. Returns the seat, None if four people are
-        seated.
+        seated. AIs that nobody asked for leave.
         """
+        self._remove_filled()
         seat = next(iter(self.of_kind(EMPTY)), None)
         if seat is None:
             seat = next(iter(reversed(self.of_kind(AI))), None)
@@ -107,7 +130,10 @@ class Seats:
         self.places[seat] = replace(place, team=self._smaller_team(seat), real=self.places[seat].real)
 
     def leave(self, seat: int) -> None:
+        """Empty a seat; with the last person, the AIs that nobody asked for leave too."""
         self.places[seat] = SeatState(team=self.places[seat].team, real=self.places[seat].real)
+        if not self.of_kind(HUMAN):
+            self._remove_filled()
 
     def add_ai(self, seat: int | None = None) -> int | None:
         """Add an AI on a seat, or on the next empty one. Returns the seat, None if all are taken."""
@@ -117,10 +143,11 @@ class Seats:
             self.places[seat] = SeatState(AI, strength=self.strength, team=self._smaller_team(seat), real=real)
         return seat
 
-    def remove_ais(self) -> None:
-        """Remove all AIs."""
+    def remove_ais(self) -> int | None:
+        """Remove all AIs. A single person keeps one opponent, whose seat is returned."""
         for seat in self.of_kind(AI):
             self.leave(seat)
+        return self.add_ai() if self.robots == 1 else None
 
     def change_strength(self, delta: int, seat: int | None = None) -> bool:
         """Step the strength of one seat's AI, or of all, through `rivals`; it becomes the default. True if changed."""
@@ -140,18 +167,13 @@ class Seats:
             place.ready = False
 
     def add_opponents(self) -> list[int]:
-        """Add opponents for a single person, or for a pair without rivals: one AI, or all seats in team games. Returns
-        the seats.
-        """
+        """Fill all seats for a single person, or for a pair without opponents. Returns the seats."""
         alone = self.robots == 1 or (self.team_mode == PAIRS and self.robots > 1 and self.one_team)
-        if not alone:
-            return []
-        first = next(place for place in self.places if place.kind != EMPTY)
-        wanted = 1 if self.team_mode == FREE else len(self.of_kind(EMPTY))
-        added = [seat for seat in (self.add_ai() for _ in range(wanted)) if seat is not None]
-        if self.team_mode == FREE:
-            self.places[added[0]].team = 1 - first.team
-        return added
+        added = [self.add_ai(seat) for seat in self.of_kind(EMPTY)] if alone else []
+        seats = [seat for seat in added if seat is not None]
+        for seat in seats:
+            self.places[seat].filled = True
+        return seats
 
     def change_team(self, seat: int) -> None:
         """Move a robot to the other team; if that is full, one of its robots changes sides, preferably an AI."""
@@ -160,6 +182,11 @@ class Seats:
         mates = [mate for mate in self.places if mate is not place and mate.kind != EMPTY and mate.team == place.team]
         if self.team_mode == PAIRS and len(mates) > 1:
             sorted(mates, key=lambda mate: mate.kind == AI)[-1].team = 1 - place.team
+
+    def _remove_filled(self) -> None:
+        for seat, place in enumerate(self.places):
+            if place.filled:
+                self.places[seat] = SeatState(team=place.team, real=place.real)
 
     def _smaller_team(self, seat: int) -> int:
         """The team with fewer robots; the seat's current one if equal."""

@@ -6,16 +6,18 @@ from dataclasses import dataclass, field
 
 import pygame
 
+from pigaming_app.ai.registry import STRENGTHS
 from pigaming_app.games.game import FREE, PAIRS
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.lobby import seat_card as card
-from pigaming_app.scenes.lobby.seats import AI, EMPTY, PLACES, Seats
-from pigaming_app.ui.draw import FOCUS, LABEL, dim
+from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
+from pigaming_app.ui.draw import FOCUS, LABEL, PLAYERS, Color, dim
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.focus import FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_action, heading, pulse
@@ -46,12 +48,19 @@ class LobbyState:
 
 
 class LobbyPage:
-    """The lobby page of `seats`. `now`: animation state; `fact`: text beside the title."""
+    """The lobby page of `seats`. `now`: animation state; `fact`: text beside the title; `driving`: a device's style."""
 
     def __init__(
-        self, context: Context, seats: Seats, now: LobbyState, fact: Callable[[], str], access: Access
+        self,
+        context: Context,
+        seats: Seats,
+        now: LobbyState,
+        fact: Callable[[], str],
+        access: Access,
+        driving: Callable[[Device], str],
     ) -> None:
         self.context, self.seats, self.now, self.fact, self.access = context, seats, now, fact, access
+        self.driving = driving
 
     def draw(self, screen: pygame.Surface) -> None:
         screen.blit(backdrop(), (0, 0))
@@ -70,7 +79,7 @@ class LobbyPage:
         hints = [
             (Button.FIRE, "lobby.hint_join" if seat is None else "lobby.hint_ready"),
             (Button.BACK, "lobby.hint_back" if seat is None else "lobby.hint_leave"),
-            (Button.Y, "lobby.hint_clear" if full and self.seats.of_kind(AI) else "lobby.hint_add"),
+            (Button.Y, "lobby.hint_fewer" if full and self.seats.of_kind(AI) else "lobby.hint_add"),
         ]
         if self.seats.team_mode == FREE:
             hints.append((Button.X, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
@@ -96,26 +105,38 @@ class LobbyPage:
         card.frame(seat, title, place.ready or place.kind == AI).draw(screen, x, y)
         self._robot(screen, seat)
         if self.seats.teams:
+            color = self._selected(seat, TEAM)
             if self.seats.team_mode == PAIRS:
-                card.side(words(f"lobby.side_{place.team + 1}"), place.team).draw(screen, x, y)
+                card.side(words(f"lobby.side_{place.team + 1}"), place.team, color).draw(screen, x, y)
             else:
-                card.team(words("lobby.team", team=place.team + 1), place.team).draw(screen, x, y)
+                card.team(words("lobby.team", team=place.team + 1), place.team, color).draw(screen, x, y)
         if place.device:
-            controls = self.context.controls
+            controls, style = self.context.controls, self.driving(place.device)
             name = controls.moves(place.device) or words(f"devices.{controls.name(place.device)}")
             card.driver("pad" if place.device.kind == "pad" else "keys", name).draw(screen, x, y)
+            color = self._selected(seat, DRIVE)
+            card.driving(words(f"lobby.drive_{style}"), PICTURES[style], color).draw(screen, x, y)
         else:
             card.driver("ai", words("lobby.ai")).draw(screen, x, y)
         if self.seats.mat:
             key = "lobby.real" if place.real else "lobby.simulated"
-            middle = card.REAL_Y if self.seats.teams else card.TEAM_Y
-            card.real(words(key), place.real, middle).draw(screen, x, y)
+            color = self._selected(seat, REAL)
+            card.real(words(key), place.real, real_y(self.seats), color).draw(screen, x, y)
         self._bar(screen, seat)
+
+    def _selected(self, seat: int, row: str) -> Color | None:
+        """Colour of a row if the person on the seat has selected it."""
+        if self.seats.places[seat].kind == AI or self.seats.row(seat) != row:
+            return None
+        return PLAYERS[seat]
 
     def _bar(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
         if place.kind == AI:
-            card.strength(words(f"lobby.{place.strength}"), self.seats.teams).draw(screen, x, y)
+            chosen = [PLAYERS[i] for i in self.seats.of_kind(HUMAN) if self.seats.row(i) == RIVALS]
+            stars, of = (1 + STRENGTHS.index(place.strength), len(STRENGTHS)) if place.strength in STRENGTHS else (0, 0)
+            text = words(f"lobby.{place.strength}")
+            card.strength(text, stars, of, chosen[0] if chosen else None).draw(screen, x, y)
         elif place.ready:
             ready_bar(seat, words("lobby.ready")).draw(screen, x, y)
         else:
@@ -124,8 +145,7 @@ class LobbyPage:
 
     def _robot(self, screen: pygame.Surface, seat: int) -> None:
         place, (x, y) = self.seats.places[seat], card_rect(seat).topleft
-        rows = int(self.seats.teams) + int(self.seats.mat)
-        middle_y, scale, r = (card.ROBOT, card.ROBOT_IN_TEAM, card.ROBOT_LOW)[rows]
+        middle_y, scale, r = card.ROBOTS[int(self.seats.teams) + int(self.seats.mat)]
         speed = 14 if place.ready else 3
         turn = int(self.now.clock * speed) % card.TURNS
         card.turntable(seat, turn, place.ready, r).draw(screen, round(x + MIDDLE), y + middle_y)
@@ -161,14 +181,20 @@ def spots(seats: Seats) -> list[FocusSpot]:
     for seat, place in enumerate(seats.places):
         x, y = card_rect(seat).topleft
         if place.kind == AI:
-            targets.append(FocusSpot(f"weaker {seat}", pygame.Rect(x + 24, y + 500, 100, 76)))
-            targets.append(FocusSpot(f"stronger {seat}", pygame.Rect(x + W - 124, y + 500, 100, 76)))
-        if seats.teams and place.kind != EMPTY:
-            targets.append(FocusSpot(f"team {seat}", pygame.Rect(x + 24, y + card.TEAM_Y - 34, W - 48, 68)))
-        if seats.mat and place.kind != EMPTY:
-            middle = card.REAL_Y if seats.teams else card.TEAM_Y
-            targets.append(FocusSpot(f"real {seat}", pygame.Rect(x + 24, y + middle - 30, W - 48, 60)))
+            _, top, _, high = card.STRENGTH
+            targets.append(FocusSpot(f"weaker {seat}", pygame.Rect(x + 24, y + top, 100, high)))
+            targets.append(FocusSpot(f"stronger {seat}", pygame.Rect(x + W - 124, y + top, 100, high)))
+        rows = {TEAM: (seats.teams, card.ROW_Y), DRIVE: (place.device, card.DRIVE_Y), REAL: (seats.mat, real_y(seats))}
+        for row, (there, middle) in rows.items():
+            if there and place.kind != EMPTY:
+                box = pygame.Rect(x + 24, y + middle - card.ROW_H // 2, W - 48, card.ROW_H)
+                targets.append(FocusSpot(f"{row} {seat}", box))
     return [*targets, *(FocusSpot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
+
+
+def real_y(seats: Seats) -> int:
+    """Centre of the row of the real robot, px from the top of a card."""
+    return card.REAL_Y if seats.teams else card.ROW_Y
 
 
 def problem(seats: Seats, words: Words) -> str:

@@ -14,6 +14,7 @@ from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, Quit, StackOperation
 from pigaming_app.scenes.options import pictures
 from pigaming_app.scenes.views.race.ghost_files import delete_ghosts
+from pigaming_app.scenes.views.rumble import TAKEN
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import LABEL
@@ -32,8 +33,20 @@ SENTENCE_SECONDS = 3.0  # seconds for which a sentence is shown
 CLEAR = 2.0  # seconds for which a button is held to clear the high scores
 PREWARM_MS = 2.0  # ms per frame for prewarming
 FLASHES = ("off", "soft", "full")
-ROWS = ("language", "music", "sounds", "flashes", "shake", "display", "fullscreen", "padtest", "robots", "reset")
-FOR_CHILDREN = ("language", "flashes", "shake", "padtest")
+ROWS = (
+    "language",
+    "music",
+    "sounds",
+    "flashes",
+    "shake",
+    "rumble",
+    "display",
+    "fullscreen",
+    "padtest",
+    "robots",
+    "reset",
+)
+FOR_CHILDREN = ("language", "flashes", "shake", "rumble", "padtest")
 TOP, BOTTOM, HIGH = 240, 908, 64
 log = logging.getLogger("pigaming")
 
@@ -139,6 +152,8 @@ class OptionsPage:
                 return SettingValue("toggle", flashes, FLASHES.index(settings.flashes))
             case "shake":
                 return SettingValue("toggle", off_on, int(settings.shake))
+            case "rumble":
+                return SettingValue("toggle", off_on, int(settings.rumble))
             case "fullscreen":
                 return SettingValue("toggle", off_on, int(canvas.fullscreen))
             case "display":
@@ -205,6 +220,10 @@ class OptionsPage:
                 settings.flashes = FLASHES[chosen]
             case "shake":
                 settings.shake = bool(chosen)
+            case "rumble":
+                settings.rumble = bool(chosen)
+                if settings.rumble:
+                    context.controls.rumble(context.controls.last, *TAKEN)
             case "display" | "fullscreen":
                 canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
                 settings.display, settings.fullscreen = canvas.display, canvas.fullscreen

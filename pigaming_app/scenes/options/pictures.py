@@ -37,7 +37,10 @@ def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> No
         _burst(chosen, int(since * 10)).draw(screen, x, y)
     if name == "shake" and chosen and since < 0.35:
         jolt = round(12 * math.sin(since * 64) * (1 - since / 0.35))
-    if name in ("flashes", "shake"):
+    if name == "rumble":
+        jolt = round(7 * math.sin(since * 90)) if chosen and since < 0.5 else 0
+        drawn(name, chosen).draw(screen, x + jolt, y)
+    elif name in ("flashes", "shake"):
         blit_sprite(screen, _robot(), x + jolt, y + jolt // 2)
     else:
         drawn(name, chosen, seconds).draw(screen, x, y)
@@ -124,6 +127,13 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
         icon(ink, "pad", 0, 10, 130, FOCUS, LINE)
         if beat:
             ink.disc(0.44 * 130, 10 - 0.28 * 130, 12, ICE)
+    elif name == "rumble":
+        icon(ink, "pad", 0, 10, 110, FOCUS, LINE)
+        for side in (-1, 1):
+            for i, reach in enumerate((142, 172)):
+                half = 0.5 - 0.1 * i
+                start = (math.pi if side < 0 else 0.0) - half
+                ink.arc(0, 10, reach, start, start + 2 * half, ICE if chosen else dim(STEEL, 0.7), LINE)
     elif name == "robots":
         ink.ring(0, 0, 104, FOCUS, LINE).line(cut_box(-46, -46, 92, 92, 4), ICE, LINE, True)
         ink.fill([(-30, -30), (0, -30), (0, 0), (-30, 0)], ICE).fill([(0, 0), (30, 0), (30, 30), (0, 30)], ICE)

@@ -102,7 +102,7 @@ class Pause:
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: self.access.hint_device)
 
     def on_enter(self) -> None:
-        self.context.sounds.music(False)
+        self.context.hush()
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START, BACK and F4 (Y on a pad), which also shows an AI's thoughts, continue; FIRE activates the item."""

@@ -48,7 +48,7 @@ class Reconnect:
 
     def on_enter(self) -> None:
         """Play the error sound."""
-        self.context.sounds.music(False)
+        self.context.hush()
         self.context.sounds.play("error")
 
     def handle(self, event: InputEvent) -> StackOperation:
@@ -118,7 +118,7 @@ class StillThere:
 
     def on_enter(self) -> None:
         """Play the error sound."""
-        self.context.sounds.music(False)
+        self.context.hush()
         self.context.sounds.play("error")
 
     def handle(self, event: InputEvent) -> StackOperation:

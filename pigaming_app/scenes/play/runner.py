@@ -3,7 +3,7 @@
 Shared by matches, demonstrations and replays; input and drivers belong to the scene.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 
 import pygame
@@ -15,6 +15,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
@@ -27,10 +28,16 @@ CAPTION_GAP = 104  # px from a robot to its caption
 
 
 class MatchRunner:
-    """A match and its view. `loud`: play its sounds."""
+    """A match and its view. `loud`: play its sounds. `rumble`: called for each seat whose player feels an event."""
 
-    def __init__(self, context: Context, match: Match, loud: bool = True) -> None:
-        self.context, self.match, self.loud = context, match, loud
+    def __init__(
+        self,
+        context: Context,
+        match: Match,
+        loud: bool = True,
+        rumble: Callable[[int, Rumble], None] = lambda seat, rumble: None,
+    ) -> None:
+        self.context, self.match, self.loud, self.rumble = context, match, loud, rumble
         self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
         kind = VIEWS[match.setup.game]
         with self._tag_sprites():
@@ -57,6 +64,8 @@ class MatchRunner:
             for name, player, x in sounds:
                 if self.loud:
                     self.context.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
+            for seat, rumble in self.view.rumbles.items():
+                self.rumble(seat, rumble)
         self._count_down()
 
     def wait(self, seconds: float) -> None:

@@ -13,8 +13,9 @@ from typing import Any
 
 import pygame
 
+from pigaming_app.ai.brain.driving import Driving
 from pigaming_app.ai.brain.kind import HumanPlayer
-from pigaming_app.ai.registry import make_brain, new_match
+from pigaming_app.ai.registry import DRIVING, make_brain, new_match
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
@@ -26,6 +27,7 @@ from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import Results, SceneFactory
+from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
@@ -64,7 +66,7 @@ class MatchScene:
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = new_match(setup, plant)
-        self.runner = MatchRunner(context, self.match)
+        self.runner = MatchRunner(context, self.match, rumble=self._rumble)
         self.countdown = Countdown(lead=LEAD_SECONDS)
         self.countdown_at = CENTRE
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
@@ -93,6 +95,9 @@ class MatchScene:
             self.countdown = Countdown(RESUME_STEP) if not self.countdown.locked else Countdown()
         self.begun = True
         self.idle = 0.0
+
+    def on_leave(self) -> None:
+        self.context.controls.stop_rumble()
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
@@ -191,7 +196,10 @@ class MatchScene:
         return device.kind != "mouse" and device not in self.devices
 
     def assign_seat(self, seat: int, device: Device | None) -> None:
-        """Assign a seat to a device, or to an AI until somebody takes it."""
+        """Assign a seat to a device, or to an AI until somebody takes it. A replugged pad drives as before."""
+        before = self.devices[seat]
+        if device and before:
+            self.context.driving.inherit(device, before)
         self._sit(seat, device)
         self.idle_seats.reassign(seat, device)
         name, sign = self.runner.driver(seat, device)
@@ -301,12 +309,15 @@ class MatchScene:
         if device is None:
             self.ai_assisted.add(seat)
         brain = (
-            HumanPlayer(lambda: self._read(seat, device))
+            HumanPlayer(lambda: self._read(seat, device), self._driving(device))
             if device
             else make_brain(self.setup.game, SUBSTITUTE_BRAIN, new_seed())
         )
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else SUBSTITUTE_BRAIN
+
+    def _driving(self, device: Device) -> Driving:
+        return DRIVING[self.setup.game][self.context.driving.of(device, self.setup.game, self.setup.variant)]
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
@@ -315,6 +326,11 @@ class MatchScene:
             self.idle = 0.0
             self.idle_seats.touch(seat)
         return drive
+
+    def _rumble(self, seat: int, rumble: Rumble) -> None:
+        device = self.devices[seat]
+        if device and self.context.settings.rumble:
+            self.context.controls.rumble(device, *rumble)
 
     def _end(self, seconds: float) -> StackOperation:
         """Build the results while the last picture stays on the screen."""

@@ -46,7 +46,7 @@ class FaultPage:
 
     def on_enter(self) -> None:
         """Play the alert."""
-        self.context.sounds.music(False)
+        self.context.hush()
         self.context.sounds.play("error")
         self.held, self.picture = 0.0, None
 

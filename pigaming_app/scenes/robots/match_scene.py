@@ -84,6 +84,7 @@ class RealMatch(MatchScene):
 
     def on_leave(self) -> None:
         """Stop the robots; release camera and radio, unless the next match already uses them."""
+        super().on_leave()
         if not self.released:
             self.released = True
             self.session.close()

@@ -13,6 +13,7 @@ import pygame
 from pigaming_app.scenes.views.background import HUD_HEIGHT, LEFT, TOP, Background
 from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.prewarm import driving
+from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.tread_marks import TreadMarks
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -49,6 +50,7 @@ class MatchView:
         self.players, self.options, self.words, self.background = players, options, words, background
         self.real: frozenset[int] = frozenset()  # seats with real robots, which are lit instead of drawn
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        self.rumbles: dict[int, Rumble] = {}  # of the last tick, by seat
         self.particles = Particles()
         self.treads = [TreadMarks(i) for i in range(len(state.robots))]
         self.previous_poses = self.current_poses = _poses(state)

@@ -39,6 +39,7 @@ from pigaming_app.ui.draw.theme import (
     mix,
     regular_polygon,
     shape_points,
+    star_points,
     text_width,
 )
 
@@ -93,5 +94,6 @@ __all__ = [
     "panel",
     "regular_polygon",
     "shape_points",
+    "star_points",
     "text_width",
 ]  # fmt: skip

@@ -221,6 +221,23 @@ def _fastest(pen: Pen) -> None:
         pen.fill((x, -0.6), (x + 0.66, 0.0), (x, 0.6))
 
 
+def _wheel(pen: Pen) -> None:
+    """A steering wheel."""
+    pen.ring(0.86)
+    pen.dot(0, 0.06, 0.2)
+    pen.line((-0.84, -0.06), (-0.2, 0.02))
+    pen.line((0.84, -0.06), (0.2, 0.02))
+    pen.line((0, 0.22), (0, 0.84))
+
+
+def _point(pen: Pen) -> None:
+    """A stick with an arrow in every direction."""
+    pen.dot(0, 0, 0.26)
+    for k in range(4):
+        c, s = math.cos(k * math.tau / 4), math.sin(k * math.tau / 4)
+        pen.fill(*((a * c - b * s, a * s + b * c) for a, b in ((1.0, 0.0), (0.5, 0.42), (0.5, -0.42))))
+
+
 ICONS: dict[str, Callable[[Pen], None]] = {
     "shield": _shield,
     "speed": _speed,
@@ -254,4 +271,6 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "play": _play,
     "faster": _faster,
     "fastest": _fastest,
+    "wheel": _wheel,
+    "point": _point,
 }

@@ -82,6 +82,12 @@ def regular_polygon(n: int, r: float, turn: float = 0.0, cx: float = 0, cy: floa
     return [(cx + r * math.cos(a), cy + r * math.sin(a)) for a in angles]
 
 
+def star_points(r: float, cx: float = 0, cy: float = 0) -> list[Point]:
+    """The ten corners of a star with points `r` px from (cx, cy), one of them upwards."""
+    tips, dents = regular_polygon(5, r, -math.pi / 2, cx, cy), regular_polygon(5, 0.46 * r, -0.3 * math.pi, cx, cy)
+    return [corner for pair in zip(tips, dents, strict=True) for corner in pair]
+
+
 def shape_points(player: int, r: float) -> list[Point]:
     """The shape of seat 0..3, pointing along +x and of equal visual weight: circle, triangle, square, diamond."""
     if player == 0:

@@ -85,6 +85,16 @@ class Controls:
         """True if any button, key or direction of a device is down."""
         return any(parts and owner == device for (owner, _), parts in self._down.items())
 
+    def rumble(self, device: Device, strong: float, weak: float, seconds: float) -> None:
+        """Rumble a pad with its strong and weak motor, each in [0, 1]. Devices without motors do nothing."""
+        if device.kind == "pad" and device.number in self._pads.plugged:
+            self._pads.plugged[device.number].rumble(strong, weak, round(1000 * seconds))
+
+    def stop_rumble(self) -> None:
+        """Stop the rumbling of all pads."""
+        for pad in self._pads.plugged.values():
+            pad.stop_rumble()
+
     def connected(self, device: Device) -> bool:
         return device.kind != "pad" or device.number in self._pads.plugged
 

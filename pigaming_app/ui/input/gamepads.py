@@ -63,6 +63,12 @@ class Pad(Protocol):
     def attached(self) -> bool:
         """False if the system reports it unplugged."""
 
+    def rumble(self, strong: float, weak: float, milliseconds: int) -> None:
+        """Rumble, if the pad has motors, with strengths in [0, 1]."""
+
+    def stop_rumble(self) -> None:
+        """Stop rumbling."""
+
 
 class MappedPad:
     """A pad with an SDL mapping; all such pads have the button layout of an Xbox pad.
@@ -114,6 +120,14 @@ class MappedPad:
             or self._axis(pygame.CONTROLLER_AXIS_TRIGGERLEFT) > 0.5,
         )
 
+    def rumble(self, strong: float, weak: float, milliseconds: int) -> None:
+        if self.attached():
+            self._pad.rumble(strong, weak, milliseconds)
+
+    def stop_rumble(self) -> None:
+        if self.attached():
+            self._pad.stop_rumble()
+
     def _axis(self, axis: int) -> float:
         return max(-1.0, self._pad.get_axis(axis) / _AXIS_MAX)
 
@@ -158,6 +172,12 @@ class PlainPad:
 
     def attached(self) -> bool:
         return True  # an unplugged plain joystick reads as neutral
+
+    def rumble(self, strong: float, weak: float, milliseconds: int) -> None:
+        self._pad.rumble(strong, weak, milliseconds)
+
+    def stop_rumble(self) -> None:
+        self._pad.stop_rumble()
 
     def _button(self, button: int, down: bool) -> Iterator[ButtonChange]:
         if button in self._buttons:

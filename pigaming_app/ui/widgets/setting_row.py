@@ -99,7 +99,7 @@ def value(kind: str, options: tuple[str, ...], chosen: int, focused: bool) -> Li
         for option, (x, w), on in zip(options, chips(options), range(len(options)), strict=True):
             lit = on == chosen
             edge = (FOCUS if focused else ICE) if lit else STEEL
-            layer.glow.line(cut_box(x, -27, w, 54, 12), edge, THIN, True)
+            layer.glow.line(cut_box(x, -24, w, 48, 12), edge, THIN, True)
             layer.canvas.crisp.text(option, BODY, x + w / 2, 0, ICE if lit else MIST, "head", "c")
     elif kind == "meter":
         _meter(layer, chosen, focused)
@@ -111,7 +111,7 @@ def value(kind: str, options: tuple[str, ...], chosen: int, focused: bool) -> Li
         layer.canvas.crisp.text(option, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
     else:
         w = chips(options)[0][1]
-        layer.glow.line(cut_box(AT, -27, w, 54, 12), FOCUS if focused else STEEL, THIN, True)
+        layer.glow.line(cut_box(AT, -24, w, 48, 12), FOCUS if focused else STEEL, THIN, True)
         layer.canvas.crisp.text(options[0], BODY, AT + w / 2, 0, ICE if focused else MIST, "head", "c")
     return layer.render()
 

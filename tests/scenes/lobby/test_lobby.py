@@ -5,12 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai.registry import POINT, TURN
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
-from pigaming_app.scenes.lobby.seat_card import TEAM_Y
-from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN
+from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
+from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
 from pigaming_app.scenes.lobby.view import card_rect
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -28,8 +29,12 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def kinds(arcade: Arcade) -> str:
+    return letters(arcade.shown(Lobby).seats)
+
+
+def letters(seats: Seats) -> str:
     """The seats as letters: H, A or a dot."""
-    return "".join({HUMAN: "H", AI: "A", EMPTY: "."}[place.kind] for place in arcade.shown(Lobby).seats.places)
+    return "".join({HUMAN: "H", AI: "A", EMPTY: "."}[place.kind] for place in seats.places)
 
 
 def test_two_pads_of_one_make_are_two_players(arcade: Arcade) -> None:
@@ -68,17 +73,29 @@ def test_a_turbo_key_gives_up_the_seat_of_its_own_cluster_only(arcade: Arcade) -
     assert kinds(arcade) == "H..."
 
 
-def test_one_person_alone_who_is_ready_gets_an_ai_and_a_moment_in_which_others_may_join(arcade: Arcade) -> None:
+def test_one_person_alone_who_is_ready_gets_three_ais_until_a_second_one_joins(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     arcade.press(Button.FIRE)
-    assert kinds(arcade) == "HA.."
+    assert kinds(arcade) == "HAAA"
     arcade.wait(lobby.COUNTDOWN_ALONE - 0.3, draw=True)
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(2.0)
-    assert kinds(arcade) == "HAH."
+    assert kinds(arcade) == "HH.."
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(lobby.COUNTDOWN + 0.2)
-    arcade.shown(MatchSetupPage)
+    assert letters(arcade.shown(MatchSetupPage).seats) == "HH.."
+
+
+def test_one_press_leaves_one_ai_and_there_is_time_for_it(arcade: Arcade) -> None:
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE)
+    arcade.wait(lobby.COUNTDOWN_ALONE - 0.3)
+    arcade.press(Button.Y)
+    assert kinds(arcade) == "HA.."
+    arcade.wait(lobby.COUNTDOWN_ALONE - 0.3)
+    assert kinds(arcade) == "HA.."
+    arcade.wait(0.5)
+    assert letters(arcade.shown(MatchSetupPage).seats) == "HA.."
 
 
 def test_start_begins_at_once_and_the_unready_count_as_ready(arcade: Arcade) -> None:
@@ -92,7 +109,11 @@ def test_start_begins_at_once_and_the_unready_count_as_ready(arcade: Arcade) -> 
 
 def test_ais_come_one_by_one_and_go_all_at_once(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
-    for expected in ("HA..", "HAA.", "HAAA", "H..."):
+    for expected in ("HA..", "HAA.", "HAAA", "HA.."):
+        arcade.press(Button.Y)
+        assert kinds(arcade) == expected
+    arcade.press(Button.FIRE, KEYS[1])
+    for expected in ("HAHA", "H.H.", "HAH."):
         arcade.press(Button.Y)
         assert kinds(arcade) == expected
 
@@ -108,8 +129,9 @@ def test_directions_make_the_ais_stronger_and_that_is_remembered(arcade: Arcade)
 def test_the_other_ais_follow_the_strongest_one_and_play(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     arcade.press(Button.Y)
+    arcade.press(Button.DOWN)
     for wanted in ("hard", "q1", "q2", "fsm", "fsm"):
-        arcade.press(Button.UP)
+        arcade.press(Button.RIGHT)
         assert arcade.shown(Lobby).seats.places[1].strength == wanted
         arcade.frame(draw=True)
     assert arcade.context.settings.strength == "hard"
@@ -184,7 +206,7 @@ def test_returning_from_match_setup_resets_readiness(arcade: Arcade) -> None:
     arcade.shown(Lobby)
 
 
-def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(arcade: Arcade) -> None:
+def test_where_there_is_a_mat_everyone_chooses_a_real_robot_for_ones_own_seat(arcade: Arcade) -> None:
     arcade.context.session = EmulatedSession(live=False)
     arcade.context.settings.real = [2]
     arcade.open(Lobby(arcade.context, "pitanks"))
@@ -192,11 +214,13 @@ def test_where_there_is_a_mat_up_and_down_choose_a_real_robot_for_ones_own_seat(
     arcade.press(Button.FIRE, KEYS[1])
     page = arcade.shown(Lobby)
     assert page.seats.real() == [1]
-    arcade.press(Button.UP)
-    arcade.press(Button.DOWN, KEYS[1])
+    for device in KEYS[:2]:
+        arcade.press(Button.UP, device)
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.LEFT, KEYS[1])
     assert page.seats.real() == [0]
     assert arcade.context.settings.real == [1]
-    arcade.click(card_rect(1).centerx, card_rect(1).top + TEAM_Y)
+    arcade.click(card_rect(1).centerx, card_rect(1).top + ROW_Y)
     assert page.seats.real() == [0, 1]
     arcade.press(Button.X)
     arcade.shown(Lobby)
@@ -212,6 +236,7 @@ def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls,
     arcade.open(Lobby(arcade.context, "pitanks"))
     arcade.press(Button.FIRE)
     arcade.press(Button.UP)
+    arcade.press(Button.RIGHT)
     page = arcade.shown(Lobby)
     assert page.seats.real() == []
     assert "deadman" in page.now.message
@@ -222,5 +247,32 @@ def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:
     arcade.open(Lobby(arcade.context, "race"))
     arcade.press(Button.FIRE)
     arcade.press(Button.UP)
+    arcade.press(Button.RIGHT)
     assert arcade.shown(Lobby).seats.real() == []
     assert arcade.context.settings.real == [1, 2, 3, 4]
+
+
+def test_everyone_chooses_a_driving_style_on_the_own_card_with_pad_keys_or_mouse(arcade: Arcade) -> None:
+    def styles() -> list[str]:
+        devices = arcade.shown(Lobby).seats.devices()
+        return [arcade.context.driving.of(device, "pitanks", "pickups") for device in devices if device]
+
+    with VirtualPad() as pad:
+        arcade.wait(0.1)
+        arcade.press(Button.FIRE)
+        pad.tap("a")
+        arcade.frame()
+        assert styles() == [TURN, TURN]
+        arcade.press(Button.RIGHT)
+        assert styles() == [POINT, TURN]
+        pad.tap("right")
+        arcade.frame()
+        assert styles() == [POINT, POINT]
+        arcade.click(card_rect(1).centerx, card_rect(1).top + DRIVE_Y)
+        assert styles() == [POINT, TURN]
+        arcade.press(Button.X)
+        arcade.press(Button.LEFT)
+        assert arcade.shown(Lobby).seats.places[0].team == 1
+        arcade.press(Button.DOWN)
+        arcade.press(Button.LEFT)
+        assert styles() == [TURN, TURN]

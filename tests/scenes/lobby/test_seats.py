@@ -3,7 +3,7 @@
 import pytest
 
 from pigaming_app.games.game import ALONE, PAIRS, Seat
-from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
+from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, REAL, RIVALS, TEAM, Seats
 from pigaming_app.ui.input.events import Device
 
 ANA, BEN, CARLA, DAVID, EVA = (Device("pad", number) for number in range(5))
@@ -35,13 +35,64 @@ def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
     assert seats.of_kind(HUMAN) == [0, 1, 2, 3]
 
 
-def test_one_person_alone_gets_an_ai_in_the_other_team() -> None:
-    seats = Seats(teams=True)
+@pytest.mark.parametrize("teams", [False, True])
+def test_one_person_alone_gets_ais_on_all_seats_in_even_teams(teams: bool) -> None:
+    seats = Seats(teams=teams)
     seats.join(ANA)
-    assert seats.add_opponents() == [1]
-    assert seats.places[0].team != seats.places[1].team
+    assert seats.add_opponents() == [1, 2, 3]
+    assert [place.team for place in seats.places].count(0) == 2
     assert seats.add_opponents() == []
     assert not seats.one_team
+
+
+def test_two_people_play_alone_unless_they_ask_for_ais() -> None:
+    seats = Seats()
+    seats.join(ANA)
+    seats.add_opponents()
+    assert seats.join(BEN) == 1
+    assert seats.of_kind(AI) == [], "nobody has asked for them"
+    assert seats.add_opponents() == []
+    seats.add_ai()
+    assert seats.join(CARLA) == 3
+    assert seats.of_kind(AI) == [2], "asked for"
+
+
+def test_ais_that_nobody_asked_for_leave_with_the_last_person() -> None:
+    seats = Seats()
+    seats.join(ANA)
+    seats.add_opponents()
+    seats.leave(0)
+    assert seats.robots == 0
+    seats.join(ANA)
+    seats.add_ai()
+    seats.leave(0)
+    assert seats.of_kind(AI) == [1]
+
+
+def test_a_person_alone_keeps_one_opponent_when_the_others_go() -> None:
+    seats = Seats(team_mode=PAIRS)
+    seats.join(ANA)
+    seats.change_team(0)
+    seats.add_opponents()
+    assert seats.remove_ais() == 1
+    assert not seats.one_team
+    assert seats.add_opponents() == [], "it was a choice"
+
+
+def test_the_rows_of_a_card_are_those_that_can_be_changed() -> None:
+    seats = Seats(teams=True, mat=True)
+    seats.join(ANA)
+    assert seats.rows(0) == [REAL, TEAM, DRIVE]
+    assert seats.row(0) == TEAM
+    seats.add_ai()
+    assert [seats.step_row(0, 1) for _ in range(3)] == [True, True, False]
+    assert seats.row(0) == RIVALS
+    seats.remove_ais()
+    seats.teams = False
+    seats.places[1].kind = HUMAN
+    assert seats.row(0) == DRIVE, "a row that is gone is no longer selected"
+    assert [seats.step_row(0, -1), seats.row(0)] == [True, REAL]
+    assert not seats.step_row(0, -1)
 
 
 def test_a_new_player_joins_the_smaller_team() -> None:
@@ -80,10 +131,11 @@ def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
 
 def test_sending_the_ais_away_leaves_the_people() -> None:
     seats = Seats()
-    seats.join(ANA)
+    for device in (ANA, BEN):
+        seats.join(device)
     seats.add_ai()
-    seats.remove_ais()
-    assert (seats.of_kind(HUMAN), seats.of_kind(AI), seats.of_kind(EMPTY)) == ([0], [], [1, 2, 3])
+    assert seats.remove_ais() is None
+    assert (seats.of_kind(HUMAN), seats.of_kind(AI), seats.of_kind(EMPTY)) == ([0, 1], [], [2, 3])
 
 
 def team_of(seats: Seats) -> list[int]:

@@ -182,3 +182,18 @@ def test_the_test_of_the_controls_is_one_press_away(arcade: Arcade) -> None:
     arcade.shown(ControlsTest)
     arcade.press(Button.BACK)
     assert arcade.shown(OptionsPage).focus.name == "padtest"
+
+
+def test_rumbling_can_be_switched_off_and_on_again_with_a_sample(arcade: Arcade, tmp_path: Path) -> None:
+    with VirtualPad() as pad:
+        arcade.wait(0.1)
+        go(arcade, "rumble")
+        pad.tap("left")
+        arcade.frame()
+        assert kept(tmp_path)["rumble"] is False
+        arcade.shown(OptionsPage)
+        assert pad.rumbles == []
+        pad.tap("right")
+        arcade.frame()
+        assert kept(tmp_path)["rumble"] is True
+        assert max(pad.rumbles[0]) > 0

@@ -17,6 +17,7 @@ NINTENDO = (0x057E, 0x2009)
 
 _GAME_CONTROLLER, _ARCADE_STICK = 1, 3  # SDL_JoystickType; SDL creates a mapping only for the first
 _FULL = 32767
+_RUMBLE = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_uint16, ctypes.c_uint16)
 _BUTTONS = (
     "a", "b", "x", "y", "back", "guide", "start", "leftstick", "rightstick",
     "leftshoulder", "rightshoulder", "up", "down", "left", "right",
@@ -31,7 +32,10 @@ class VirtualPad:
         self._sdl = _sdl()
         kind = _ARCADE_STICK if plain else _GAME_CONTROLLER
         buttons, hats = (12, 1) if plain else (len(_BUTTONS), 0)
+        self.rumbles: list[tuple[int, int]] = []  # strengths of both motors, 0 to 65535, at each change
+        self._feel = _RUMBLE(self._rumbled)
         about = _About(1, kind, 6, buttons, hats, *((0, 0) if plain else usb), 0, 0, 0, name.encode())
+        about.rumble = ctypes.cast(self._feel, ctypes.c_void_p)
         index = self._sdl.SDL_JoystickAttachVirtualEx(ctypes.byref(about))
         if index < 0:
             raise RuntimeError(f"SDL makes no virtual pad: {self._sdl.SDL_GetError().decode()}")
@@ -86,6 +90,10 @@ class VirtualPad:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.unplug()
+
+    def _rumbled(self, _: int, strong: int, weak: int) -> int:
+        self.rumbles.append((strong, weak))
+        return 0
 
     def _set(self, button: str | int, value: int) -> None:
         number = _BUTTONS.index(button) if isinstance(button, str) else button

@@ -30,6 +30,7 @@ from pigaming_app.scenes.views.factory.hud import X as PANELS
 from pigaming_app.scenes.views.factory.hud import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.factory.next_step import NextStepGuide
 from pigaming_app.scenes.views.factory.prewarm import jobs
+from pigaming_app.scenes.views.rumble import rumbles
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
@@ -63,7 +64,9 @@ class FactoryView(MatchView):
         self.record_poses(state)
         self.people_before, self.people = self.people, _people(state)
         self.guide.update(state)
-        return react(self.detector.detect(state), state, self.particles, self.pops, self.options)
+        events = self.detector.detect(state)
+        self.rumbles = rumbles("factory", ((event.kind, event.player) for event in events))
+        return react(events, state, self.particles, self.pops, self.options)
 
     def draw(self, screen: pygame.Surface, state: Factory, blend: float, seconds: float) -> None:
         self.particles.advance(seconds)

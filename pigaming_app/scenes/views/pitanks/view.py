@@ -12,6 +12,7 @@ from pigaming_app.scenes.views.pitanks.effects import react
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
 from pigaming_app.scenes.views.pitanks.hud import PiTanksHud, pulse
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
+from pigaming_app.scenes.views.rumble import rumbles
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
@@ -57,6 +58,7 @@ class PiTanksView(MatchView):
         for event in events:
             if event.kind == "fire" and event.player is not None:
                 self.flashed[event.player] = self.particles.clock
+        self.rumbles = rumbles("pitanks", ((event.kind, event.player) for event in events))
         return react(events, state, self.particles, self.options)
 
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:

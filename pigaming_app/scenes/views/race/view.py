@@ -24,6 +24,7 @@ from pigaming_app.scenes.views.race.party.prewarm import party_jobs
 from pigaming_app.scenes.views.race.party.sprites import SHIELD_SWAY, SWIRL_TURNS, swirl
 from pigaming_app.scenes.views.race.prewarm import jobs, void_words
 from pigaming_app.scenes.views.race.recovery import draw_way_back, target_of
+from pigaming_app.scenes.views.rumble import rumbles
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import ghost as blank
 from pigaming_app.scenes.views.sprites.robot import tank
@@ -92,6 +93,7 @@ class RaceView(MatchView):
             if not state.racers[seat].place.on and abs(robot.linear) > SPRAYED:
                 back = robot.heading + (math.pi if robot.linear > 0.0 else 0.0)
                 spray(self.particles, LEFT + robot.x, TOP + robot.y, back, 1 + state.tick % 2, 0.8)
+        self.rumbles = rumbles("race", ((event.kind, event.seat) for event in events))
         return sound_cues(events, state)
 
     def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:

@@ -1,0 +1,44 @@
+"""The driving style of each device: chosen by its player, remembered for its kind of device."""
+
+from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, POINT, TURN
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.input.events import Device
+
+PARTY = "party"  # the rule set for novices
+PICTURES = {TURN: "wheel", POINT: "point", HELPED_TURN: "wheel", HELPED_POINT: "point"}  # icon of each style
+
+
+class DrivingStyles:
+    """Driving styles by device, a name in `DRIVING`. A style belongs to the device, so it stays on a change of seat, in
+    a rematch and in another game.
+    """
+
+    def __init__(self, settings: Settings) -> None:
+        self.settings = settings
+        self.chosen: dict[Device, str] = {}
+
+    def of(self, device: Device, game: str, variant: str) -> str:
+        """The style of a device in a game: its player's choice, the last choice on this kind of device, or the default.
+
+        The default of pads in party rules is to point.
+        """
+        remembered = self.settings.pad_driving if device.kind == "pad" else self.settings.keys_driving
+        for style in (self.chosen.get(device, ""), remembered):
+            if style in DRIVING[game]:
+                return style
+        return POINT if device.kind == "pad" and variant == PARTY else TURN
+
+    def change(self, device: Device, game: str, variant: str, delta: int) -> None:
+        """Step a device through the game's styles, and remember the new one for its kind of device."""
+        names = list(DRIVING[game])
+        style = names[(names.index(self.of(device, game, variant)) + delta) % len(names)]
+        self.chosen[device] = style
+        if device.kind == "pad":
+            self.settings.pad_driving = style
+        else:
+            self.settings.keys_driving = style
+
+    def inherit(self, device: Device, before: Device) -> None:
+        """Give the style of the device that drove before to a device whose player has not chosen."""
+        if before in self.chosen:
+            self.chosen.setdefault(device, self.chosen[before])

@@ -1,0 +1,69 @@
+"""Driving styles of devices: chosen, remembered for the kind of device, and the defaults."""
+
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.ai.registry import DRIVING, POINT, TURN
+from pigaming_app.scenes.flow.driving import PARTY, PICTURES, DrivingStyles
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw import ICONS
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Device
+
+PAD, OTHER, KEYS = Device("pad", 4), Device("pad", 5), Device("keys", 1)
+
+
+def test_a_new_pad_points_in_party_rules_and_everything_else_turns_and_drives() -> None:
+    styles = DrivingStyles(Settings())
+    assert styles.of(PAD, "pitanks", PARTY) == POINT
+    assert styles.of(PAD, "pitanks", "pickups") == TURN
+    assert styles.of(KEYS, "pitanks", PARTY) == TURN
+
+
+def test_a_choice_holds_for_the_device_in_every_game_and_for_new_devices_of_its_kind(tmp_path: Path) -> None:
+    settings = Settings()
+    styles = DrivingStyles(settings)
+    styles.change(PAD, "race", PARTY, 1)
+    assert styles.of(PAD, "factory", PARTY) == TURN
+    styles.change(OTHER, "race", PARTY, 1)
+    assert (styles.of(PAD, "race", PARTY), styles.of(OTHER, "race", PARTY)) == (TURN, POINT)
+    assert styles.of(KEYS, "race", PARTY) == TURN
+    settings.save(tmp_path)
+    loaded, problems = Settings.load(tmp_path)
+    assert not problems
+    assert DrivingStyles(loaded).of(PAD, "pitanks", "plain") == POINT
+
+
+def test_the_styles_go_round_in_both_directions() -> None:
+    styles = DrivingStyles(Settings())
+    seen = []
+    for _ in DRIVING["race"]:
+        styles.change(KEYS, "race", PARTY, -1)
+        seen.append(styles.of(KEYS, "race", PARTY))
+    assert sorted(seen) == sorted(DRIVING["race"])
+    assert seen[-1] == TURN
+
+
+def test_a_style_that_a_game_does_not_offer_is_replaced_by_the_default() -> None:
+    styles = DrivingStyles(Settings(pad_driving="by voice"))
+    assert styles.of(PAD, "factory", PARTY) == POINT
+
+
+def test_a_replugged_pad_drives_as_before_unless_its_player_has_chosen() -> None:
+    styles = DrivingStyles(Settings())
+    styles.change(PAD, "race", "standard", 1)
+    styles.change(KEYS, "race", "standard", 1)
+    styles.settings.pad_driving = TURN
+    styles.inherit(OTHER, PAD)
+    assert styles.of(OTHER, "race", "standard") == POINT
+    styles.change(OTHER, "race", "standard", -1)
+    styles.inherit(OTHER, PAD)
+    assert styles.of(OTHER, "race", "standard") == TURN
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_every_style_has_a_picture_and_a_name(language: str) -> None:
+    for style in {style for styles in DRIVING.values() for style in styles}:
+        assert PICTURES[style] in ICONS
+        assert Words(language)(f"lobby.drive_{style}")
