@@ -163,6 +163,8 @@ class MatchScene:
                 self.runner.draw_captions(screen, self.devices)
                 self.countdown_at = clear_of(self.runner.robots())
             self.countdown.draw(screen, words("match.go"), self.countdown_at)
+        if not self.countdown.locked and not self.match.over:
+            self.runner.draw_hints(screen, self.devices)
         for seat, left in self.idle_seats.prompted().items():
             sentence = words("match.still", seconds=max(1, math.ceil(left)))
             self.runner.draw_beside(screen, seat, caption(sentence, PLAYERS[seat], player=seat))
