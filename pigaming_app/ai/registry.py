@@ -14,6 +14,7 @@ from pigaming_app.ai.factory import foreman, foreman_thoughts
 from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.race import racer, racer_thoughts
+from pigaming_app.ai.race.steering_help import with_help
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -59,10 +60,16 @@ RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in 
 }
 
 TURN, POINT = "turn", "point"
+HELPED_TURN, HELPED_POINT = "helped_turn", "helped_point"  # with steering help
 DRIVING: dict[str, dict[str, Driving]] = {  # driving styles for people, in the order in which the lobby steps through
     "pitanks": {TURN: turn_and_drive, POINT: point_where_to_go},
     "factory": {TURN: turn_and_drive, POINT: point_where_to_go},
-    "race": {TURN: turn_and_drive, POINT: point_where_to_go},
+    "race": {
+        TURN: turn_and_drive,
+        POINT: point_where_to_go,
+        HELPED_TURN: with_help(turn_and_drive),
+        HELPED_POINT: with_help(point_where_to_go),
+    },
 }
 
 

@@ -7,6 +7,7 @@ that a released stick stays released; reverse, a turn on the spot, and the way b
 from math import atan2, cos, sin, sqrt
 from typing import Any
 
+from pigaming_app.ai.brain.driving import Controller, Driving
 from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.observation import TrackPoint, observe_mark
 from pigaming_app.sim.angles import turn_to
@@ -19,6 +20,15 @@ NEAR = 80.0  # px inside the edge at which the share begins to grow
 INSIDE = 45.0  # px between the edge and the line that is steered for, as the fastest line touches the edge
 SLOWEST = 0.45  # of full speed, to which it slows down before a bend
 TURNED = 1.75  # rad between robot and course above which a person is turning round and is left alone
+
+
+def with_help(driving: Driving) -> Driving:
+    """A driving style with steering help in the race."""
+
+    def helped(state: Any, seat: int, stick: Controller) -> tuple[float, float]:
+        return helped_stick(state, seat, *driving(state, seat, stick))
+
+    return helped
 
 
 def helped_stick(match: Any, seat: int, linear: float, angular: float) -> tuple[float, float]:

@@ -1,11 +1,11 @@
 """The driving style of each device: chosen by its player, remembered for its kind of device."""
 
-from pigaming_app.ai.registry import DRIVING, POINT, TURN
+from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, POINT, TURN
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Device
 
 PARTY = "party"  # the rule set for novices
-PICTURES = {TURN: "wheel", POINT: "point"}  # icon of each style
+PICTURES = {TURN: "wheel", POINT: "point", HELPED_TURN: "wheel", HELPED_POINT: "point"}  # icon of each style
 
 
 class DrivingStyles:

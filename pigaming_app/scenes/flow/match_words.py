@@ -15,11 +15,8 @@ from pigaming_app.sim.world import DT, HZ
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 
-FIRES = {
-    "pitanks": "hint_fire",
-    "factory": "hint_lift",
-    "race": "hint_recover",
-}  # text key for FIRE in games that use it
+# text key for FIRE in each game
+FIRES = {"pitanks": "hint_fire", "factory": "hint_lift", "race": "hint_recover"}
 RULES: dict[str, tuple[Callable[[], Any], Callable[[Any, Setup], None]]] = {
     "pitanks": (PiTanksRules, pitanks_rules),
     "factory": (FactoryRules, factory_rules),

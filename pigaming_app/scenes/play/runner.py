@@ -28,6 +28,8 @@ from pigaming_app.ui.widgets.caption import Caption, caption
 PAUSED_BRIGHTNESS = 72  # of 255: brightness of a match behind a page
 TICK_SOUNDS = 10  # seconds at the end with a tick sound each
 CAPTION_GAP = 104  # px from a robot to its caption
+HINT_ROOM = 140.0  # px below a robot that a hint needs
+TOP_SIGNS, SIGN_ROOM = 260.0, 110  # px from the upper edge, above which signs are below a robot; px that they take
 
 
 class MatchRunner:
@@ -125,6 +127,22 @@ class MatchRunner:
         x = min(max(LEFT + robot.x, margin), 1920 - margin)
         offset = self.view.reach(seat, CAPTION_GAP)
         sheet.draw(screen, x, TOP + robot.y + (offset if robot.y < HEIGHT / 2 else -offset))
+
+    def draw_hints(self, screen: pygame.Surface, devices: Sequence[Device | None]) -> None:
+        """Draw hints of the view for seats of people, with the name of their button, clear of the signs over robots."""
+        words, controls = self.context.words, self.context.controls
+        for seat, key in self.view.hints.items():
+            if device := devices[seat]:
+                label = words.key_name(controls.label(device, Button.FIRE))
+                sheet = caption(words(key, button=label), PLAYERS[seat], face="head")
+                robot, gap = self.match.state.robots[seat], self.view.reach(seat, CAPTION_GAP)
+                margin = LEFT + 24 + sheet.width / 2
+                x = min(max(LEFT + robot.x, margin), 1920 - margin)
+                if robot.y > HEIGHT - HINT_ROOM:
+                    gap = -gap - SIGN_ROOM
+                elif robot.y < TOP_SIGNS:
+                    gap += SIGN_ROOM
+                sheet.draw(screen, x, TOP + robot.y + gap)
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
         """Name and icon of a seat's driver."""

@@ -177,6 +177,8 @@ class MatchScene:
                 if self.match.state.tick == 0:
                     self._draw_rules(screen)
             self.countdown.draw(screen, words("match.go"), self.countdown_at)
+        if not self.countdown.locked and not self.match.over:
+            self.runner.draw_hints(screen, self.devices)
         for seat, left in self.idle_seats.prompted().items():
             sentence = words("match.still", seconds=max(1, math.ceil(left)))
             self.runner.draw_beside(screen, seat, caption(sentence, PLAYERS[seat], player=seat))

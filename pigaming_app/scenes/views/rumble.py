@@ -24,7 +24,15 @@ FINISH = Rumble(0.8, 0.8, 0.5)
 RUMBLES: dict[str, dict[str, Rumble]] = {
     "pitanks": {"hit": TAKEN, "scored": GIVEN, "shielded": BLOCKED, "pickup": PICKED},
     "factory": {"delivered": DELIVERED, "stolen": GIVEN, "freeze": TAKEN, "spoiled": BLOCKED, "lift": PICKED},
-    "race": {"lap": LAP, "best": BEST, "finish": FINISH, "item": PICKED, "spin": TAKEN},
+    "race": {
+        "lap": LAP,
+        "best": BEST,
+        "finish": FINISH,
+        "item": PICKED,
+        "boost": GIVEN,
+        "spin": TAKEN,
+        "resisted": BLOCKED,
+    },
 }
 
 

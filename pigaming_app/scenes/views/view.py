@@ -50,6 +50,7 @@ class MatchView:
         self.players, self.options, self.words, self.background = players, options, words, background
         self.real: frozenset[int] = frozenset()  # seats with real robots, which are lit instead of drawn
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        self.hints: dict[int, str] = {}  # text key of a hint about FIRE, by seat
         self.rumbles: dict[int, Rumble] = {}  # of the last tick, by seat
         self.particles = Particles()
         self.treads = [TreadMarks(i) for i in range(len(state.robots))]

@@ -76,7 +76,7 @@ class RaceHud:
             for alarm, done in ((False, False), (True, False), (False, True)):
                 yield partial(race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not done)
             for full in (True, False):
-                yield partial(race_cards.turbo, seat, full)
+                yield partial(race_cards.turbo, seat, full, False)
                 yield partial(race_cards.foot, seat, state.rules.laps, full)
         for char in "0123456789:":
             yield from (partial(glyph, char, TITLE, color) for color in (ICE, ALARM))

@@ -84,12 +84,8 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
         bits.append((mover(card.moved > 0), (x + W - 40 - EDGE, Y - EDGE), None))
     if card.item != "none":
         bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE), None))
-    bits += _part_lit(
-        turbo(card.seat, True, card.slip),
-        turbo(card.seat, False, False),
-        (x + 17, Y + 80),
-        card.turbo * CELLS * CELL / 64,
-    )
+    full, empty = turbo(card.seat, True, card.slip), turbo(card.seat, False, False)
+    bits += _part_lit(full, empty, (x + 17, Y + 80), card.turbo * CELLS * CELL / 64)
     bits += _part_lit(
         foot(card.seat, card.laps, True), foot(card.seat, card.laps, False), (x + 20, Y + H - 3), card.way
     )

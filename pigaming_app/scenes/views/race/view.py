@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pygame
 
-from pigaming_app.games.race.state import Race, Racer
+from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, Race, Racer
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud_parts import Y
 from pigaming_app.scenes.views.race import hud_cards as race_cards
@@ -38,6 +38,7 @@ from pigaming_app.ui.widgets.caption import caption
 
 VOID_LASTS = 3.5  # s, display of an invalid lap
 PLACE_LASTS = 6 * HZ  # ticks for which the place of a finished robot is shown
+HINT_AFTER = round(1.5 * HZ)  # ticks off the course, or after a missed line, until a hint
 TROUBLE_LASTS = 6.0  # s, notice of a dropped ghost
 DASH, MARCH = 34.0, 70.0  # px between dashes, px/s of their motion
 ENTRY, STOP = 170.0, 52.0  # px before a line: target of the path to it, and its end
@@ -63,6 +64,7 @@ class RaceView(MatchView):
         self.recorder: GhostRecorder | None = None
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
         self.void = void_words(words)
+        self.lost_ticks = [0] * len(state.robots)  # since when each robot has been lost
         self.void_at = [-VOID_LASTS] * len(state.robots)
         self.add_prewarm_jobs(self.cards.jobs(state))
         self.add_prewarm_jobs(jobs(self.seats, words, self.signs))
@@ -82,6 +84,7 @@ class RaceView(MatchView):
         events = self.detector.detect(state) + (self.party.detect(state) if self.party else [])
         records = self.recorder.watch(state, events) if self.recorder else []
         ghost_deltas = self.recorder.ghost_deltas if self.recorder else {}
+        self._hint(state)
         for event in events:
             fresh = ghost_deltas.get(event.seat)
             self.event_effects.show(event, state, fresh if fresh and fresh[1] == state.tick else None)
@@ -121,6 +124,15 @@ class RaceView(MatchView):
         self._draw_notice(screen)
 
     # ---- inside
+
+    def _hint(self, state: Race) -> None:
+        """Hint at the way back to those who have been off the course for a while, or go the wrong way."""
+        for seat in self.seats:
+            lost = state.racers[seat].lost
+            self.lost_ticks[seat] = self.lost_ticks[seat] + 1 if lost and not state.robots[seat].recover else 0
+        patience = {OFF_COURSE: HINT_AFTER, MISSED_LINE: HINT_AFTER}
+        late = [seat for seat in self.seats if self.lost_ticks[seat] > patience.get(state.racers[seat].lost, 0)]
+        self.hints = {} if state.over else dict.fromkeys(late, "race.back_hint")
 
     def _note(self, event: RaceEvent, state: Race) -> None:
         """Update cards and signs after an event."""
