@@ -187,6 +187,7 @@ class MatchSetupPage:
         names, now = list(self.game.variants), self.chosen
         now.variant = names[(names.index(now.variant) + delta) % len(names)]
         fit_choice(self.variant, now)
+        self.seats.change_mode(self.variant.team_mode)
         self.rows = rows(self.game, self.variant)
         self.focus.set_spots([FocusSpot(name, box) for name, box in self.rows.items()])
 
@@ -212,7 +213,7 @@ class MatchSetupPage:
         """Draw the best scores for this selection, if the rows leave room."""
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + GAP
         lines = []
-        for feat in self.game.record_kinds:
+        for feat in self.game.records_of(self.variant.name):
             best = self.context.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.context.words(f"setup.best_{feat.name}")
@@ -236,7 +237,7 @@ class MatchSetupPage:
         picture(self.game.name, self.chosen.arena, allies).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
-        starts = start_positions(self.game.name, self.chosen.arena, self.seats.seats())
+        starts = start_positions(self.game.name, self.variant, self.chosen.arena, self.seats.seats())
         for i, _ in self._lineup():
             stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
             if stage < effects.WAVE_STEPS // 2:
@@ -260,10 +261,12 @@ def picture(game: str, name: str, allies: bool) -> Steps[LitImage]:
 
 
 @lru_cache(maxsize=16)
-def start_positions(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) -> list[tuple[float, float]]:
+def start_positions(
+    game: str, variant: Variant, name: str, seats: tuple[Seat, Seat, Seat, Seat]
+) -> list[tuple[float, float]]:
     """Start positions of the robots of these seats, px."""
     rules, state = games()[game], games()[game].state()
-    setup = Setup(game, name, seats, rules.default.default_minutes, 1, rules.default.name, rules.default.default_goal)
+    setup = Setup(game, name, seats, variant.default_minutes, 1, variant.name, variant.default_goal)
     rules.start(state, load_cached(game, name), setup)
     return [(robot.x, robot.y) for robot in state.robots]
 
