@@ -109,10 +109,16 @@ class Match:
 
 
 def standings(game: Game, state: Any) -> tuple[dict[int, float], tuple[int, ...]]:
-    """Ranking key of each robot that plays, by seat, and all seats of the winning team; none: a tie."""
-    keys = {i: game.ranking_key(state, i) for i in range(ROBOTS) if state.robots[i].present}
-    leaders = tuple(i for i in keys if keys[i] == max(keys.values()))
-    return keys, leaders if len({state.robots[i].team for i in leaders}) == 1 else ()
+    """Ranking key of each robot that plays, by seat, and all seats of the winning team; none: a tie.
+
+    A team without opponents wins if its ranking key is above 0.
+    """
+    teams = {i: state.robots[i].team for i in range(ROBOTS) if state.robots[i].present}
+    keys = {i: game.ranking_key(state, i) for i in teams}
+    best = max(keys.values())
+    leaders = tuple(i for i in keys if keys[i] == best)
+    alone = len(set(teams.values())) == 1
+    return keys, leaders if len({teams[i] for i in leaders}) == 1 and (best > 0.0 or not alone) else ()
 
 
 class ActionLog:

@@ -35,7 +35,7 @@ STARTS = 3  # of the program
 
 
 def measure(game: str, variant: str) -> dict[str, Any]:
-    """All figures by name, those of matches under the rules of `variant`. Without numba those of compiled play are None."""
+    """All figures by name, of matches under the rules of `variant`. Without numba those of compiled play are None."""
     plain = min(_plain_run(game, variant, seed) for seed in range(1, RUNS + 1))
     single = both = None
     if can_compile():
