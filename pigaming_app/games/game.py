@@ -50,7 +50,7 @@ class Outcome:
     """Final standings of a match, best first."""
 
     rows: tuple[Row, ...]
-    winners: tuple[int, ...]  # all seats of the winning team; empty: a tie
+    winners: tuple[int, ...]  # all seats of the winning team; empty: a tie, or allies that have not won
     series: tuple[tuple[tuple[float, int], ...], ...]  # for each seat, (seconds, score) at each change
     seconds: float
 
@@ -77,6 +77,7 @@ class Variant:
     teams: tuple[int, int, int, int] = (0, 1, 2, 3)  # default team of each seat
     overtime: float = 0.0  # s, by which a level match may exceed its minutes
     columns: tuple[str, ...] = ()  # of the results table; empty: those of the game
+    feats: tuple[str, ...] = ()  # names of its high-score tables; empty: all of the game
 
 
 @dataclass(frozen=True)
@@ -94,11 +95,16 @@ class Game:
     start: Callable[[Any, Arena, Setup], None]  # fill a fresh state
     judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, request speeds
     observe: Callable[[Any, int, Any, Any], None]  # observe(match, seat, senses, observation)
-    ranking_key: Callable[[Any, int], float]  # of a seat, with its team; higher ranks first
+    ranking_key: Callable[[Any, int], float]  # of a seat, with its team; higher ranks first; allies win above 0
     stats: Callable[[Any, int], Mapping[str, float]]
     records: Callable[[Any, int], Mapping[str, int]]  # by names of `record_kinds`; only those achieved
     times: Callable[[Any, int], tuple[float, ...]]
     goal: str = ""  # unit of `goals`: laps, pallets
+
+    def records_of(self, variant: str) -> tuple[RecordKind, ...]:
+        """The high-score tables of a variant; of an unknown one, those of the default."""
+        feats = self.variants.get(variant, self.default).feats
+        return tuple(kind for kind in self.record_kinds if not feats or kind.name in feats)
 
     @property
     def default(self) -> Variant:

@@ -87,6 +87,7 @@ class Match:
         best = max(keys.values())
         leaders = [i for i in seats if keys[i] == best]
         one_team = len({state.robots[i].team for i in leaders}) == 1
+        against = len({state.robots[i].team for i in seats}) > 1
         order = sorted(seats, key=lambda i: (-keys[i], state.robots[i].team, -state.robots[i].score))
         ranks = [keys[i] for i in order]
         rows = tuple(
@@ -101,7 +102,7 @@ class Match:
             )
             for i in order
         )
-        winners = tuple(leaders) if one_team else ()
+        winners = tuple(leaders) if one_team and (against or best > 0.0) else ()
         return Outcome(rows, winners, tuple(tuple(line) for line in self.series), state.tick * DT)
 
 

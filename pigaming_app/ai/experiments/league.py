@@ -1,7 +1,8 @@
 """Duels of two brains over many paired matches, and round-robin leagues of several.
 
 Each seed is played twice with the sides swapped, so that neither luck nor the starting place favours a side. A win is
-the better final ranking, whatever the margin; the interval is Wilson's for the share of wins (Wilson, J. Am. Stat.
+the better final ranking, whatever the margin; allies have no opponents, so each brain plays the seeds alone, on all
+four seats, and the better ranking wins. The interval is Wilson's for the share of wins (Wilson, J. Am. Stat.
 Assoc. 22, 1927, 209-212). All pairs of a league play the same seeds.
 """
 
@@ -15,11 +16,11 @@ from typing import Any, NamedTuple
 from pigaming_app.ai.experiments.ratings import Rating, ratings
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
-from pigaming_app.games.game import PAIRS, Setup, Variant
+from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
 from pigaming_app.sim.kernel import can_compile
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, ROBOTS
 
 MAX_MATCHES = 100_000  # in a duel; all are in memory at once
 MIN_COMPILED_MATCHES = 300_000  # ticks; below this compiling takes longer than interpreted play
@@ -85,8 +86,8 @@ def duel(
 ) -> Duel:
     """Play `matches` matches of two brains. Raises ChoiceError or ArenaError.
 
-    In a game of two pairs each brain drives both robots of its team. `fast`: compiled; None: compiled if numba is
-    installed and there are enough ticks to repay compiling.
+    In a game of two pairs each brain drives both robots of its team, among allies all four. `fast`: compiled; None:
+    compiled if numba is installed and there are enough ticks to repay compiling.
     """
     return play_duel(_setups(game, left, right, matches, seed, minutes, arena, variant, goal), left, right, fast)[0]
 
@@ -148,21 +149,31 @@ class Ending(NamedTuple):
 
 
 def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[Ending]]:
-    """Play these matches, every other one with the sides swapped; returns the duel and each match's end, in order."""
+    """Play these matches, every other one with the sides swapped; returns the duel and each match's end, in order.
+
+    Allies play each match twice, once with either brain.
+    """
     game, matches = setups[0].game, len(setups)
     variant = games()[game].variants[setups[0].variant]
-    brains = _line_up(variant, left, right)
+    allies = variant.team_mode == ALLIES
     ticks = round((setups[0].minutes * 60 + variant.overtime) * HZ)
     if fast is None:
         fast = can_compile() and matches * ticks > MIN_COMPILED_MATCHES
     began = perf_counter()
-    batches = [Batch(half, [BRAINS[game][name] for name in order], fast) for half, order in _both_ways(setups, brains)]
+    if allies:
+        halves = [(setups, [name] * ROBOTS) for name in (left, right)]
+    else:
+        halves = [*_both_ways(setups, _line_up(variant, left, right))]
+    batches = [Batch(half, [BRAINS[game][name] for name in order], fast) for half, order in halves]
     for batch in batches:
         batch.play(ticks)
     seconds = perf_counter() - began
     ends = [Ending(0.0, 0.0, 0, 0)] * matches
-    for side, batch in enumerate(batches):
-        ends[side::2] = _ends(game, batch, swapped=side == 1)
+    if allies:
+        ends = [*_allied_ends(game, *batches)]
+    else:
+        for side, batch in enumerate(batches):
+            ends[side::2] = _ends(game, batch, swapped=side == 1)
     wins = sum(end.left > end.right for end in ends)
     ties = sum(end.left == end.right for end in ends)
     result = Duel(
@@ -193,7 +204,7 @@ def _setups(
     variant: str | None,
     goal: int | None,
 ) -> list[Setup]:
-    """Setups of a duel, two per seed. Raises ChoiceError or ArenaError."""
+    """Setups of a duel, two per seed; among allies, one. Raises ChoiceError or ArenaError."""
     require_one_of("game", game, list(games()))
     if not 1 <= matches <= MAX_MATCHES:
         raise ChoiceError(f"--matches: {matches}; possible are 1 to {MAX_MATCHES}")
@@ -201,11 +212,16 @@ def _setups(
     variant = games()[game].default.name if variant is None else variant
     require_one_of("variant", variant, list(variants))
     brains, kinds = _line_up(variants[variant], left, right), list(BRAINS[game])
-    return [make_setup(game, brains, arena, minutes, seed + i // 2, variant, None, kinds, goal) for i in range(matches)]
+    each = 1 if variants[variant].team_mode == ALLIES else 2
+    return [
+        make_setup(game, brains, arena, minutes, seed + i // each, variant, None, kinds, goal) for i in range(matches)
+    ]
 
 
 def _line_up(variant: Variant, left: str, right: str) -> list[str]:
-    """The brain of each seat; in a game of two pairs each brain has a whole team."""
+    """The brain of each seat; in a game of two pairs each brain has a whole team, among allies `left` has all seats."""
+    if variant.team_mode == ALLIES:
+        return [left] * ROBOTS
     return [left, right, left, right] if variant.team_mode == PAIRS else [left, right]
 
 
@@ -225,6 +241,14 @@ def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[Ending]:
         if swapped:
             left, right = right, left
         yield Ending(left[0], right[0], left[1], right[1])
+
+
+def _allied_ends(game: str, lefts: Batch, rights: Batch) -> Iterator[Ending]:
+    """End of every match of allies, played by `left` and by `right`."""
+    rules = games()[game]
+    for left, right in zip(lefts.ended(), rights.ended(), strict=True):
+        keys = rules.ranking_key(left, 0), rules.ranking_key(right, 0)
+        yield Ending(*keys, _score(left, 0), _score(right, 0))
 
 
 def _score(state: Any, seat: int) -> int:

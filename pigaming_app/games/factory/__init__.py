@@ -14,7 +14,7 @@ FACTORY = Game(
     observation=Observation,
     variants=VARIANTS,
     columns=("delivered", "steps", "bumps"),
-    record_kinds=(RecordKind("time", timed=True, by_goal=True),),
+    record_kinds=(RecordKind("time", timed=True, by_goal=True), RecordKind("points")),
     read=read,
     start=start,
     judge=judge,

@@ -6,6 +6,7 @@ from pigaming_app.games.factory.layout import Floor
 from pigaming_app.games.factory.orders import set_out
 from pigaming_app.games.factory.pallets import stock_up
 from pigaming_app.games.factory.pedestrians import send
+from pigaming_app.games.factory.stars import THREE_STARS, TWO_STARS, expected_time
 from pigaming_app.games.factory.state import (
     FIRE,
     ICE,
@@ -27,7 +28,7 @@ PALLETS = Rules().pallets  # per team, the default goal
 GOALS = tuple(range(2, MAX_PALLETS + 1))
 OVERTIME = 30  # s
 VARIANTS = named(
-    Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1)),
+    Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1), feats=("time",)),
     Variant(
         "party",
         (2, 3, 5),
@@ -36,8 +37,9 @@ VARIANTS = named(
         teams=(0, 1, 0, 1),
         overtime=OVERTIME,
         columns=("score", "delivered", "stolen"),
+        feats=("points",),
     ),
-    Variant("together", (3, 5, 8), 5, (4, 6, 8, 10, 12), 8, ALLIES, teams=(0, 0, 0, 0)),
+    Variant("together", (3, 5, 8), 5, (4, 6, 8, 10, 12), 8, ALLIES, teams=(0, 0, 0, 0), feats=("time",)),
 )
 STEPS_PER_DELIVERY = 1000.0  # steps of work that weigh as much as one delivery: more than a match can have
 
@@ -50,6 +52,12 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
     set_rules(match.rules, setup)
     for seat, robot in zip(setup.seats, match.robots, strict=True):
         robot.present, robot.team = int(seat.brain != "off"), seat.team
+    if match.rules.allies:
+        expected = expected_time(floor, sum(robot.present for robot in match.robots), match.rules.pallets)
+        match.rules.three_stars, match.rules.two_stars = (
+            round(THREE_STARS * expected * HZ),
+            round(TWO_STARS * expected * HZ),
+        )
     for i, k in enumerate(_start_indices(setup)):
         robot, pose = match.robots[i], arena.starts[k]
         robot.x, robot.y, robot.heading = pose.x, pose.y, pose.heading
@@ -116,15 +124,20 @@ def set_rules(rules: Rules, setup: Setup) -> None:
 
 
 def ranking_key(match: Factory, seat: int) -> float:
-    """Deliveries of a seat's team, then the work done on pallets that its robots fed to machines.
+    """Deliveries of a seat's team (in party points), then the work done on pallets that its robots fed to machines.
 
-    Work is ignored once a team has delivered everything, so that two teams finishing on the same tick tie.
+    Work is ignored once a team has delivered everything, so that two teams finishing on the same tick tie. Allies that
+    have delivered everything are ranked by the time left, above 0, and all others below 0.
     """
-    team = match.robots[seat].team
-    if match.delivered[team] == match.rules.pallets:
-        return match.delivered[team] * STEPS_PER_DELIVERY
+    team, rules = match.robots[seat].team, match.rules
+    if rules.allies and match.stars:
+        return 1.0 + rules.ticks - match.tick
+    done = match.points[team] if rules.party else match.delivered[team]
+    if done == rules.pallets and not rules.party:
+        return done * STEPS_PER_DELIVERY
     steps = sum(match.loads[i].steps for i in range(ROBOTS) if match.robots[i].team == team)
-    return match.delivered[team] * STEPS_PER_DELIVERY + min(STEPS_PER_DELIVERY - 1.0, steps)
+    missing = rules.pallets if rules.allies else 0
+    return (done - missing) * STEPS_PER_DELIVERY + min(STEPS_PER_DELIVERY - 1.0, steps)
 
 
 def stats(match: Factory, seat: int) -> Mapping[str, float]:
@@ -142,7 +155,9 @@ def stats(match: Factory, seat: int) -> Mapping[str, float]:
 
 
 def records(match: Factory, seat: int) -> Mapping[str, int]:
-    """Time in which the seat's team delivered everything, in ms; empty if it did not."""
+    """Time in which the seat's team delivered everything, in ms, or in party its points; empty if there is neither."""
+    if match.rules.party:
+        return {"points": match.points[match.robots[seat].team]}
     done = match.delivered[match.robots[seat].team] == match.rules.pallets
     return {"time": round(1000 * DT * match.tick)} if done else {}
 

@@ -63,9 +63,7 @@ class Rules:
     rush_every: int = added()  # party: each team's every so many-th order is a rush
     rush: int = added()  # party: ticks from the arrival of a rush order to its deadline
     rush_points: int = added()  # party: for a rush delivered in time; any other delivery is one point
-    claim: int = (
-        added()
-    )  # party: ticks in an output after which anybody may take a processed pallet
+    claim: int = added()  # party: ticks in an output after which anybody may take a processed pallet
     renew: int = added()  # party: ticks from a delivery to the next order, or to the next loose pallet
     fast_every: int = added()  # party: ticks for which one machine is the fast one
     fast_process: int = added()  # party: ticks of processing on the fast machine, which needs no worker

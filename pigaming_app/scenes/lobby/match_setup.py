@@ -190,6 +190,7 @@ class MatchSetupPage:
         names, now = list(self.game.variants), self.chosen
         now.variant = names[(names.index(now.variant) + delta) % len(names)]
         fit_choice(self.variant, now)
+        self.seats.change_mode(self.variant.team_mode)
         self.rows = rows(self.game, self.variant)
         self.focus.set_spots([FocusSpot(name, box) for name, box in self.rows.items()])
 
@@ -216,7 +217,7 @@ class MatchSetupPage:
         gap = row_sizes(self.game, self.variant).gap
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + gap
         lines = []
-        for feat in self.game.record_kinds:
+        for feat in self.game.records_of(self.variant.name):
             best = self.context.scores.best(table_of(contest(self._setup()), feat))
             if best:
                 name = self.context.words(f"setup.best_{feat.name}")

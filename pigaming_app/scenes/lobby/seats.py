@@ -6,7 +6,7 @@ FIRE takes the next empty seat, which determines the player number. The last AI 
 from dataclasses import dataclass, field, replace
 
 from pigaming_app.ai.registry import STRENGTHS
-from pigaming_app.games.game import FREE, PAIRS, Seat
+from pigaming_app.games.game import ALLIES, FREE, PAIRS, Seat
 from pigaming_app.ui.input.events import Device
 
 EMPTY, HUMAN, AI = "empty", "human", "ai"
@@ -40,7 +40,7 @@ class Seats:
     places: list[SeatState] = field(default_factory=lambda: [SeatState(team=i % 2) for i in range(PLACES)])
 
     def __post_init__(self) -> None:
-        self.teams = self.team_mode == PAIRS or (self.teams and self.team_mode == FREE)
+        self._apply_mode()
 
     # ---- queries
 
@@ -69,9 +69,7 @@ class Seats:
 
     def seats(self) -> tuple[Seat, Seat, Seat, Seat]:
         """The seats in the form a `Setup` needs."""
-        one, two, three, four = (
-            Seat(self._brain(place), place.team if self.teams else i) for i, place in enumerate(self.places)
-        )
+        one, two, three, four = (Seat(self._brain(place), self._team(i)) for i, place in enumerate(self.places))
         return one, two, three, four
 
     def devices(self) -> list[Device | None]:
@@ -141,7 +139,7 @@ class Seats:
 
     def add_opponents(self) -> list[int]:
         """Add opponents for a single person, or for a pair without rivals: one AI, or all seats in team games. Returns
-        the seats.
+        the seats. Among allies they are mates.
         """
         alone = self.robots == 1 or (self.team_mode == PAIRS and self.robots > 1 and self.one_team)
         if not alone:
@@ -161,11 +159,33 @@ class Seats:
         if self.team_mode == PAIRS and len(mates) > 1:
             sorted(mates, key=lambda mate: mate.kind == AI)[-1].team = 1 - place.team
 
+    def change_mode(self, team_mode: str) -> None:
+        """Adapt to another team mode: pairs of allies become two sides, and whoever would be alone gets opponents."""
+        if team_mode == self.team_mode:
+            return
+        self.team_mode = team_mode
+        self._apply_mode()
+        taken = [place for place in self.places if place.kind != EMPTY]
+        if self.team_mode == PAIRS and sum(place.team for place in taken) not in (1, 2):
+            for i, place in enumerate(taken):
+                place.team = i % 2
+        if self.team_mode != ALLIES:
+            self.add_opponents()
+
+    def _apply_mode(self) -> None:
+        self.teams = self.team_mode == PAIRS or (self.teams and self.team_mode == FREE)
+
     def _smaller_team(self, seat: int) -> int:
         """The team with fewer robots; the seat's current one if equal."""
         others = [place.team for i, place in enumerate(self.places) if place.kind != EMPTY and i != seat]
         more = others.count(0) - others.count(1)
         return self.places[seat].team if more == 0 else int(more > 0)
+
+    def _team(self, seat: int) -> int:
+        """The team in which a seat plays."""
+        if self.team_mode == ALLIES:
+            return 0
+        return self.places[seat].team if self.teams else seat
 
     def _strength(self, strength: str) -> str:
         return strength if strength in self.rivals else self.strength

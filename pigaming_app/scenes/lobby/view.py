@@ -173,7 +173,7 @@ def spots(seats: Seats) -> list[FocusSpot]:
 
 def problem(seats: Seats, words: Words) -> str:
     """The reason why a match cannot start, or ""."""
-    if seats.robots < 2:
+    if seats.robots < (1 if seats.team_mode == ALLIES else 2):
         return words("lobby.more")
     return words("lobby.teams_need") if seats.one_team else ""
 

@@ -51,7 +51,7 @@ def table_of(contest: ScoreTable, feat: RecordKind) -> ScoreTable:
 
 def high_score_tables(contest: ScoreTable) -> list[HighScoreTable]:
     """The two tables shown side by side: one per feat, or today and all time if there is only one feat."""
-    feats = games()[contest.game].record_kinds
+    feats = games()[contest.game].records_of(contest.rules)
     tables = [table_of(contest, feat) for feat in feats]
     if len(feats) > 1:
         return [HighScoreTable(f"results.best_{table.feat}", table) for table in tables[:2]]
@@ -60,7 +60,7 @@ def high_score_tables(contest: ScoreTable) -> list[HighScoreTable]:
 
 def older_tables(contest: ScoreTable, scores: Scores) -> list[HighScoreTable]:
     """The non-empty all-time tables of a contest from version 1.3.0."""
-    tables = [table_of(contest, feat) for feat in games()[contest.game].record_kinds]
+    tables = [table_of(contest, feat) for feat in games()[contest.game].records_of(contest.rules)]
     return [HighScoreTable(f"results.best_{table.feat}", table) for table in tables if scores.best(table)]
 
 

@@ -72,7 +72,7 @@ def qualifying(
 
 def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, Feats]:
     """Results above zero of people for whom the match counts, by seat."""
-    feats = games()[setup.game].record_kinds
+    feats = games()[setup.game].records_of(setup.variant)
     done = {}
     for row in outcome.rows:
         if row.seat in seats and setup.seats[row.seat].brain == "human" and counts(setup, row.seat):
