@@ -30,7 +30,7 @@ from tests.scenes.arcade import KEYS, Arcade
 
 FACTS = {
     "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},
-    "factory": {"delivered": 9, "steps": 18, "bumps": 112},
+    "factory": {"delivered": 9, "steps": 18, "bumps": 112, "stolen": 99, "stars": 3},
     "race": {"laps": 9, "best": 75.12, "total": 599.99},
 }
 TEAMS = (0, 1, 0, 1)
@@ -46,14 +46,16 @@ class Ending:
     teams: tuple[int, ...]
     scores: Sequence[int]
     winners: tuple[int, ...]
+    variant: str = ""  # empty: the game's last
 
     def results(self, arcade: Arcade, finished: bool = True) -> Results:
         seats = [Seat(brain, team) for brain, team in zip(self.brains.split(), self.teams, strict=True)]
         one, two, three, four = seats
         game = games()[self.game]
-        goal = max(game.default.goals, default=0)
+        variant = self.variant or list(game.variants)[-1]
+        goal = max(game.variants[variant].goals, default=0)
         arena = max(arenas(self.game), key=len)
-        setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, list(game.variants)[-1], goal)
+        setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, variant, goal)
         devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
         scene = Results(arcade.context, self.outcome(), setup, devices, MatchScene, finished, game_choice=game_choice)
         scene.age = 9.0
@@ -75,7 +77,9 @@ ENDINGS = {
     "alone": Ending("pitanks", "human human hard human", ALONE, (-100, -33, 999, 5), (2,)),
     "in teams": Ending("pitanks", "human human q2 human", TEAMS, (-100, -133, 999, -105), (0, 2)),
     "tie": Ending("pitanks", "human human human human", ALONE, (-10, -10, -10, -10), ()),
-    "factory": Ending("factory", "human human hard normal", TEAMS, (2, 8, 1, 1), (1, 3)),
+    "factory": Ending("factory", "human human hard normal", TEAMS, (2, 8, 1, 1), (1, 3), "standard"),
+    "factory party": Ending("factory", "human human hard normal", TEAMS, (22, 18, 11, 21), (1, 3), "party"),
+    "factory together": Ending("factory", "human human hard normal", (0, 0, 0, 0), (2, 8, 1, 1), (0, 1, 2, 3)),
     "race": Ending("race", "human easy normal hard", ALONE, (9, 9, 9, 5), (0,)),
 }
 

@@ -20,7 +20,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_lines, fit_size
+from pigaming_app.ui.draw.text import SMALLEST, fit_lines, fit_size
 
 W = span(8, 4)[1]
 PAD = 32  # px, inner padding of a row
@@ -40,23 +40,24 @@ class RowSizes:
     line: int
     pitch: int  # of the two lines
     chip: int  # height of a chip
+    small: int  # type size of names, notes and descriptions
 
 
-WIDE = RowSizes(140, 236, 16, 38, 94, 156, 48, 60)
-TIGHT = RowSizes(108, 184, 12, 29, 76, 122, 40, 50)
+WIDE = RowSizes(140, 236, 16, 38, 94, 156, 48, 60, BODY)
+TIGHT = RowSizes(108, 184, 12, 25, 69, 118, 40, 46, 32)
 
 
 @cached
 def row(sizes: RowSizes, name: str, value: str, note: str = "", line: str = "") -> LitImage:
     """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
     layer = _layer(sizes, name, sizes.described if line else sizes.choice)
-    layer.canvas.body(note, W - PAD, sizes.name, MIST, "r")
+    layer.canvas.body(note, W - PAD, sizes.name, MIST, "r", sizes.small)
     size = fit_size(value, LABEL, W - 2 * PAD - 100)
     layer.canvas.text(value, size, W / 2, sizes.value, ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
         icon(layer.glow, sign, x, sizes.value, 20, MIST, LINE)
     room = W - 2 * PAD
-    size, parts = fit_lines(line, room, 2)
+    size, parts = fit_lines(line, room, 2, range(sizes.small, SMALLEST, -2))
     for i, part in enumerate(parts):
         layer.canvas.body(part, PAD, sizes.line + sizes.pitch * i, MIST, "l", size)
     return layer.render()
@@ -152,5 +153,5 @@ def focus_outline(height: int) -> LitImage:
 def _layer(sizes: RowSizes, name: str, height: int) -> Layer:
     layer = Layer(0, 0, W, height)
     layer.glow.line(cut_box(0, 0, W, height, 16), STEEL, THIN, True)
-    layer.canvas.body(name, PAD, sizes.name, MIST)
+    layer.canvas.body(name, PAD, sizes.name, MIST, "l", sizes.small)
     return layer

@@ -77,7 +77,7 @@ class ResultsPage:
         columns = game.variants[setup.variant].columns or game.columns
         self.columns = ("score", *columns) if setup.game in SCORED else columns
         self.stars = stars(outcome) if finished and is_allied(setup) else 0
-        self.winners = outcome.winners if finished and (self.stars or not is_allied(setup)) else ()
+        self.winners = outcome.winners if finished else ()
         self.title_at = FIRST + APART * len(self.teams) + 0.15
         self.ready_at = self.title_at + 0.4
         self.parts: list[Part] = []
