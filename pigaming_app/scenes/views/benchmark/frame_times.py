@@ -36,12 +36,13 @@ class BenchmarkMatch(Protocol):
 
 
 class BusyFactory:
-    """Factory match with eight pallets per team and frantic drivers; one robot is always frozen."""
+    """Factory match with as many pallets as possible and frantic drivers; one robot is always frozen."""
 
-    def __init__(self) -> None:
-        rules = games()["factory"].default
+    def __init__(self, variant: str) -> None:
+        rules = games()["factory"].variants[variant]
         one, two, three, four = (Seat("hard", team) for team in rules.teams)
-        setup = Setup("factory", arenas("factory")[0], (one, two, three, four), 8.0, 1, "standard", max(rules.goals))
+        goal = max(rules.goals, default=rules.default_goal)
+        setup = Setup("factory", arenas("factory")[0], (one, two, three, four), 8.0, 1, variant, goal)
         self.match = new_match(setup)
         self.arena, self.state = self.match.arena, self.match.state
 
@@ -51,19 +52,19 @@ class BusyFactory:
         frozen.frozen = frozen.frozen or self.state.rules.freeze
 
 
-BUSY: dict[str, Callable[[], BenchmarkMatch]] = {
-    "pitanks": busy.BusyPiTanks,
+BUSY: dict[str, Callable[[str], BenchmarkMatch]] = {
+    "pitanks": lambda variant: busy.BusyPiTanks(variant=variant),
     "factory": BusyFactory,
-    "race": lambda: race_busy.BusyRace(laps=max(games()["race"].default.goals), variant="party"),
+    "race": lambda variant: race_busy.BusyRace(laps=max(games()["race"].variants[variant].goals), variant=variant),
 }
 
 
-def frame_times(game: str, frames: int) -> list[float]:
+def frame_times(game: str, variant: str, frames: int) -> list[float]:
     """Times of `frames` warm frames at 60 per second, ms. The caller has selected the dummy video driver."""
     pygame.display.init()
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))
-    scene = BUSY[game]()
+    scene = BUSY[game](variant)
     view = VIEWS[game](scene.arena, scene.state, ["human", "human", "easy", "hard"], busy.AllEffects(), Words("en"))
     while not view.prewarm(1000.0):
         pass

@@ -8,6 +8,8 @@ import random
 from dataclasses import dataclass
 
 from pigaming_app.games.arenas import load
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.pitanks.start import set_rules
 from pigaming_app.games.pitanks.state import OWN_BULLETS, PICKUPS, PiTanks
 from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.world import DT, HZ
@@ -26,14 +28,15 @@ class AllEffects:
 class BusyPiTanks:
     """A match without an engine. `teams`: team of each seat, -1 for an empty seat."""
 
-    def __init__(self, teams: tuple[int, ...] = (0, 1, 2, 3), arena: Arena | None = None) -> None:
+    def __init__(
+        self, teams: tuple[int, ...] = (0, 1, 2, 3), arena: Arena | None = None, variant: str = "pickups"
+    ) -> None:
         self.arena = arena or load("pitanks", "classic")
         self.random = random.Random(4)
         self.state = state = PiTanks()
         build(state, self.arena)
-        rules = state.rules
-        rules.ticks, rules.turbo, rules.pickups = 120 * HZ, 1, 1
-        rules.power_life, rules.pickup_life, rules.mine_arming = 8 * HZ, 12 * HZ, HZ
+        one, two, three, four = (Seat("hand2", team) for team in teams)
+        set_rules(state.rules, Setup("pitanks", self.arena.name, (one, two, three, four), 2.0, 1, variant))
         for seat, robot in enumerate(state.robots):
             robot.present, robot.team = int(teams[seat] >= 0), teams[seat]
             robot.x, robot.y = 400 + 800 * (seat % 2), 250 + 400 * (seat // 2)
@@ -57,6 +60,8 @@ class BusyPiTanks:
         if state.tick % 15 == 0:
             self._hit()
         self._scatter_items()
+        if state.rules.knockout:
+            self._celebrate()
 
     def _shoot(self) -> None:
         state = self.state
@@ -86,6 +91,15 @@ class BusyPiTanks:
         standing = [wall for wall in state.walls[: state.wall_count] if wall.health]
         if standing:
             self.random.choice(standing).health -= 1
+
+    def _celebrate(self) -> None:
+        """Knock-outs, lit robots and bounties of the party rules."""
+        state = self.state
+        for seat in self.seats:
+            tank, t = state.tanks[seat], state.tick + 40 * seat
+            tank.knocked_out = max(0, state.rules.knockout - t % (2 * HZ))
+            tank.lit, tank.bounty = int(t % (4 * HZ) > 2 * HZ), int(t % (3 * HZ) > HZ)
+            tank.camp_x, tank.camp_y = state.robots[seat].x, state.robots[seat].y
 
     def _scatter_items(self) -> None:
         state = self.state
