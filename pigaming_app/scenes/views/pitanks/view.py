@@ -99,11 +99,12 @@ class PiTanksView(MatchView):
             if held.lit or (state.rules.camping and held.camped > state.rules.camping - HZ):
                 put(under, party.spotlight() if held.lit else party.stage(), LEFT + held.camp_x, TOP + held.camp_y)
             if held.bounty:
-                x, y, _ = self.pose(seat, blend)
+                x, y, heading = self.pose(seat, blend)
                 below = self.reach(seat, BOUNTY)  # popups rise above
+                trailed = seat in self.real and math.sin(heading) < 0.0  # by its badge
                 points = (1 + held.bounty) * (2 if is_finale(state) else 1)
                 x = min(max(x, LEFT + 84), LEFT + WIDTH - 84)
-                put(top, party.bounty(points), x, y + below if y + below < TOP + HEIGHT - 44 else y - below)
+                put(top, party.bounty(points), x, y - below if trailed or y + below > TOP + HEIGHT - 44 else y + below)
 
     def _robot(self, under: Batch, over: Batch, light: Batch, state: PiTanks, seat: int, pose: Pose) -> None:
         x, y, heading = pose
