@@ -9,14 +9,14 @@ from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHI
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud_parts import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.pitanks.background import WalledBackground
-from pigaming_app.scenes.views.pitanks.effects import react
+from pigaming_app.scenes.views.pitanks.effects import ABOVE, react
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
 from pigaming_app.scenes.views.pitanks.hud import PiTanksHud, pulse
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
+from pigaming_app.scenes.views.view import REAL_WIDER, MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -59,7 +59,8 @@ class PiTanksView(MatchView):
         for event in events:
             if event.kind == "fire" and event.player is not None:
                 self.flashed[event.player] = self.particles.clock
-        return react(events, state, self.particles, self.options)
+        above = ABOVE + REAL_WIDER if self.real else ABOVE
+        return react(events, state, self.particles, self.options, above)
 
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
         self.particles.advance(seconds)
