@@ -13,7 +13,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
-from pigaming_app.sim.world import DT, HZ, ROBOTS, Action
+from pigaming_app.sim.world import DT, ROBOTS, Action
 
 
 class Brain(Protocol):
@@ -64,12 +64,13 @@ class Match:
     @property
     def overtime(self) -> bool:
         """True while the match goes on after its regular time."""
-        return not self.over and self.state.tick >= round(self.setup.minutes * 60 * HZ)
+        return not self.over and self.state.tick >= self.state.rules.ticks
 
     @property
     def seconds_left(self) -> float:
-        """Of the regular time; in overtime, of that."""
-        most = self.game.variants[self.setup.variant].overtime if self.overtime else 0.0
+        """Of the regular time; from its end on, of the overtime, if there is one."""
+        began = self.overtime or self.state.tick > self.state.rules.ticks
+        most = self.game.variants[self.setup.variant].overtime if began else 0.0
         return max(0.0, self.setup.minutes * 60 + most - self.seconds)
 
     def tick(self) -> None:

@@ -30,8 +30,6 @@ def judge(match: Any) -> None:
     if match.over:
         stop_all(match)
         return
-    if match.rules.bounty_lead or match.rules.overtime:
-        mark_leaders(match)
     for k in range(ROBOTS):
         if match.robots[k].present:
             count_down(match.tanks[k])
@@ -49,6 +47,8 @@ def judge(match: Any) -> None:
     match.tick += 1
     if match.tick >= match.rules.ticks and is_decided(match):
         match.over = 1
+    if match.rules.bounty_lead or match.rules.overtime:
+        mark_leaders(match)
 
 
 @kernel

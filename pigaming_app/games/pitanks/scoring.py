@@ -50,7 +50,7 @@ def is_overtime(match: Any) -> bool:
 
 @kernel
 def mark_leaders(match: Any) -> None:
-    """Set bounty and bar of every robot from the scores at the beginning of the tick, so that no seat is preferred."""
+    """Set bounty and bar of every robot for the next tick. Its own hits do not change them: no seat is preferred."""
     overtime = is_overtime(match)
     for k in range(ROBOTS):
         ahead = lead(match, k) if match.robots[k].present else 0

@@ -10,7 +10,7 @@ from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HZ
 
 MINUTES, DEFAULT_MINUTES = (1, 2, 3, 5), 2
-KNOCKOUT, PARTY_PROTECTION = round(0.8 * HZ), round(1.5 * HZ)
+KNOCKOUT, PARTY_PROTECTION = round(0.8 * HZ), 2 * HZ
 OVERTIME = 15.0  # s, at most
 VARIANTS = named(
     Variant("pickups", MINUTES, DEFAULT_MINUTES),

@@ -22,6 +22,7 @@ from pigaming_app.scenes.flow.match_words import tagline
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
 from pigaming_app.scenes.play.idle_seats import IdleSeats
+from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.runner import MatchRunner
@@ -72,6 +73,9 @@ class MatchScene:
         self.idle = self.frozen = self.notice_left = 0.0
         self.notice: Caption | None = None
         self.results: Results | None = None
+        self.again: SlowMotion | None = None
+        if repeats_last_hit(self.match):
+            self.runner.last_hit = LastHit()
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
@@ -97,6 +101,8 @@ class MatchScene:
     def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
         if self.match.over:
+            if self.again:
+                self.again.skip()
             return None
         if event.button is Button.LOST:
             self.idle_seats.forget(event.device)
@@ -144,7 +150,10 @@ class MatchScene:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Draw the arena, and the countdown, captions and notices over it."""
+        """Draw the arena, and the countdown, captions and notices over it; after the end the last hit again."""
+        if self.again and self.again.seconds:
+            self.again.draw(screen)
+            return
         self.runner.draw(screen)
         words = self.context.words
         if self.match.over and not self.stop_requested:
@@ -333,12 +342,18 @@ class MatchScene:
             )
             if finished:
                 self.context.sounds.play("go")
+                self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
         ready = self.results.prewarm(PREWARM_MS)
         self.frozen += seconds
         self.runner.wait(seconds)
-        if ready and (self.stop_requested or self.frozen >= FREEZE_SECONDS):
-            return Swap(self.results)
-        return None
+        if ready and self.again:
+            ready = self.again.prewarm(PREWARM_MS)
+        if not ready or not (self.stop_requested or self.frozen >= FREEZE_SECONDS):
+            return None
+        if self.again and not self.again.over:
+            self.again.update(seconds)
+            return None
+        return Swap(self.results)
 
 
 def rematch_setup(setup: Setup, devices: Sequence[Device | None]) -> Setup:
