@@ -10,7 +10,7 @@ from typing import Any
 from pigaming_app.ai.brain import baselines
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.factory import foreman, foreman_thoughts
-from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner
+from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner, gunner_thoughts
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.race import racer, racer_thoughts
 from pigaming_app.games.game import Setup
@@ -22,9 +22,9 @@ KINDS: dict[str, dict[str, BrainKind]] = {
     "pitanks": {
         "idle": baselines.IDLE,
         "random": baselines.RANDOM,
-        "hand1": gunner.HAND1,
-        "hand2": gunner.HAND2,
-        "hand3": gunner.HAND3,
+        "hand1": replace(gunner.HAND1, explain=gunner_thoughts.explain),
+        "hand2": replace(gunner.HAND2, explain=gunner_thoughts.explain),
+        "hand3": replace(gunner.HAND3, explain=gunner_thoughts.explain),
         "fsm": replace(fsm.FSM, explain=fsm_thoughts.explain),
         "classic": replace(classic.CLASSIC, explain=classic_thoughts.explain),
         "q1": table_files.shipped_brain("q1"),

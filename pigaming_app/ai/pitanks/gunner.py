@@ -56,7 +56,6 @@ class GunnerMind:
     lead: float  # share of the target's movement that the aim allows for
     watch: int  # ticks for which it watches a shot before it aims again
     swing: int  # ticks for which it swings aside after a shot
-    trigger: int  # ticks for which the gun must point at the target
     loyalty: float  # px by which its target counts as nearer than other opponents
     random: int
     wait: int  # ticks until the next decision; at random at first, so that no seat is always ahead of another
@@ -65,7 +64,6 @@ class GunnerMind:
     unseen: int  # ticks since the target was last in sight
     seen: int  # ticks for which the target has been in sight
     target: int  # index into `obs.others`; -1: none
-    on_target: int  # ticks for which the gun has pointed at the target
     shot: int  # ticks since the last shot
     bias: float  # present aiming error, rad
     bias_left: int  # ticks until the next draw
@@ -185,7 +183,7 @@ def choose_target(obs: Any, mind: Any) -> None:
             if cost < least:
                 best, least = i, cost
     if best != mind.target:
-        mind.target, mind.seen, mind.on_target = best, 0, 0
+        mind.target, mind.seen = best, 0
     if best >= 0 and obs.others[best].clear:
         mind.seen += PERIOD
         if mind.seen * DT >= mind.senses.delay:  # noticed
@@ -242,19 +240,13 @@ def aim(mind: Any, other: Any) -> float:
 
 @kernel
 def pull_trigger(obs: Any, mind: Any) -> int:
-    """1 if the gun has pointed at the target for long enough, or if a mine can be laid at a distance."""
+    """1 if the gun points at a target that can be hit, or if a mine can be laid at a distance."""
     other = obs.others[mind.target]
     if obs.mine and other.distance > 150.0:
         return 1
-    if mind.seen * DT < mind.senses.delay or not obs.loaded or other.protected > INVULNERABLE:
+    if not can_hit(obs, mind) or abs(aim(mind, other)) > 0.7 * RADIUS / (other.distance + 1.0) + 0.02:
         return 0
-    if not other.clear or abs(aim(mind, other)) > 0.7 * RADIUS / (other.distance + 1.0) + 0.02:
-        mind.on_target = 0
-        return 0
-    mind.on_target += PERIOD
-    if mind.on_target < mind.trigger:
-        return 0
-    mind.on_target, mind.shot = 0, 0
+    mind.shot = 0
     mind.weave = 1.0 if uniform(mind) < 0.5 else -1.0
     return 1
 
@@ -277,6 +269,15 @@ def swing_angle(other: Any) -> float:
 
 
 @kernel
+def can_hit(obs: Any, mind: Any) -> int:
+    """1 if the gun is loaded and the target noticed, in sight and not protected."""
+    other = obs.others[mind.target]
+    if not obs.loaded or not other.clear or other.protected > INVULNERABLE:
+        return 0
+    return 1 if mind.seen * DT >= mind.senses.delay else 0
+
+
+@kernel
 def choose_side(match: Any, obs: Any, mind: Any, other: Any) -> None:
     """Swing to the other side if a wall is in the way and there is room on that one."""
     angle = obs.heading + other.bearing
@@ -294,20 +295,18 @@ def has_room(match: Any, obs: Any, direction: float) -> int:
     return is_clear(match, obs.x, obs.y, x, y, RADIUS)
 
 
-def make_reset(
-    delay: float, spread: float, lead: float, watch: float, swing: float, trigger: float, loyalty: float
-) -> Any:
+def make_reset(delay: float, spread: float, lead: float, watch: float, swing: float, loyalty: float) -> Any:
     """A `reset` for a strength: times in s, the rest as in the mind."""
 
     def fill(mind: GunnerMind, seed: int) -> None:
         mind.senses.delay, mind.spread, mind.lead, mind.loyalty = delay, spread, lead, loyalty
-        mind.watch, mind.swing, mind.trigger = round(watch * HZ), round(swing * HZ), round(trigger * HZ)
+        mind.watch, mind.swing = round(watch * HZ), round(swing * HZ)
         mind.random, mind.target, mind.shot, mind.weave = seeded(seed), -1, 10 * HZ, 1.0
         mind.wait = 1 + int(uniform(mind) * PERIOD)
 
     return fill
 
 
-HAND1 = BrainKind("hand1", GunnerMind, think, make_reset(0.40, 0.12, 0.0, 1.0, 0.8, 0.1, 350.0))
-HAND2 = BrainKind("hand2", GunnerMind, think, make_reset(0.25, 0.15, 0.8, 0.0, 1.4, 0.1, 150.0))
-HAND3 = BrainKind("hand3", GunnerMind, think, make_reset(0.12, 0.08, 1.0, 0.0, 1.2, 0.1, 100.0))
+HAND1 = BrainKind("hand1", GunnerMind, think, make_reset(0.40, 0.14, 0.2, 0.8, 1.1, 350.0))
+HAND2 = BrainKind("hand2", GunnerMind, think, make_reset(0.27, 0.13, 0.8, 0.0, 1.5, 150.0))
+HAND3 = BrainKind("hand3", GunnerMind, think, make_reset(0.10, 0.05, 1.0, 0.0, 1.2, 100.0))
