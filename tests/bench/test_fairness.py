@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.bench import fairness
-from tests.bench.fairness_pitanks import company
+from tests.bench.fairness_pitanks import Grudges, company
 from tests.bench.trial import SAMPLE, StandingStill, Trial, by_arena, of_robots
 
 
@@ -51,6 +51,16 @@ def test_slow_driving_is_standing_still():
         standing.sample(batch, of_robots(batch, "present") == 1)
     assert standing.shares.tolist() == [1.0, 0.0]
     assert SAMPLE == 5
+
+
+def test_the_victims_next_hit_on_the_same_robot_is_revenge():
+    batch = trial("idle", "idle", "idle", "off", matches=1).batch()
+    grudges, state = Grudges(1), batch.matches[0]
+    for tick, shooter, victim in ((10, 0, 1), (20, 0, 2), (30, 1, 0), (40, 1, 0), (50, 2, 0), (60, 2, 1)):
+        state.last_hit, state.last_shooter, state.last_victim = tick, shooter, victim
+        grudges.sample(batch)
+        grudges.sample(batch)
+    assert grudges.share([0]) == pytest.approx(2 / 3)
 
 
 def test_the_matches_are_spread_over_the_arenas():
