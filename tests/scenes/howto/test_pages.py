@@ -7,13 +7,14 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.howto.lessons import LESSONS, PAGE, PAGES
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.ui.draw import BODY
+from pigaming_app.ui.draw.layers import span
 from pigaming_app.ui.draw.text import wrap
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
 
-ROOM = 354  # px for a caption
+ROOM = span(0, 3)[1] - 48  # px for a caption
 
 
 @pytest.fixture
