@@ -68,8 +68,9 @@ class Match:
 
     @property
     def seconds_left(self) -> float:
-        """Of the regular time; in overtime, of that."""
-        most = self.game.variants[self.setup.variant].overtime if self.overtime else 0.0
+        """Of the regular time; from its end on, of the overtime, if there is one."""
+        began = self.overtime or self.state.tick > self.state.rules.ticks
+        most = self.game.variants[self.setup.variant].overtime if began else 0.0
         return max(0.0, self.setup.minutes * 60 + most - self.seconds)
 
     def tick(self) -> None:

@@ -1,13 +1,14 @@
-"""PiTanks: ties, the worth of hits, standing still and wins by seat, of four equal robots and of two."""
+"""PiTanks: ties, the worth of hits, standing still, revenge and wins by seat, of four equal robots and of two."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
-from tests.bench.trial import StandingStill, Trial, by_arena, live, of_robots, played
+from tests.bench.trial import StandingStill, Trial, by_arena, column, live, of_robots, played
 
 
 def measure(trial: Trial) -> Mapping[str, Any]:
@@ -19,10 +20,11 @@ def measure(trial: Trial) -> Mapping[str, Any]:
 def company(trial: Trial) -> Mapping[str, Mapping[str, float]]:
     """Measures of one trial, by arena."""
     batch = trial.batch()
-    standing = StandingStill(batch)
+    standing, grudges = StandingStill(batch), Grudges(trial.matches)
     present = of_robots(batch, "present") == 1
     for _ in played(trial, batch):
         standing.sample(batch, live(batch)[:, None] & present & (_tanks(batch, "knocked_out") == 0))
+        grudges.sample(batch)
     ends = batch.ended()
     shares = np.where(present, standing.still / np.maximum(1, standing.free), np.nan)
     winners = [standings(games()[trial.game], end)[1] for end in ends]
@@ -33,11 +35,40 @@ def company(trial: Trial) -> Mapping[str, Mapping[str, float]]:
             "most hits wins": _share(_most_hits_win(ends[i], winners[i]) for i in numbers),
             "standing still, median": float(np.nanmedian(shares[numbers])),
             "overtime": _share([ends[i].tick > ends[i].rules.ticks for i in numbers]),
+            **({"revenge": grudges.share(numbers)} if ends[0].rules.knockout else {}),
             "hits a match": float(np.mean([sum(tank.hits for tank in ends[i].tanks) for i in numbers])),
             **{f"wins of seat {seat + 1}": _share([seat in winners[i] for i in numbers]) for seat in _seats(present)},
         }
         for name, numbers in by_arena(trial.setups)
     }
+
+
+class Grudges:
+    """Of the hits that knock out: how often the next hit between the same two robots is the victim's.
+
+    Of several hits in one sample only the last is seen.
+    """
+
+    def __init__(self, matches: int) -> None:
+        self.seen = np.zeros(matches, int)
+        self.shooter: dict[tuple[int, frozenset[int]], int] = {}  # of the last hit, by match and pair
+        self.returned, self.repeated = np.zeros(matches, int), np.zeros(matches, int)
+
+    def sample(self, batch: Batch) -> None:
+        """Count the last hit of every match, if it is a new one."""
+        hits, shooters, victims = (column(batch, f"last_{name}") for name in ("hit", "shooter", "victim"))
+        for i in np.flatnonzero(hits != self.seen):
+            shooter, pair = int(shooters[i]), (int(i), frozenset((int(shooters[i]), int(victims[i]))))
+            if pair in self.shooter:
+                self.returned[i] += self.shooter[pair] != shooter
+                self.repeated[i] += self.shooter[pair] == shooter
+            self.shooter[pair] = shooter
+        self.seen = np.array(hits)
+
+    def share(self, matches: Sequence[int]) -> float:
+        """The share over these matches; 0 without such hits."""
+        returned, repeated = self.returned[matches].sum(), self.repeated[matches].sum()
+        return float(returned / max(1, returned + repeated))
 
 
 def _tanks(batch: Any, name: str) -> Any:

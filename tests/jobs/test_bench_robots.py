@@ -8,7 +8,7 @@ pytest.importorskip("cv2")
 
 from pigaming_app.cli import main
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.proof import testbed
+from pigaming_app.hardware.proof import testbed, trials
 from pigaming_app.jobs.bench import robots as bench_robots
 from pigaming_app.jobs.bench.robots import TARGETS, Job, jobs, on_mat, reached
 
@@ -27,11 +27,28 @@ def test_a_match_on_the_mat_plays_to_its_end(game, ground):
     assert 3.0 <= run.seconds - run.paused < 4.0
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("arena", ["labyrinth", "trenches"])
+def test_knocked_out_robots_keep_out_of_the_walls_on_the_mat(ground, monkeypatch, arena):
+    """They reverse blindly; the virtual walls stop them."""
+    seen = {"hits": 0}
+
+    def noted(state, x, y, depth=trials.entered):
+        seen["hits"] = sum(tank.taken for tank in state.tanks)
+        return depth(state, x, y)
+
+    monkeypatch.setattr(trials, "entered", noted)
+    run = on_mat(Job("pitanks", arena, 30.0, 7, 0.5, mashed=False, carried=True, variant="party"), ground)
+    assert seen["hits"] >= 10
+    assert run.deepest_mm < TARGETS["wall_entry_mm"]
+
+
 def test_twenty_minutes_are_played_in_every_game():
     planned = jobs()
     assert sum(job.minutes for job in planned) == 20.0
     assert {job.game for job in planned} == set(games())
     assert {job.fps for job in planned} == {30.0, 60.0}
+    assert {job.variant for job in planned if job.game == "pitanks"} == {None, "party"}
 
 
 def test_figures_are_compared_with_what_they_must_reach():

@@ -5,6 +5,10 @@ time is up, the most points win. Bullets stop at walls; an inner wall takes five
 your team mates. After a hit you blink and cannot be hit again for three quarters of a second. Turbo makes you faster
 while its meter lasts. Pick-ups: a shield, which takes the next hit for you; speed; rapid fire; three bullets at once;
 bullets that bounce off walls; a mine, which your next shot lays behind you.
+
+By the party rules being hit costs no point, but knocks you out for a moment, in which you roll back. Stay in one place
+and you are lit. A leader far ahead is worth more, the last 20 s count double, and if the leaders are level at the end,
+the next hit wins.
 """
 
 from math import cos, sin

@@ -52,7 +52,7 @@ class Unproven(Exception):
 
 class Job(NamedTuple):
     """One match on the mat. `mashed`: played by random button mashing, else by the hand2 AIs; `carried`: the robots
-    are set down on their places, else they drive there."""
+    are set down on their places, else they drive there. `variant`: None for the game's default."""
 
     game: str
     arena: str
@@ -61,6 +61,7 @@ class Job(NamedTuple):
     minutes: float = MINUTES
     mashed: bool = True
     carried: bool = False
+    variant: str | None = None
 
 
 def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]:
@@ -97,18 +98,20 @@ def reached(figures: dict[str, float]) -> dict[str, bool]:
 
 
 def jobs() -> list[Job]:
-    """Twenty minutes of matches: all games, many arenas, both frame rates."""
+    """Twenty minutes of matches: all games, many arenas, both frame rates; PiTanks by its default and party rules."""
     result = []
     for i in range(MATCHES):
         game = list(games())[i % len(games())]
         places = arenas(game)
-        result.append(Job(game, places[i // len(games()) % len(places)], RATES[i % 4 == 3], i + 1))
+        round_ = i // len(games())
+        variant = "party" if game == "pitanks" and round_ % 2 else None
+        result.append(Job(game, places[round_ % len(places)], RATES[i % 4 == 3], i + 1, variant=variant))
     return result
 
 
 def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
     """Play a match on its own emulated mat, which is calibrated first unless a `ground` is given."""
-    rules = games()[job.game].default
+    rules = games()[job.game].variants[job.variant] if job.variant else games()[job.game].default
     one, two, three, four = (Seat("hand2", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.name, goal)

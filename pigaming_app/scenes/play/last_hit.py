@@ -22,11 +22,13 @@ from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.input.events import Button, InputEvent
 
 BEFORE, AFTER = 28, 12  # ticks shown before and after the hit
 SPEED = 0.25
 SECONDS = (BEFORE + AFTER) * DT / SPEED
 SKIP_AFTER = 0.5  # seconds from which a press ends it
+NO_PRESS = (Button.POINT, Button.FOUND, Button.LOST)
 
 
 def repeats_last_hit(match: Match) -> bool:
@@ -83,9 +85,9 @@ class SlowMotion:
         with surfaces.made_for("pitanks"):
             return self.jobs.work(milliseconds)
 
-    def skip(self) -> None:
-        """End it, unless it has only just begun."""
-        self.skipped = self.seconds >= SKIP_AFTER
+    def handle(self, event: InputEvent) -> None:
+        """End it on any press, unless it has only just begun."""
+        self.skipped |= event.button not in NO_PRESS and self.seconds >= SKIP_AFTER
 
     def update(self, seconds: float) -> None:
         """Advance by `seconds` of real time."""

@@ -110,7 +110,7 @@ class MatchScene:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
         if self.match.over:
             if self.again:
-                self.again.skip()
+                self.again.handle(event)
             return None
         if event.button is Button.LOST:
             self.idle_seats.forget(event.device)
@@ -377,18 +377,21 @@ class MatchScene:
             )
             if finished:
                 self.context.sounds.play("go")
-                self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
-        ready = self.results.prewarm(PREWARM_MS)
         self.frozen += seconds
         self.runner.wait(seconds)
-        if ready and self.again:
-            ready = self.again.prewarm(PREWARM_MS)
-        if not ready or not (self.stop_requested or self.frozen >= FREEZE_SECONDS):
+        if not self.results.prewarm(PREWARM_MS) or self._repeats(seconds):
             return None
-        if self.again and not self.again.over:
+        return Swap(self.results) if self.stop_requested or self.frozen >= FREEZE_SECONDS else None
+
+    def _repeats(self, seconds: float) -> bool:
+        """Show the last hit again, after the final picture; true while it is not over."""
+        if self.again is None and not self.stop_requested:
+            self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
+        if self.again is None:
+            return False
+        if self.again.prewarm(PREWARM_MS) and self.frozen >= FREEZE_SECONDS and not self.again.over:
             self.again.update(seconds)
-            return None
-        return Swap(self.results)
+        return not self.again.over
 
 
 def rematch_setup(setup: Setup, devices: Sequence[Device | None]) -> Setup:

@@ -311,6 +311,18 @@ def test_a_match_tells_overtime_and_its_time():
     assert verify(decode(encode(match), "overtime"))
 
 
+def test_a_hit_that_ends_the_match_leaves_time():
+    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("idle", "idle", "off", "off")))
+    match = Match(Setup("pitanks", "classic", (one, two, three, four), 0.05, 1, "party"))
+    for _ in range(200):
+        match.tick()
+    hit(match.state, 0, 1)
+    match.tick()
+    assert match.over
+    assert match.outcome().winners == (0,)
+    assert match.seconds_left == pytest.approx(3.0 + 15.0 - match.seconds)
+
+
 def test_brains_see_light_knock_out_bounty_finale_and_overtime():
     match = party(THREE)
     match.robots[1].score, match.tanks[2].lit = 4, 1

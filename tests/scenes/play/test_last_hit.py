@@ -99,6 +99,7 @@ def test_the_hit_is_shown_before_the_results_and_changes_nothing(arcade: Arcade)
 
 def test_any_press_skips_it_after_half_a_second(arcade: Arcade) -> None:
     scene = ended(arcade)
+    arcade.until(lambda: scene.again is not None)
     again = scene.again
     assert again is not None
     arcade.press(Button.FIRE)
@@ -107,6 +108,10 @@ def test_any_press_skips_it_after_half_a_second(arcade: Arcade) -> None:
     arcade.frame()
     assert isinstance(arcade.stack.top, MatchScene)
     arcade.until(lambda: again.seconds > 0.6)
+    for button in (Button.POINT, Button.LOST):
+        arcade.press(button)
+    arcade.frame()
+    assert isinstance(arcade.stack.top, MatchScene)
     arcade.press(Button.LEFT)
     arcade.frame()
     arcade.shown(Results)

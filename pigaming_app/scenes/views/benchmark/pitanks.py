@@ -1,6 +1,7 @@
 """Synthetic PiTanks match at peak load, for benchmarks and visual checks: every number changes.
 
-Four robots, thirty bullets, powers, pick-ups, mines, breaking walls and a changing HUD.
+Four robots, thirty bullets, powers, pick-ups, mines, breaking walls and a changing HUD; by the party rules also lights,
+bounties, stars and the banner.
 """
 
 import math
@@ -37,6 +38,8 @@ class BusyPiTanks:
         build(state, self.arena)
         one, two, three, four = (Seat("hand2", team) for team in teams)
         set_rules(state.rules, Setup("pitanks", self.arena.name, (one, two, three, four), 2.0, 1, variant))
+        if state.rules.finale:
+            state.rules.finale = state.rules.ticks
         for seat, robot in enumerate(state.robots):
             robot.present, robot.team = int(teams[seat] >= 0), teams[seat]
             robot.x, robot.y = 400 + 800 * (seat % 2), 250 + 400 * (seat // 2)
@@ -56,12 +59,13 @@ class BusyPiTanks:
             robot.turbo, robot.boosting = 0.5 + 0.5 * math.sin(t + seat), int(math.sin(t + seat) > 0.3)
             tank.protected = max(0, tank.protected - 1)
             tank.powers = [max(0, left - 1) for left in tank.powers]
+            if state.rules.knockout:
+                tank.knocked_out = state.rules.knockout - (state.tick + 10 * seat) % state.rules.knockout
+                tank.camp_x, tank.camp_y, tank.lit, tank.bounty = robot.x, robot.y, 1, 1
         self._shoot()
         if state.tick % 15 == 0:
             self._hit()
         self._scatter_items()
-        if state.rules.knockout:
-            self._celebrate()
 
     def _shoot(self) -> None:
         state = self.state
@@ -85,21 +89,13 @@ class BusyPiTanks:
         state.tanks[maker].hits += 1
         state.robots[maker].score += 1
         state.tanks[victim].taken += 1
-        state.robots[victim].score -= 1
+        state.robots[victim].score -= state.rules.penalty
+        state.last_hit, state.last_shooter, state.last_victim = state.tick, maker, victim
         state.tanks[victim].protected = 38
         state.tanks[maker].powers[self.random.randrange(6)] = 8 * HZ
         standing = [wall for wall in state.walls[: state.wall_count] if wall.health]
         if standing:
             self.random.choice(standing).health -= 1
-
-    def _celebrate(self) -> None:
-        """Knock-outs, lit robots and bounties of the party rules."""
-        state = self.state
-        for seat in self.seats:
-            tank, t = state.tanks[seat], state.tick + 40 * seat
-            tank.knocked_out = max(0, state.rules.knockout - t % (2 * HZ))
-            tank.lit, tank.bounty = int(t % (4 * HZ) > 2 * HZ), int(t % (3 * HZ) > HZ)
-            tank.camp_x, tank.camp_y = state.robots[seat].x, state.robots[seat].y
 
     def _scatter_items(self) -> None:
         state = self.state

@@ -10,7 +10,7 @@ from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
 
-BESIDE = 46.0  # px from a robot to its score popup
+BESIDE, ABOVE = 46.0, 66.0  # px from a robot to its score popup
 
 
 SOUNDS = {
@@ -30,17 +30,19 @@ SOUNDS = {
 }
 
 
-def react(events: Iterable[PiTanksEvent], state: PiTanks, particles: Particles, options: ViewOptions) -> list[SoundCue]:
-    """Add particles for the events; returns their sounds."""
+def react(
+    events: Iterable[PiTanksEvent], state: PiTanks, particles: Particles, options: ViewOptions, above: float = ABOVE
+) -> list[SoundCue]:
+    """Add particles for the events; returns their sounds. `above`: px from a robot up to its popups."""
     cues: list[SoundCue] = []
     for event in events:
-        _show(event, state, particles, options)
+        _show(event, state, particles, options, above)
         if event.kind in SOUNDS:
             cues.append((SOUNDS[event.kind], event.player, event.x))
     return cues
 
 
-def _show(event: PiTanksEvent, state: PiTanks, particles: Particles, options: ViewOptions) -> None:
+def _show(event: PiTanksEvent, state: PiTanks, particles: Particles, options: ViewOptions, above: float) -> None:
     x, y, player = LEFT + event.x, TOP + event.y, event.player
     color = ICE if player is None else PLAYERS[player]
     match event.kind:
@@ -48,10 +50,10 @@ def _show(event: PiTanksEvent, state: PiTanks, particles: Particles, options: Vi
             particles.burst(x, y, color, 30, 46, 120)
             _blast(x, y, color, particles, options)
             if state.rules.penalty:
-                particles.score(_clamp_x(x) + BESIDE, y - 66, f"−{event.number}", player or 0)
+                particles.score(_clamp_x(x) + BESIDE, y - above, f"−{event.number}", player or 0)
         case "scored":
             at = _clamp_x(x) - BESIDE if state.rules.penalty else x
-            particles.score(at, y - 66, f"+{event.number}", player or 0)
+            particles.score(at, y - above, f"+{event.number}", player or 0)
         case "shielded":
             particles.burst(x, y, color, 26, 66, 90)
             particles.burst(x, y, FOCUS, 10, 66, 70)

@@ -9,7 +9,7 @@ from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHI
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud_parts import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.pitanks.background import WalledBackground
-from pigaming_app.scenes.views.pitanks.effects import react
+from pigaming_app.scenes.views.pitanks.effects import ABOVE, react
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
 from pigaming_app.scenes.views.pitanks.hud import PiTanksHud, pulse
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
@@ -17,7 +17,7 @@ from pigaming_app.scenes.views.rumble import rumbles
 from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
+from pigaming_app.scenes.views.view import REAL_WIDER, MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -61,7 +61,8 @@ class PiTanksView(MatchView):
             if event.kind == "fire" and event.player is not None:
                 self.flashed[event.player] = self.particles.clock
         self.rumbles = rumbles("pitanks", ((event.kind, event.player) for event in events))
-        return react(events, state, self.particles, self.options)
+        above = ABOVE + REAL_WIDER if self.real else ABOVE
+        return react(events, state, self.particles, self.options, above)
 
     def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
         self.particles.advance(seconds)
@@ -101,11 +102,12 @@ class PiTanksView(MatchView):
             if held.lit or (state.rules.camping and held.camped > state.rules.camping - HZ):
                 put(under, party.spotlight() if held.lit else party.stage(), LEFT + held.camp_x, TOP + held.camp_y)
             if held.bounty:
-                x, y, _ = self.pose(seat, blend)
+                x, y, heading = self.pose(seat, blend)
                 below = self.reach(seat, BOUNTY)  # popups rise above
+                trailed = seat in self.real and math.sin(heading) < 0.0  # by its badge
                 points = (1 + held.bounty) * (2 if is_finale(state) else 1)
                 x = min(max(x, LEFT + 84), LEFT + WIDTH - 84)
-                put(top, party.bounty(points), x, y + below if y + below < TOP + HEIGHT - 44 else y - below)
+                put(top, party.bounty(points), x, y - below if trailed or y + below > TOP + HEIGHT - 44 else y + below)
 
     def _robot(self, under: Batch, over: Batch, light: Batch, state: PiTanks, seat: int, pose: Pose) -> None:
         x, y, heading = pose
