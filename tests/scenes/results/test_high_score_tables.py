@@ -52,7 +52,7 @@ def test_a_match_counts_against_people_and_opponents_no_weaker_than_normal(brain
 
 @pytest.mark.parametrize("game", games())
 def test_of_the_ais_of_a_game_only_the_weak_ones_do_not_count(game):
-    weak = {"idle", "random", "easy", "hand1", "classic"}
+    weak = {"idle", "random", "easy", "hand1", "fsm", "classic"}
     assert set(BRAINS[game]) - STRONG == weak & set(BRAINS[game])
 
 
