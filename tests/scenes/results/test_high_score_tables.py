@@ -32,7 +32,7 @@ def match(brains, teams=FREE, game="pitanks", minutes=2.0, goal=0, variant=None)
     [
         ("human normal off off", FREE, True),
         ("human human off off", FREE, True),
-        ("human hard fsm q1", FREE, True),
+        ("human hard q2 q1", FREE, True),
         ("human q2 human normal", FREE, True),
         ("human easy off off", FREE, False),
         ("human hard hard easy", FREE, False),
