@@ -51,7 +51,8 @@ class RacerMind:
 
     senses: Senses
     obs: Observation
-    speed: float  # share of full speed, in this race
+    speed: float  # share of full speed
+    form: float  # share of that which it reaches today
     line: float  # 0: middle of the course, 1: fastest line
     spread: float  # standard deviation of the line error, px
     boost: float  # share of the turbo meter needed to start turbo; above 1: never
@@ -115,7 +116,7 @@ def race(obs: Any, mind: Any, action: Any) -> int:
     mark = obs.ahead
     choose_lane(obs, mind)
     room = mark.half - (EDGE if obs.on else OUT)
-    lane = mind.lane + mind.stray if mind.lane * mind.stray < 0.0 else mind.lane - mind.stray  # towards the middle
+    lane = aimed_lane(mind)
     if mind.blunder > 0:
         room += OVER
         lane += -WIDE if obs.turn > 0.0 else WIDE
@@ -149,6 +150,13 @@ def break_free(obs: Any, mind: Any, action: Any) -> int:
 
 
 # ------------------------------------------------------------------------------------------------------------- helpers
+
+
+@kernel
+def aimed_lane(mind: Any) -> float:
+    """Its lane with the present line error, which is always towards the middle, px right of it."""
+    lane: float = mind.lane + mind.stray if mind.lane * mind.stray < 0.0 else mind.lane - mind.stray
+    return lane
 
 
 @kernel
@@ -228,7 +236,7 @@ def pursue(obs: Any, mind: Any, action: Any, x: float, y: float) -> None:
     held = leader_speed(obs, mind)
     dash = wants_turbo(obs, mind, bend) if held > 1.0 else 0
     full = obs.speed * (obs.turbo_factor if dash else 1.0)
-    speed, limit = mind.speed, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
+    speed, limit = mind.speed * mind.form, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
     if mind.blunder <= 0:
         early = 1.0 if obs.pace >= 1.0 else 1.0 - mind.caution
         speed *= obs.pace * early
@@ -263,9 +271,9 @@ def make_reset(
     foresight: float,
     alert: float,
 ) -> Any:
-    """A `reset` for a strength: `form` is the share of its speed that it may lack on a bad day; `delay` the reaction time
-    to others, s; `reaction` the fewest ticks to its start, and how many more are possible, a multiple of PERIOD, so that
-    no seat has an advantage; the rest as in RacerMind.
+    """A `reset` for a strength: `form` is the share of its speed that it may lack on a bad day; `delay` the reaction
+    time to others, s; `reaction` the fewest ticks to its start, and how many more are possible, a multiple of PERIOD,
+    so that no seat has an advantage; the rest as in RacerMind.
     """
 
     def fill(mind: RacerMind, seed: int) -> None:
@@ -274,7 +282,7 @@ def make_reset(
         mind.care, mind.mistakes, mind.foresight, mind.alert = care, mistakes, foresight, alert
         mind.random = seeded(seed)
         mind.reaction = reaction[0] + int(reaction[1] * uniform(mind))
-        mind.speed *= 1.0 - form * uniform(mind)
+        mind.form = 1.0 - form * uniform(mind)
 
     return fill
 
