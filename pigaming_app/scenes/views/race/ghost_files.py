@@ -11,14 +11,15 @@ import json
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from threading import Thread
 from typing import Any
 
+from pigaming_app.games.arenas import load
 from pigaming_app.games.engine_hash import engine_hash
-from pigaming_app.games.race.course import CoursePosition, locate
+from pigaming_app.games.race.course import CoursePosition, distance_ahead, locate
 from pigaming_app.games.race.state import LINES, Rules
 from pigaming_app.sim.arena import Arena
 from pigaming_app.storage.parsing import parse_json, quote
@@ -26,6 +27,9 @@ from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_wit
 
 RATE = 10.0  # poses per second
 FOLDER = "ghosts"
+FORMER = {  # hashes of the shipped tracks before 1.6, when their lines lay elsewhere
+    "classic": "5d11e68c", "hairpin": "bc717643", "kidney": "155cb634", "technical": "c733e0a0",
+}  # fmt: skip
 LONGEST = 600.0  # s
 FARTHEST = 10_000.0  # px from the centre, or rad
 SLACK = 1.1  # tolerance: real robots may be slightly faster than the rules, and tracked poses jitter
@@ -89,8 +93,14 @@ def file_of(folder: Path, arena: Arena) -> Path:
 
 
 def load_ghost(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
-    """The ghost of a track, if any, and the reason if one was dropped: "old", "lost", else ""."""
+    """The ghost of a track, if any, and the reason if one was dropped: "old", "lost", else "".
+
+    A ghost from before the lines of a shipped track were moved is timed anew at the present lines.
+    """
     parsed, warnings = read_or_restore(file_of(folder, arena), _parsed)
+    if parsed is None and not warnings and arena.source == _shipped(arena.name):
+        former = folder / FOLDER / f"{arena.name}-{FORMER[arena.name]}.json"
+        parsed, warnings = read_or_restore(former, lambda text: _retimed(*_parsed(text), arena))
     for line in warnings:
         log.warning("%s", line)
     if parsed is None:
@@ -116,6 +126,35 @@ def drivable(ghost: Ghost, arena: Arena) -> bool:
         if min(off, course.length - off) > NEAR:
             return False
     return True
+
+
+def _shipped(name: str) -> str | None:
+    """Source of a shipped track whose lines were moved; None for any other name."""
+    return load("race", name).source if name in FORMER else None
+
+
+def _retimed(engine: str, ghost: Ghost, arena: Arena) -> tuple[str, Ghost]:
+    """The same lap, from the present first line to itself. Raises ValueError if it does not cross every line."""
+    course, place = arena.plan.course, CoursePosition()
+    at, alongs = [k / RATE for k in range(len(ghost.poses))], []
+    for x, y, _ in ghost.poses:
+        locate(course, x, y, place)
+        alongs.append(place.along)
+    crossed: list[float] = []
+    for line in arena.plan.lines:
+        for k, (begin, along) in enumerate(zip(at, alongs, strict=True)):
+            after, end = (at[k + 1], alongs[k + 1]) if k + 1 < len(at) else (ghost.seconds, alongs[0])
+            step, way = distance_ahead(course, along, end), distance_ahead(course, along, line)
+            if way < step < 0.25 * course.length:
+                crossed.append(begin + way / step * (after - begin))
+                break
+        else:
+            raise ValueError("the lap does not cross the lines")
+    start = crossed[0]
+    times = tuple((time - start) % ghost.seconds for time in crossed)
+    whole = replace(ghost, crossed=(0.0,) * LINES)
+    poses = [whole.pose(0, (start + i / RATE) % ghost.seconds) for i in range(len(ghost.poses))]
+    return engine, Ghost(0, ghost.seconds, times, tuple(pose for pose in poses if pose))
 
 
 def save_ghost(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
