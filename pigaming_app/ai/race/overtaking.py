@@ -25,7 +25,7 @@ CHARGED = 0.3  # of the meter, from which it pulls out to pass in `party`
 PULL_OUT = 170.0  # px to a robot ahead, within which it does
 PASSING, STRAIGHT = 120.0, 0.3  # cost of staying behind then, on a straight; sine of the turn ahead from which it waits
 TOW, TOW_REACH = 25.0, 340.0  # worth of a slipstream, px, and its length
-PAD, PAD_HALF = 45.0, 30.0  # worth of a boost pad, px, and px aside of its middle that still reach it
+PAD, PAD_HALF = 90.0, 30.0  # worth of a boost pad, px, and px aside of its middle that still reach it
 BOX, BOX_HALF = 35.0, 48.0  # the same of an item box
 SLICK, SLICK_HALF = 300.0, 46.0  # cost of oil, and px to either side that it wants to keep
 CLOSE = 20.0  # px ahead, below which it is too late to steer for something
@@ -52,8 +52,7 @@ def choose_lane(obs: Any, mind: Any) -> None:
 def lane_cost(obs: Any, mind: Any, lane: float) -> float:
     """Cost of the robots and features on a lane, px; 0 if there are none. `lane`: px right of the middle."""
     cost = feature_cost(obs, mind, lane) if obs.party else 0.0
-    ready = obs.party and (obs.turbo > CHARGED or obs.surge)
-    passing = PASSING * (1.0 - abs(obs.turn) / STRAIGHT) if ready else 0.0
+    passing = eagerness(obs)
     for i in range(OTHERS):
         other = obs.others[i]
         if not other.present or other.ahead < -CLEAR or other.distance > FAR:
@@ -71,6 +70,15 @@ def lane_cost(obs: Any, mind: Any, lane: float) -> float:
             elif passing > 0.0 and other.distance < PULL_OUT:
                 cost += passing * (1.0 - gap / CLEAR)
     return cost
+
+
+@kernel
+def eagerness(obs: Any) -> float:
+    """Cost of staying behind a robot right ahead, px: in `party`, with a charged meter, on a straight."""
+    if not obs.party or (obs.turbo < CHARGED and not obs.surge):
+        return 0.0
+    cost: float = PASSING * (1.0 - abs(obs.turn) / STRAIGHT)
+    return cost if cost > 0.0 else 0.0
 
 
 @kernel
@@ -108,9 +116,10 @@ def feature_cost(obs: Any, mind: Any, lane: float) -> float:
 def leader_speed(obs: Any, mind: Any) -> float:
     """Speed of a robot right ahead on the present lane, as a share of full speed; above 1 if there is none."""
     share = 2.0
+    tail = 0.0 if obs.party else TAIL
     for i in range(OTHERS):
         other = obs.others[i]
-        near = other.present and other.ahead > 15.0 and other.distance < CLEAR + TAIL
+        near = other.present and other.ahead > 15.0 and other.distance < CLEAR + tail
         if near and other.speed > 100.0 and abs(other.aside - mind.lane) < CLEAR - LEEWAY:
             limit = 0.98 * other.speed / obs.speed
             share = limit if limit < share else share

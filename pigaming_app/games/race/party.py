@@ -21,7 +21,7 @@ BOX = 20.0  # px, half the width of an item box
 DROP = 90.0  # px from the robot's centre to the oil that it drops
 PARALLEL = 0.7  # least cosine between the headings of two robots in a slipstream
 SLIP_SPEED = 100.0  # px/s, least speed of both
-LEADER_TURBO, STEP_TURBO = 0.05, 0.3  # chance that a box holds `turbo`: the leader's, and more for each place behind
+BEHIND_TURBO, STEP_TURBO = 0.3, 0.2  # chance that a box holds `turbo`: less for the leader, more for each place behind
 OIL_SHARE = 0.4  # of the other items
 CREEP = 0.2  # share of full speed in a spin
 
@@ -67,7 +67,7 @@ def update_box(match: Any, box: Any) -> None:
 def draw_item(match: Any, rank: int) -> int:
     """A random item for a robot of this rank."""
     drawn = uniform(match)
-    turbo = LEADER_TURBO + STEP_TURBO * (rank - 1)
+    turbo = BEHIND_TURBO + STEP_TURBO * (rank - 1) if rank > 1 else 0.0
     if drawn < turbo:
         return TURBO
     return OIL if drawn < turbo + OIL_SHARE * (1.0 - turbo) else SHIELD

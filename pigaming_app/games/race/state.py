@@ -39,10 +39,10 @@ class Rules:
         240.0
     )  # px between the centres of two robots, up to which the one behind is in the slipstream
     slip_width: float = added(45.0)  # px by which it may be aside of the other's track
-    slip_refill: float = added(1.0 / (4 * HZ))  # of the turbo meter, per tick and place: twice for the second
-    surge_factor: float = added(1.25)  # of speed, on a boost pad and after it
-    pad_surge: int = added(round(0.7 * HZ))
-    item_surge: int = added(round(1.2 * HZ))  # of the item `turbo`, which also fills the meter
+    slip_refill: float = added(1.0 / (5 * HZ))  # of the turbo meter, per tick and place: twice for the second
+    surge_factor: float = added(1.3)  # of speed, on a boost pad and after it
+    pad_surge: int = added(round(1.0 * HZ))
+    item_surge: int = added(round(1.4 * HZ))  # of the item `turbo`, which also fills the meter
     shield_life: int = added(10 * HZ)
     box_pause: int = added(HZ)  # until an item box that was taken is back
     oil_life: int = added(20 * HZ)
