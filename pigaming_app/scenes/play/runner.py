@@ -114,7 +114,7 @@ class MatchRunner:
         for seat, key in self.view.hints.items():
             if device := devices[seat]:
                 label = words.key_name(controls.label(device, Button.FIRE))
-                sheet = caption(words(key, button=label), PLAYERS[seat], face="head")
+                sheet = caption(words(key, button=label), PLAYERS[seat], player=seat, face="head")
                 robot, gap = self.match.state.robots[seat], self.view.reach(seat, CAPTION_GAP)
                 margin = LEFT + 24 + sheet.width / 2
                 x = min(max(LEFT + robot.x, margin), 1920 - margin)

@@ -74,7 +74,7 @@ class RaceHud:
         for seat in (i for i, robot in enumerate(state.robots) if robot.present):
             yield partial(race_cards.pulse, seat)
             for alarm, done in ((False, False), (True, False), (False, True)):
-                yield partial(race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not done)
+                yield partial(race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not (alarm or done))
             for full in (True, False):
                 yield partial(race_cards.turbo, seat, full, False)
                 yield partial(race_cards.foot, seat, state.rules.laps, full)
@@ -106,6 +106,7 @@ class RaceHud:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
         direction, changed_at = self.moves.get(seat, (0, -MOVED))
         done = bool(racer.finished)
+        sign = "" if done else "missed" if racer.missed else "wrong" if drives_wrong(racer) else ""
         share = racer.progress / (laps * state.course.length)
         return RaceCard(
             seat=seat,
@@ -117,11 +118,11 @@ class RaceHud:
             turbo=round(64 * robot.turbo),
             way=FOOT if done else round(FOOT * max(0.0, min(1.0, share))),
             laps=laps,
-            sign="" if done else "missed" if racer.missed else "wrong" if drives_wrong(racer) else "",
+            sign=sign,
             missed=self.signs[racer.missed - 1],
             moved=direction if state.tick - changed_at < MOVED else 0,
             done=done,
-            item=ICONS[racer.item] if state.rules.party and not done else "none",
+            item=ICONS[racer.item] if state.rules.party and not done and not sign else "none",
             slip=bool(racer.slip) and not done,
         )
 
