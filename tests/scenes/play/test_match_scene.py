@@ -7,12 +7,14 @@ import pygame
 import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
+from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.play.countdown import CENTRE, clear_of
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import TIMEOUT, Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
@@ -280,3 +282,56 @@ def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, r
     arcade.until(lambda: scene.results is not None)
     assert scene.results
     assert len(scene.results.claims) == records
+
+
+def race(arcade: Arcade) -> MatchScene:
+    """A race of a person and an AI, before its countdown."""
+    one, two, three, four = Seat("human", 0), Seat("random", 1), Seat("off", 2), Seat("off", 3)
+    setup = Setup("race", "classic", (one, two, three, four), 1.0, 1, "standard", 1)
+    return MatchScene(arcade.context, setup, [KEYS[0]])
+
+
+def test_hints_are_drawn_from_go_to_the_end(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    match, drawn = race(arcade), []
+    monkeypatch.setattr(match.runner, "draw_hints", lambda screen, devices: drawn.append(devices))
+    match.draw(arcade.screen)
+    assert drawn == []
+    while match.countdown.locked:
+        match.countdown.update(0.1)
+    match.draw(arcade.screen)
+    assert drawn == [match.devices]
+    match.match.state.over = 1
+    match.draw(arcade.screen)
+    assert len(drawn) == 1
+
+
+@pytest.mark.parametrize(("y", "side"), [(60.0, 1), (300.0, 1), (820.0, -1)])
+def test_a_hint_stays_in_the_picture_and_clear_of_the_sign(arcade: Arcade, y: float, side: int) -> None:
+    match = race(arcade)
+    robot = match.match.state.robots[0]
+    robot.x, robot.y = 20.0, y
+    match.runner.view.hints = {0: "race.back_hint"}
+    box = drawn_hints(arcade, match)
+    assert pygame.Rect(LEFT, TOP, 1600, 900).contains(box)
+    assert (box.centery - TOP - y) * side > 80.0
+
+
+def test_a_hint_names_the_button_and_an_ai_gets_none(arcade: Arcade) -> None:
+    match = race(arcade)
+    match.runner.view.hints = {1: "race.back_hint"}
+    assert drawn_hints(arcade, match).w == 0
+    widths = []
+    for device in KEYS[:3]:
+        match.devices[0], match.runner.view.hints = device, {0: "race.back_hint"}
+        widths.append(drawn_hints(arcade, match).w)
+    assert len(set(widths)) == 3  # SPACE, R CTRL, U
+
+
+def drawn_hints(arcade: Arcade, match: MatchScene) -> pygame.Rect:
+    """The part of the screen that the hints take."""
+    arcade.screen.fill("black")
+    match.runner.draw_hints(arcade.screen, match.devices)
+    lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (8, 8, 8, 255))
+    lit.invert()
+    boxes = lit.get_bounding_rects()
+    return boxes[0].unionall(boxes[1:]) if boxes else pygame.Rect(0, 0, 0, 0)

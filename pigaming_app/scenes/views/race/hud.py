@@ -74,7 +74,9 @@ class RaceHud:
         for seat in (i for i, robot in enumerate(state.robots) if robot.present):
             yield partial(race_cards.pulse, seat)
             for alarm, done in ((False, False), (True, False), (False, True)):
-                yield partial(race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not (alarm or done))
+                yield partial(
+                    race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not (alarm or done)
+                )
             for full in (True, False):
                 yield partial(race_cards.turbo, seat, full, False)
                 yield partial(race_cards.foot, seat, state.rules.laps, full)
