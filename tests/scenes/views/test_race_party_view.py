@@ -392,3 +392,14 @@ def test_announcements_keep_off_robots_at_the_upper_edge(screen):
         middles = [at[1] + image.get_height() / 2 - 140 for image, at in light]
         assert all((middle - y) * side > 50 for middle in middles)
         assert all(hypot(middle - y, 0) < 200 for middle in middles)
+
+
+def test_a_robot_shows_only_its_last_change_of_place(screen):
+    state, view = party(2)
+    first, second = view.detector.order
+    for ranks in ((2, 1), (1, 2), (2, 1)):
+        state.racers[first].rank, state.racers[second].rank = ranks
+        for _ in range(20):
+            state.tick += 1
+            view.watch(state)
+    assert sorted(note.seat for note in view.notes.notes) == [0, 1]
