@@ -1,90 +1,75 @@
-"""Fairness of Robot Race with four equal drivers: wins by seat and by line, ties, lead changes, standing still.
+"""Robot Race: ties, wins by seat and by line, lead changes, standing still, of equal drivers."""
 
-All drivers have the same brain; the seed of a race deals lines, or places on the grid, to the seats.
-"""
-
-from collections.abc import Sequence
-from dataclasses import dataclass
-from statistics import median
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.registry import BRAINS
-from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.race.state import LINES
-from pigaming_app.games.registry import games
-from pigaming_app.sim.kernel import can_compile
-from pigaming_app.sim.world import HZ, ROBOTS
-
-SLOW = 20.0  # px/s, below which a robot stands
-STANDING = HZ  # ticks of it, beyond which it counts
-SIDES = ("seat", "start")
+from pigaming_app.games.race.start import ranking_key
+from tests.bench.trial import StandingStill, Trial, by_arena, column, live, of_robots, played
 
 
-@dataclass(frozen=True)
-class Fairness:
-    """Figures of many races. `start`: the line, in driving order, or the place on the common grid."""
+def measure(trial: Trial) -> Mapping[str, Any]:
+    """Measures of the drivers of a trial, by track and over all."""
+    batch = trial.batch()
+    standing, leads = StandingStill(batch), LeadChanges(len(batch.matches))
+    present = of_robots(batch, "present") == 1
+    lines = np.array(_racers(batch, "line"))
+    common = bool(batch.ended()[0].rules.party)
+    starts = np.argsort(np.argsort(-_racers(batch, "progress"), axis=1, kind="stable"), axis=1) if common else lines
+    for _ in played(trial, batch):
+        standing.sample(batch, live(batch)[:, None] & present & (_racers(batch, "finished") == 0))
+        leads.sample(np.where(present, _racers(batch, "passed"), 0), _racers(batch, "rank"))
+    keys = np.array([[ranking_key(match, seat) for seat in range(present.shape[1])] for match in batch.ended()])
+    keys[~present] = -np.inf
+    best = np.sort(keys, axis=1)
+    ties, winners = best[:, -1] == best[:, -2], keys.argmax(axis=1)
+    won = np.arange(present.shape[1]) == winners[:, None]
+    shares = np.where(present, standing.still / np.maximum(1, standing.free), np.nan)
+    place = "place on the grid" if common else "line"
+    seconds = column(batch, "tick") / 50.0
+    return {
+        "drivers": {
+            name: {
+                "matches": len(numbers),
+                "ties": float(ties[numbers].mean()),
+                "lead changes a race": float(leads.changes[numbers].mean()),
+                "standing still, median": float(np.nanmedian(shares[numbers])),
+                "seconds a race": float(seconds[numbers].mean()),
+                **{
+                    f"wins of seat {seat + 1}": float((won[numbers, seat] & ~ties[numbers]).mean())
+                    for seat in np.flatnonzero(present.any(axis=0))
+                },
+                **{
+                    f"wins of {place} {start + 1}": float(
+                        ((won & (starts == start))[numbers].any(axis=1) & ~ties[numbers]).mean()
+                    )
+                    for start in range(present.shape[1])
+                },
+            }
+            for name, numbers in by_arena(trial.setups)
+        }
+    }
 
-    track: str
-    races: int
-    ties: float  # share of races
-    wins_by_seat: tuple[float, ...]  # shares of races
-    wins_by_start: tuple[float, ...]
-    lead_changes: float  # at crossings of lines, mean per race
-    standing: float  # share of the time, median over robots
-    seconds: float  # mean length of a race
-    margin: float  # s between the first two, median
+
+class LeadChanges:
+    """Counts how often another racer than before is the first to cross the next line."""
+
+    def __init__(self, matches: int) -> None:
+        self.changes = np.zeros(matches, int)
+        self._leader, self._crossed = np.full(matches, -1), np.zeros(matches, int)
+
+    def sample(self, passed: Any, rank: Any) -> None:
+        """Lines crossed by each racer, and its rank, (n, ROBOTS)."""
+        most = passed.max(axis=1)
+        ahead = most > self._crossed
+        first = np.where(passed == most[:, None], rank, np.inf).argmin(axis=1)
+        self.changes += ahead & (self._leader >= 0) & (self._leader != first)
+        self._leader, self._crossed = np.where(ahead, first, self._leader), np.maximum(most, self._crossed)
 
 
-def measure(
-    variant: str = "standard", matches: int = 400, brain: str = "hand2", seed: int = 1, tracks: Sequence[str] = ()
-) -> list[Fairness]:
-    """Figures of `matches` races on each track (default: all)."""
-    return [_track(track, variant, matches, brain, seed) for track in tracks or arenas("race")]
-
-
-def _track(track: str, variant: str, matches: int, brain: str, seed: int) -> Fairness:
-    one, two, three, four = (Seat(brain, i) for i in range(ROBOTS))
-    rules = games()["race"].variants[variant]
-    setups = [
-        Setup("race", track, (one, two, three, four), 10.0, seed + i, variant, rules.default_goal)
-        for i in range(matches)
-    ]
-    batch = Batch(setups, [BRAINS["race"][brain]] * ROBOTS, can_compile())
-    states: Any = batch.matches
-    start = np.argsort(np.argsort(-states["racers"]["progress"], axis=1, kind="stable"), axis=1)
-    if not states["rules"]["party"].any():
-        start = states["racers"]["line"].copy()
-    leader, best, changes = np.full(matches, -1), np.zeros(matches, int), np.zeros(matches, int)
-    slow, stood, free = (np.zeros((matches, ROBOTS), int) for _ in range(3))
-    while not states["over"].all():
-        batch.play(1)
-        racers, going = states["racers"], states["over"] == 0
-        passed = racers["passed"].max(axis=1)
-        crossed = going & (passed > best)
-        first = np.where(racers["passed"] == passed[:, None], racers["rank"], ROBOTS + 1).argmin(axis=1)
-        changes += crossed & (leader >= 0) & (leader != first)
-        leader, best = np.where(crossed, first, leader), np.maximum(best, passed)
-        moving = going[:, None] & (racers["finished"] == 0)
-        slow = np.where(moving & (np.abs(states["robots"]["linear"]) < SLOW), slow + 1, 0)
-        stood += np.where(slow == STANDING + 1, STANDING + 1, slow > STANDING)
-        free += moving
-    keys = np.where(states["racers"]["finished"] == 1, 1e9 - states["racers"]["finish"], states["racers"]["progress"])
-    order = np.sort(keys, axis=1)
-    ties = order[:, -1] == order[:, -2]
-    won = keys.argmax(axis=1)[~ties]
-    lines = start[np.flatnonzero(~ties), won]
-    return Fairness(
-        track,
-        matches,
-        float(ties.mean()),
-        tuple(np.bincount(won, minlength=ROBOTS) / matches),
-        tuple(np.bincount(lines, minlength=LINES) / matches),
-        float(changes.mean()),
-        median((stood / np.maximum(free, 1)).ravel().tolist()),
-        float(states["tick"].mean() / HZ),
-        float(np.median(order[:, -1] - order[:, -2]) / HZ),
-    )
+def _racers(batch: Any, name: str) -> Any:
+    """A number of every racer, (n, ROBOTS)."""
+    if batch.fast:
+        return batch.matches["racers"][name]
+    return np.array([[getattr(racer, name) for racer in match.racers] for match in batch.matches])

@@ -52,6 +52,7 @@ class RacerMind:
     senses: Senses
     obs: Observation
     speed: float  # share of full speed
+    form: float  # share of that which it reaches today
     line: float  # 0: middle of the course, 1: fastest line
     spread: float  # standard deviation of the line error, px
     boost: float  # share of the turbo meter needed to start turbo; above 1: never
@@ -115,7 +116,7 @@ def race(obs: Any, mind: Any, action: Any) -> int:
     mark = obs.ahead
     choose_lane(obs, mind)
     room = mark.half - (EDGE if obs.on else OUT)
-    lane = mind.lane + mind.stray
+    lane = aimed_lane(mind)
     if mind.blunder > 0:
         room += OVER
         lane += -WIDE if obs.turn > 0.0 else WIDE
@@ -149,6 +150,13 @@ def break_free(obs: Any, mind: Any, action: Any) -> int:
 
 
 # ------------------------------------------------------------------------------------------------------------- helpers
+
+
+@kernel
+def aimed_lane(mind: Any) -> float:
+    """Its lane with the present line error, which is always towards the middle, px right of it."""
+    lane: float = mind.lane + mind.stray if mind.lane * mind.stray < 0.0 else mind.lane - mind.stray
+    return lane
 
 
 @kernel
@@ -228,7 +236,7 @@ def pursue(obs: Any, mind: Any, action: Any, x: float, y: float) -> None:
     held = leader_speed(obs, mind)
     dash = wants_turbo(obs, mind, bend) if held > 1.0 else 0
     full = obs.speed * (obs.turbo_factor if dash else 1.0)
-    speed, limit = mind.speed, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
+    speed, limit = mind.speed * mind.form, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
     if mind.blunder <= 0:
         early = 1.0 if obs.pace >= 1.0 else 1.0 - mind.caution
         speed *= obs.pace * early
@@ -252,6 +260,7 @@ def wants_turbo(obs: Any, mind: Any, bend: float) -> int:
 
 def make_reset(
     speed: float,
+    form: float,
     line: float,
     spread: float,
     boost: float,
@@ -262,8 +271,9 @@ def make_reset(
     foresight: float,
     alert: float,
 ) -> Any:
-    """A `reset` for a strength: `delay` is the reaction time to others, s; `reaction` the fewest ticks to its start,
-    and how many more are possible, a multiple of PERIOD, so that no seat has an advantage; the rest as in RacerMind.
+    """A `reset` for a strength: `form` is the share of its speed that it may lack on a bad day; `delay` the reaction
+    time to others, s; `reaction` the fewest ticks to its start, and how many more are possible, a multiple of PERIOD,
+    so that no seat has an advantage; the rest as in RacerMind.
     """
 
     def fill(mind: RacerMind, seed: int) -> None:
@@ -272,6 +282,7 @@ def make_reset(
         mind.care, mind.mistakes, mind.foresight, mind.alert = care, mistakes, foresight, alert
         mind.random = seeded(seed)
         mind.reaction = reaction[0] + int(reaction[1] * uniform(mind))
+        mind.form = 1.0 - form * uniform(mind)
 
     return fill
 
@@ -281,7 +292,7 @@ HAND1 = BrainKind(
     RacerMind,
     think,
     make_reset(
-        speed=0.93, line=0.2, spread=10.0, boost=2.0, delay=0.35, reaction=(10, 20), care=0.2, mistakes=0.1,
+        speed=0.93, form=0.03, line=0.2, spread=10.0, boost=2.0, delay=0.35, reaction=(10, 30), care=0.2, mistakes=0.1,
         foresight=160.0, alert=0.03,
     ),
 )  # fmt: skip
@@ -290,7 +301,7 @@ HAND2 = BrainKind(
     RacerMind,
     think,
     make_reset(
-        speed=1.0, line=0.35, spread=6.0, boost=0.5, delay=0.2, reaction=(5, 15), care=0.1, mistakes=0.03,
+        speed=1.0, form=0.02, line=0.35, spread=6.0, boost=0.5, delay=0.2, reaction=(5, 25), care=0.1, mistakes=0.03,
         foresight=240.0, alert=0.1,
     ),
 )  # fmt: skip
@@ -299,7 +310,7 @@ HAND3 = BrainKind(
     RacerMind,
     think,
     make_reset(
-        speed=1.0, line=1.0, spread=3.0, boost=0.12, delay=0.05, reaction=(2, 10), care=0.03, mistakes=0.0,
+        speed=1.0, form=0.012, line=1.0, spread=2.0, boost=0.12, delay=0.05, reaction=(2, 20), care=0.02, mistakes=0.0,
         foresight=320.0, alert=0.5,
     ),
 )  # fmt: skip

@@ -8,7 +8,7 @@ from math import atan2, pi
 from typing import Any
 
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Percept, Thoughts, blend, clamp, towards
-from pigaming_app.ai.race import racer
+from pigaming_app.ai.race import overtaking, racer
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, FAR, lane_cost, leader_speed
 from pigaming_app.games.race.observation import OTHERS
 from pigaming_app.sim.angles import turn_to
@@ -21,11 +21,12 @@ NEAR = 200.0  # px within which other robots repel
 
 CHOSEN = {
     "free": "free", "return": "back", "done": "brake", "follow": "brake", "bend": "brake", "boost": "turbo",
-    "mud": "line", "race": "line",
+    "mud": "line", "race": "line", "wide": "line", "spin": "line", "item": "line", "tow": "line", "recall": "back",
 }  # fmt: skip
 REASONS = {
     "free": "stuck", "return": "missed", "done": "finish", "pass_left": "in_way", "pass_right": "in_way",
-    "follow": "no_room", "bend": "bend", "boost": "straight", "mud": "mud",
+    "follow": "no_room", "bend": "bend", "boost": "straight", "mud": "mud", "wide": "late", "spin": "oil",
+    "item": "pays", "recall": "lost", "avoid_oil": "oil_ahead", "to_pad": "pad", "to_box": "box", "tow": "slipstream",
 }  # fmt: skip
 
 
@@ -35,7 +36,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     if not obs.turn_rate:
         return Thoughts("starts")
     x, y = _goal(obs, mind)
-    behaviour, first = _behaviour(obs, mind), _ahead(obs)
+    behaviour, first = _behaviour(obs, mind, match.actions[seat]), _ahead(obs)
     line = "line" if mind.line > 0.5 else "middle"
     return Thoughts(
         behaviour=behaviour,
@@ -45,28 +46,52 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
         percepts=tuple(_percepts(obs, first, x, y)),
         rose=_rose(obs, mind, x, y),
         utilities=_utilities(obs, mind),
-        chosen=CHOSEN.get(behaviour, behaviour.removeprefix("pass_")),
+        chosen=CHOSEN.get(behaviour, "left" if mind.lane < mind.line * obs.ahead.ideal else "right"),
     )
 
 
-def _behaviour(obs: Any, mind: Any) -> str:
+def _behaviour(obs: Any, mind: Any, action: Any) -> str:
     """Text key of the present behaviour."""
-    aside = mind.lane - mind.line * obs.ahead.ideal
     if obs.finished:  # its actions no longer move the robot
         return "done"
+    if obs.spin:
+        return "spin"
+    if action.fire:
+        return "recall" if obs.lost else "item"
     if mind.state == racer.BREAK_FREE:
         return "free"
     if mind.state == racer.GO_BACK or obs.past > racer.SLACK:
         return "return"
-    if abs(aside) > CHANGED:
-        return "pass_left" if aside < 0.0 else "pass_right"
+    if mind.blunder > 0:
+        return "wide"
+    if abs(mind.lane - mind.line * obs.ahead.ideal) > CHANGED:
+        return _lane_change(obs, mind)
     if leader_speed(obs, mind) < 1.0:
         return "follow"
     if not obs.on:
         return "mud"
     if obs.boosting:
         return "boost"
+    if obs.slip:
+        return "tow"
     return "bend" if obs.pace < SLOW else "race"
+
+
+def _lane_change(obs: Any, mind: Any) -> str:
+    """Text key of the reason to leave its own line: oil on it, a pad or a box beside it, else a robot."""
+    own = mind.line * obs.ahead.ideal
+    if not obs.shield and any(_near(oil, own, mind, overtaking.SLICK_HALF) for oil in obs.oils):
+        return "avoid_oil"
+    if _near(obs.pad, mind.lane, mind, overtaking.PAD_HALF):
+        return "to_pad"
+    if not obs.item and _near(obs.box, mind.lane, mind, overtaking.BOX_HALF):
+        return "to_box"
+    return "pass_left" if mind.lane < own else "pass_right"
+
+
+def _near(feature: Any, lane: float, mind: Any, half: float) -> bool:
+    """True if a feature on this lane is near enough to be considered."""
+    return bool(feature.present and feature.ahead < mind.foresight and abs(feature.aside - lane) < half)
 
 
 def _utilities(obs: Any, mind: Any) -> dict[str, float]:
@@ -94,7 +119,7 @@ def _goal(obs: Any, mind: Any) -> tuple[float, float]:
         return obs.return_x, obs.return_y
     mark = obs.ahead
     room = mark.half - EDGE
-    aside = min(room, max(-room, mind.lane + mind.stray)) - mark.ideal
+    aside = min(room, max(-room, racer.aimed_lane(mind))) - mark.ideal
     return mark.x + aside * mark.right_x, mark.y + aside * mark.right_y
 
 
@@ -115,6 +140,8 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
         "held_to": leader_speed(obs, mind),
         "turbo": obs.turbo,
         "on_course": obs.on,
+        "mistake": mind.blunder,
+        "item": obs.item,
     }
 
 

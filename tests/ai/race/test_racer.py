@@ -61,7 +61,7 @@ def test_turbo_is_used_well(track):
     match = alone("hard", track)
     while not match.over:
         match.tick()
-    assert REFERENCE[track] / match.game.times(match.state, 0)[1] > 1.05
+    assert REFERENCE[track] / match.game.times(match.state, 0)[1] > 1.03
 
 
 @pytest.mark.parametrize("track", TRACKS)

@@ -49,18 +49,18 @@ def cuts(path, left, right, carried):
     return found
 
 
-def judged(path, lines, seat, laps, carried):
+def judged(path, lines, own, laps, carried):
     """Result of a path: lines crossed in order, lap times in ticks, laps that did not count, the missed line."""
     ends = [((line.ax, line.ay), (line.bx, line.by)) for line in lines]
     events = sorted((when, line, way) for line, (a, b) in enumerate(ends) for when, way in cuts(path, a, b, carried))
-    wanted = [(seat + i) % 4 for i in range(4 * laps + 1)]  # in order, all the way to the finish
+    wanted = [(own + i) % 4 for i in range(4 * laps + 1)]  # in order, all the way to the finish
     passed, own_at, void, missed = 0, [], 0, 0
     undone = []  # lines gone back over since the last that counted, most recent last
     for when, line, way in events:
         if passed == len(wanted):
             break
         if way > 0 and line == wanted[passed]:
-            if line == seat:
+            if line == own:
                 own_at.append(when)
             passed, missed, undone = passed + 1, 0, []
         elif way < 0:
@@ -70,7 +70,7 @@ def judged(path, lines, seat, laps, carried):
             undone.pop()
         elif passed:
             missed, undone = 1 + wanted[passed], []
-            void += line == seat
+            void += line == own
     return passed, [b - a for a, b in pairwise(own_at)], void, missed
 
 
@@ -79,7 +79,7 @@ def agree(match, paths):
     state = match.state
     for seat, path in enumerate(paths):
         racer = state.racers[seat]
-        passed, laps, void, missed = judged(path, state.lines, seat, state.rules.laps, state.rules.carried)
+        passed, laps, void, missed = judged(path, state.lines, racer.line, state.rules.laps, state.rules.carried)
         assert (racer.passed, racer.void, racer.missed) == (passed, void, missed), f"robot {seat}"
         assert state.robots[seat].score == len(laps)
         assert list(match.game.times(state, seat)) == pytest.approx([lap / 50 for lap in laps])
@@ -120,7 +120,7 @@ class Wild:
             turn = (turn + 2 * pi) % (2 * pi) - pi
         action.angular = max(-1.0, min(1.0, 2.0 * turn))
         action.linear = (1.0 if abs(turn) < 1.0 else 0.0) * (-1.0 if self.mood == "back" else 1.0)
-        action.fire, action.turbo = 0, int(random.random() < 0.5)
+        action.fire, action.turbo = int(random.random() < 0.01), int(random.random() < 0.5)  # FIRE: the way back
         if self.mood == "spin":
             action.linear, action.angular = random.choice((-1.0, 0.0, 1.0)), random.choice((-1.0, 1.0))
         if away < 30.0 and self.mood == "park":

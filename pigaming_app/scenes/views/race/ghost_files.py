@@ -128,7 +128,7 @@ def timed_anew(ghost: Ghost, arena: Arena) -> Ghost | None:
     ways = [(b - a + course.length / 2) % course.length - course.length / 2 for a, b in pairwise([*alongs, alongs[0]])]
     if abs(sum(ways) - course.length) > NEAR:
         return None
-    times = [_passing(line, alongs, ways, course.length) for line in arena.plan.lines]
+    times = [_passing(line, alongs, ways, course.length, ghost.seconds) for line in arena.plan.lines]
     start = times[0]
     crossed = tuple(round((time - start) % ghost.seconds, 4) for time in times)
     if any(before >= after for before, after in pairwise((*crossed, ghost.seconds))):
@@ -137,12 +137,13 @@ def timed_anew(ghost: Ghost, arena: Arena) -> Ghost | None:
     return Ghost(0, ghost.seconds, crossed, tuple(pose or ghost.poses[0] for pose in track))
 
 
-def _passing(line: float, alongs: Sequence[float], ways: Sequence[float], length: float) -> float:
-    """Time in s at which a lap passes a line for the first time; `ways`: px from each position to the next."""
+def _passing(line: float, alongs: Sequence[float], ways: Sequence[float], length: float, seconds: float) -> float:
+    """Time in s at which a lap of `seconds` first passes a line; `ways`: px from each position to the next."""
     for i, (along, way) in enumerate(zip(alongs, ways, strict=True)):
         ahead = (line - along) % length
         if way > 0.0 and ahead < way:
-            return (i + ahead / way) / RATE
+            begin, end = i / RATE, min((i + 1) / RATE, seconds)
+            return begin + ahead / way * (end - begin)
     return 0.0
 
 
