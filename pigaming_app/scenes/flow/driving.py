@@ -16,14 +16,15 @@ class DrivingStyles:
     def __init__(self, settings: Settings) -> None:
         self.settings = settings
         self.chosen: dict[Device, str] = {}
+        self.remembered: dict[Device, str] = {}  # as it was when each device came: later choices of others do not count
 
     def of(self, device: Device, game: str, variant: str) -> str:
         """The style of a device in a game: its player's choice, the last choice on this kind of device, or the default.
 
         The default of pads in party rules is to point.
         """
-        remembered = self.settings.pad_driving if device.kind == "pad" else self.settings.keys_driving
-        for style in (self.chosen.get(device, ""), remembered):
+        last = self.settings.pad_driving if device.kind == "pad" else self.settings.keys_driving
+        for style in (self.chosen.get(device, ""), self.remembered.setdefault(device, last)):
             if style in DRIVING[game]:
                 return style
         return POINT if device.kind == "pad" and variant == PARTY else TURN

@@ -27,6 +27,7 @@ from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import Results, SceneFactory
+from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
@@ -74,6 +75,7 @@ class MatchScene:
         self.idle = self.frozen = self.notice_left = 0.0
         self.notice: Caption | None = None
         self.results: Results | None = None
+        self.moment: WinnersMoment
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
@@ -351,12 +353,13 @@ class MatchScene:
             )
             if finished:
                 self.context.sounds.play("go")
-        ready = self.results.prewarm(PREWARM_MS)
+            self.moment = WinnersMoment(self.context, self.results)
         self.frozen += seconds
         self.runner.wait(seconds)
-        if ready and (self.stop_requested or self.frozen >= FREEZE_SECONDS):
-            return Swap(self.results)
-        return None
+        if self.stop_requested:
+            return Swap(self.results) if self.results.prewarm(PREWARM_MS) else None
+        ready = self.moment.prewarm(PREWARM_MS)
+        return Swap(self.moment) if ready and self.frozen >= FREEZE_SECONDS else None
 
 
 def rematch_setup(setup: Setup, devices: Sequence[Device | None]) -> Setup:

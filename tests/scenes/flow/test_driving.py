@@ -35,6 +35,14 @@ def test_a_choice_holds_for_the_device_in_every_game_and_for_new_devices_of_its_
     assert DrivingStyles(loaded).of(PAD, "pitanks", "plain") == POINT
 
 
+def test_the_choice_of_one_player_does_not_change_another() -> None:
+    styles = DrivingStyles(Settings())
+    assert styles.of(OTHER, "race", "standard") == TURN
+    styles.change(PAD, "race", "standard", 1)
+    assert styles.of(OTHER, "race", "standard") == TURN
+    assert styles.of(Device("pad", 9), "race", "standard") == POINT
+
+
 def test_the_styles_go_round_in_both_directions() -> None:
     styles = DrivingStyles(Settings())
     seen = []

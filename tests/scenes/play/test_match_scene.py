@@ -14,6 +14,7 @@ from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import TIMEOUT, Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
@@ -78,8 +79,9 @@ def test_time_is_up_then_the_results(arcade: Arcade) -> None:
     arcade.until(lambda: match.match.over)
     assert arcade.sounds.heard.count("tick") == 6
     last = match.match.state.tick
-    waited = arcade.until(lambda: isinstance(arcade.stack.top, Results))
+    waited = arcade.until(lambda: isinstance(arcade.stack.top, WinnersMoment))
     assert 1.4 <= waited <= 2.0
+    arcade.until(lambda: isinstance(arcade.stack.top, Results))
     assert match.match.state.tick == last
 
 
@@ -252,7 +254,7 @@ def test_a_held_stick_counts_as_input(arcade: Arcade, pads: ExitStack) -> None:
 def test_a_match_of_ais_never_asks(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("easy easy off off", 1.2))
     arcade.open(match)
-    arcade.until(lambda: isinstance(arcade.stack.top, Results), 80.0)
+    arcade.until(lambda: isinstance(arcade.stack.top, Results), 85.0)
 
 
 def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcade) -> None:
