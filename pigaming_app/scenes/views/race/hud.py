@@ -41,7 +41,7 @@ class RaceHud:
         self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
         self.parts = HudParts(background)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: (direction, tick) of its last change of place
-        self.notice: tuple[tuple[str, ...], int] = (), 0  # words in place of the clock, and the tick of their end
+        self.notice: tuple[tuple[str, ...], int] = (), 0  # words in place of the clock, and their first tick
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
         """Record a change of place."""
@@ -49,7 +49,7 @@ class RaceHud:
 
     def announce(self, text: str, tick: int) -> None:
         """Show words in place of the clock for a while."""
-        self.notice = announced(text), tick + ANNOUNCED
+        self.notice = announced(text), tick
 
     def follow(self, state: Race) -> None:
         """Record the positions after this tick."""
@@ -60,8 +60,8 @@ class RaceHud:
         for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
             card = self._card(state, seat, i + 1)
             self.parts.show(x, card, x - 8, W + 16, partial(card_bits, card, x))
-        lines, end = self.notice
-        if lines and state.tick < end:
+        lines, begin = self.notice
+        if lines and begin <= state.tick < begin + ANNOUNCED:
             bit = partial(race_cards.banner, lines, FOCUS)
             self.parts.show("clock", lines, CLOCK.x, CLOCK.w, lambda: [(bit(), (CLOCK.x, 0), None)])
             return
