@@ -63,7 +63,7 @@ class RaceBackground(Background):
 @cached
 @resumable
 def bare(track: TrackPlan) -> Steps[pygame.Surface]:
-    """Road and mud, without lines and HUD."""
+    """Road, mud, and black areas for the signs, without lines and HUD."""
     below = earth(track)
     glow, crisp = GlowCanvas(1920, 1080).set_transform(LEFT, TOP), GlowCanvas(1920, 1080).set_transform(LEFT, TOP)
     yield from draw_track(glow, crisp, track)
@@ -72,6 +72,8 @@ def bare(track: TrackPlan) -> Steps[pygame.Surface]:
     light = yield from glow.lit_steps(GLOW, WIDE)
     out = pygame.Surface((1920, 1080))
     out.blit(below, (LEFT, TOP))
+    for x, y in (sign_post(track.course, along) for along in track.lines):
+        pygame.draw.circle(out, (0, 0, 0), (LEFT + x, TOP + y), BADGE + 12)
     yield
     out.blit(light, (0, 0), special_flags=ADD)
     yield from crisp.downscale_onto(out)
@@ -81,7 +83,7 @@ def bare(track: TrackPlan) -> Steps[pygame.Surface]:
 @cached
 @resumable
 def earth(track: TrackPlan) -> Steps[pygame.Surface]:
-    """The 1600 x 900 arena: mud, with black areas for the road and the signs."""
+    """The 1600 x 900 arena: mud, with a black area for the road."""
     from pigaming_app.scenes.views.race.mud import mud  # imports numpy, which must not delay the title screen
 
     out = mud(track.course).copy()
@@ -89,6 +91,4 @@ def earth(track: TrackPlan) -> Steps[pygame.Surface]:
     left, right = edges(track.course)
     for i, (a, b) in enumerate(zip(left, right, strict=True)):
         pygame.draw.polygon(out, (0, 0, 0), [left[i - 1], a, b, right[i - 1]])
-    for along in track.lines:
-        pygame.draw.circle(out, (0, 0, 0), sign_post(track.course, along), BADGE + 12)
     return out
