@@ -5,6 +5,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Device
 
 PARTY = "party"  # the rule set for novices
+UNHELPED = {HELPED_TURN: TURN, HELPED_POINT: POINT}  # the same styles in games without help
 PICTURES = {TURN: "wheel", POINT: "point", HELPED_TURN: "wheel", HELPED_POINT: "point"}  # icon of each style
 
 
@@ -25,8 +26,9 @@ class DrivingStyles:
         """
         last = self.settings.pad_driving if device.kind == "pad" else self.settings.keys_driving
         for style in (self.chosen.get(device, ""), self.remembered.setdefault(device, last)):
-            if style in DRIVING[game]:
-                return style
+            for name in (style, UNHELPED.get(style, "")):
+                if name in DRIVING[game]:
+                    return name
         return POINT if device.kind == "pad" and variant == PARTY else TURN
 
     def change(self, device: Device, game: str, variant: str, delta: int) -> None:
