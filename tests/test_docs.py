@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai.brain import driving
 from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
@@ -44,7 +45,7 @@ race = import_module("pigaming_app.games.race.start")  # the package's own name 
 GAME_OF = {"PiTanks": "pitanks", "Robot Factory": "factory", "Robot Race": "race"}
 RULES = {"pitanks": pitanks.Rules, "factory": FactoryRules, "race": RaceRules}
 CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
-    "Units, arena, robots": (world, robots, drivetrain, action, contact),
+    "Units, arena, robots": (world, robots, drivetrain, action, contact, driving),
     "PiTanks": (pitanks, arena),
     "Robot Factory": (state, walker, factory_rules),
     "Robot Race": (race, race_rules),
@@ -59,7 +60,7 @@ PAGES += sorted((ROOT / "docs").glob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
 QUANTITY = re.compile(r"×?(?P<numbers>−?[\d./]+(?:(?:, | to )[\d./]+)*) ?(?P<unit>[^\d(]*)")
 WORDS = {"yes": 1, "no": 0}
-AS_IN_CODE = {"", "px", "px/s", "rad", "rad/s", "mm", "min", "ticks", "hits"}  # units that need no conversion
+AS_IN_CODE = {"", "/s", "px", "px/s", "rad", "rad/s", "mm", "min", "ticks", "hits"}  # units that need no conversion
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,6 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.brain.driving import Driving
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.registry import DRIVING, make_brain, new_match
 from pigaming_app.games.game import Setup
@@ -219,6 +218,10 @@ class MatchScene:
         self.assign_seat(self.idle_seats.claims[event.device], event.device)
         return True
 
+    def style_of(self, device: Device) -> str:
+        """The driving style of a device in this match."""
+        return self.context.driving.of(device, self.setup.game, self.setup.variant)
+
     def next_brain(self) -> None:
         """Show the thoughts of the next AI, after the last none; show a notice if there is no AI."""
         if not self.runner.brain.seats:
@@ -313,15 +316,12 @@ class MatchScene:
         if device is None:
             self.ai_assisted.add(seat)
         brain = (
-            HumanPlayer(lambda: self._read(seat, device), self._driving(device))
+            HumanPlayer(lambda: self._read(seat, device), DRIVING[self.setup.game][self.style_of(device)])
             if device
             else make_brain(self.setup.game, SUBSTITUTE_BRAIN, new_seed())
         )
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else SUBSTITUTE_BRAIN
-
-    def _driving(self, device: Device) -> Driving:
-        return DRIVING[self.setup.game][self.context.driving.of(device, self.setup.game, self.setup.variant)]
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""

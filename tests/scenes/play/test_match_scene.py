@@ -1,5 +1,6 @@
 """Matches as played: the countdown, unplugged pads, replacements, pauses, and the results."""
 
+import math
 from collections.abc import Iterator
 from contextlib import ExitStack
 
@@ -7,6 +8,7 @@ import pygame
 import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
+from pigaming_app.ai.registry import TURN
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.play.countdown import CENTRE, clear_of
 from pigaming_app.scenes.play.device_table import DeviceTable
@@ -16,6 +18,7 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.sim.angles import turn_to
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
@@ -71,6 +74,32 @@ def test_the_stick_is_read_on_the_tick_that_acts_on_it(arcade: Arcade, pads: Exi
     pygame.event.pump()
     match.runner.advance(0.021)
     assert match.match.state.actions[0].linear == 1.0
+
+
+def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replugged(
+    arcade: Arcade, pads: ExitStack
+) -> None:
+    pad, device = plug(arcade, pads)
+    arcade.context.driving.change(device, "pitanks", "plain", 1)
+    match = MatchScene(arcade.context, setup("human easy off off", 5.0), [device])
+    arcade.open(match)
+    assert match.runner.driver(0, device)[1] == "point"
+    arcade.wait(COUNTDOWN + 0.1)
+    pad.stick(0.0, 1.0)
+    arcade.wait(1.5)
+    robot = match.match.state.robots[0]
+    assert robot.heading == pytest.approx(0.5 * math.pi, abs=0.1), "down the screen"
+    pad.unplug()
+    arcade.wait(0.1)
+    arcade.context.settings.pad_driving = TURN
+    new, other = plug(arcade, pads)
+    arcade.wait(1.0)
+    new.tap("a")
+    arcade.wait(4.0)
+    assert match.devices[0] == other
+    new.stick(1.0, 0.0)
+    arcade.wait(1.5)
+    assert abs(turn_to(robot.heading)) < 0.1, "right on the screen"
 
 
 def test_time_is_up_then_the_results(arcade: Arcade) -> None:
