@@ -20,6 +20,7 @@ from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.race import steering_help
 from pigaming_app.ai.registry import LEVELS, make_brain
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
@@ -45,7 +46,7 @@ race = import_module("pigaming_app.games.race.start")  # the package's own name 
 GAME_OF = {"PiTanks": "pitanks", "Robot Factory": "factory", "Robot Race": "race"}
 RULES = {"pitanks": pitanks.Rules, "factory": FactoryRules, "race": RaceRules}
 CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
-    "Units, arena, robots": (world, robots, drivetrain, action, contact, driving),
+    "Units, arena, robots": (world, robots, drivetrain, action, contact, driving, steering_help),
     "PiTanks": (pitanks, arena),
     "Robot Factory": (state, walker, factory_rules),
     "Robot Race": (race, race_rules),
