@@ -15,10 +15,12 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai.brain import driving
 from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.race import steering_help
 from pigaming_app.ai.registry import LEVELS, make_brain
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
@@ -44,7 +46,7 @@ race = import_module("pigaming_app.games.race.start")  # the package's own name 
 GAME_OF = {"PiTanks": "pitanks", "Robot Factory": "factory", "Robot Race": "race"}
 RULES = {"pitanks": pitanks.Rules, "factory": FactoryRules, "race": race_state.Rules}
 CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
-    "Units, arena, robots": (world, robots, drivetrain, action, contact),
+    "Units, arena, robots": (world, robots, drivetrain, action, contact, driving, steering_help),
     "PiTanks": (pitanks, arena),
     "Robot Factory": (state, walker, factory_rules),
     "Robot Race": (race, race_rules, race_state, furniture, party, recovery),
@@ -59,7 +61,7 @@ PAGES += sorted((ROOT / "docs").glob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
 QUANTITY = re.compile(r"×?(?P<numbers>−?[\d./]+(?:(?:, | to )[\d./]+)*) ?(?P<unit>[^\d(]*)")
 WORDS = {"yes": 1, "no": 0}
-AS_IN_CODE = {"", "px", "px/s", "rad", "rad/s", "mm", "min", "ticks", "hits"}  # units that need no conversion
+AS_IN_CODE = {"", "/s", "px", "px/s", "rad", "rad/s", "mm", "min", "ticks", "hits"}  # units that need no conversion
 
 
 @dataclass(frozen=True)

@@ -257,6 +257,15 @@ def win() -> Samples:
     return together([(0.0, 1.3 * run), *chord])
 
 
+def fanfare() -> Samples:
+    """The winner's moment: a run up to a chord as the robot arrives, an answer, and a broad final chord."""
+    run = melody("E4 G#4 B4 E5", 0.12, half=0.09, bright=0.6)
+    chords = ((0.5, "E3 B4 E5 G#5", 0.6), (1.0, "A3 A4 C#5 E5", 0.35), (1.25, "B3 B4 D#5 F#5", 0.35))
+    struck = [(start, pluck(pitch(note), ring, 0.13, 0.6)) for start, notes, ring in chords for note in notes.split()]
+    last = [(1.5, pluck(pitch(note), 1.2, 0.26, 0.6)) for note in ["E2", "E3", "B3", "E4", "G#4", "B4", "E5", "G#5"]]
+    return together([(0.0, 1.3 * run), *struck, *last])
+
+
 def error() -> Samples:
     return together([(start, pluck(pitch("A3"), 0.13, 0.08, 0.8)) for start in (0.0, 0.14)])
 
@@ -350,6 +359,7 @@ SOUNDS: dict[str, tuple[Callable[[], Samples], float]] = {  # how it is made, an
     "go": (go, -13.0),
     "tick": (lambda: pluck(pitch("B5"), 0.07, 0.012, 0.6), -18.0),
     "win": (win, -14.0),
+    "fanfare": (fanfare, -14.0),
     "tie": (lambda: melody("B4 B4 A4", 0.16, last=0.6, half=0.14), -15.0),
     "lose": (lambda: melody("B4 G4 F#4 E4", 0.15, last=0.6, half=0.12), -15.0),
     "lap": (lambda: melody("B4 E5", 0.08), -17.0),

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from pigaming_app.ai.registry import RIVALS
+from pigaming_app.ai.registry import POINT, RIVALS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
@@ -144,7 +144,9 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),
     "still there": lambda arcade: StillThere(match(arcade)),
-    "devices": lambda arcade: DeviceTable(arcade.context, KEYS, Access(arcade.context, lambda: KEYS)),
+    "devices": lambda arcade: DeviceTable(
+        arcade.context, KEYS, Access(arcade.context, lambda: KEYS), lambda device: POINT
+    ),
     **{f"how to play {game}": lesson(game) for game in games()},
     **{f"setup {game}": choice(game) for game in games()},
     **{f"lobby {game}": lobby(game, 0, 0) for game in games()},

@@ -5,6 +5,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Device
 
 PARTY = "party"  # the rule set for novices
+UNHELPED = {HELPED_TURN: TURN, HELPED_POINT: POINT}  # the same styles in games without help
 PICTURES = {TURN: "wheel", POINT: "point", HELPED_TURN: "wheel", HELPED_POINT: "point"}  # icon of each style
 
 
@@ -16,16 +17,18 @@ class DrivingStyles:
     def __init__(self, settings: Settings) -> None:
         self.settings = settings
         self.chosen: dict[Device, str] = {}
+        self.remembered: dict[Device, str] = {}  # as it was when each device came: later choices of others do not count
 
     def of(self, device: Device, game: str, variant: str) -> str:
         """The style of a device in a game: its player's choice, the last choice on this kind of device, or the default.
 
         The default of pads in party rules is to point.
         """
-        remembered = self.settings.pad_driving if device.kind == "pad" else self.settings.keys_driving
-        for style in (self.chosen.get(device, ""), remembered):
-            if style in DRIVING[game]:
-                return style
+        last = self.settings.pad_driving if device.kind == "pad" else self.settings.keys_driving
+        for style in (self.chosen.get(device, ""), self.remembered.setdefault(device, last)):
+            for name in (style, UNHELPED.get(style, "")):
+                if name in DRIVING[game]:
+                    return name
         return POINT if device.kind == "pad" and variant == PARTY else TURN
 
     def change(self, device: Device, game: str, variant: str, delta: int) -> None:

@@ -4,6 +4,7 @@ import math
 
 import pygame
 
+from pigaming_app.ai.registry import POINT, TURN
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.howto.animation import Loop, add, drive_round
 from pigaming_app.scenes.views.sprites import effects
@@ -23,12 +24,17 @@ POWER = 1.3  # seconds per pick-up
 
 
 def drive(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
-    """A robot drives round a stick that shows the matching deflection."""
-    turning = drive_round(screen, 0, ROUND, x, y, seconds * SPEED)
+    """A robot drives round a stick that shows the matching deflection: a lap in each driving style."""
+    way = seconds * SPEED
+    turning = drive_round(screen, 0, ROUND, x, y, way)
+    heading = ROUND.at(way)[2]
     _stick().draw(screen, round(x), round(y))
+    style = (TURN, POINT)[int(way / ROUND.length) % 2]
     knob = (0.7, -0.7) if turning else (0.0, -1.0)
+    if style == POINT:
+        knob = math.cos(heading), math.sin(heading)
     _knob().draw(screen, round(x + 26 * knob[0]), round(y + 26 * knob[1]))
-    return None
+    return f"lobby.drive_{style}"
 
 
 def shoot(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:

@@ -39,7 +39,8 @@ KEYS = {
     Button.FIRE: pygame.Rect(26, 204, 176, KEY),
     Button.LEAVE_SEAT: pygame.Rect(212, 204, 176, KEY),
 }
-ROBOT = (326, 106)
+ROBOT, PAD_ROBOT = (326, 106), (320, 70)  # px: the robot on a card
+STYLE, PAD_STYLE = (138, 308), (238, 314)  # px: the picture of the driving style
 DIAMOND = {Button.FIRE: (296, 262), Button.BACK: (352, 206), Button.X: (240, 206), Button.Y: (296, 150)}
 START = pygame.Rect(28, 286, 168, 40)
 START_LINE = cut_box(START.x, START.y, START.w, START.h, 10)
@@ -62,7 +63,7 @@ def pad(name: str, labels: tuple[str, ...]) -> LitImage:
     layer = Layer(0, 0, W, H)
     panel(layer.glow, 0, 0, W, H, STEEL)
     icon(layer.glow, "pad", 62, 56, 34, MIST, THIN)
-    layer.canvas.crisp.text(name, fit_size(name, BODY, W - 140), 116, 56, ICE, "head")
+    layer.canvas.crisp.text(name, fit_size(name, BODY, W - 250), 110, 56, ICE, "head")
     layer.glow.ring(*STICK, REACH + 20, STEEL, LINE)
     for (x, y), label in zip(DIAMOND.values(), labels, strict=False):
         layer.glow.ring(x, y, 30, STEEL, THIN)
@@ -85,6 +86,15 @@ def pad_light(button: Button, label: str) -> LitImage:
     layer = Layer(x - 32, y - 32, 64, 64)
     layer.glow.disc(x, y, 30, dim(FOCUS, 0.35)).ring(x, y, 30, FOCUS, THIN)
     _draw_label(layer.glow, label, x, y, FOCUS)
+    return layer.render()
+
+
+@cached
+def style(text: str, picture: str) -> LitImage:
+    """A driving style: its picture round (0, 0), and its name."""
+    layer = Layer(-24, -24, 200, 48)
+    icon(layer.glow, picture, 0, 0, 21, ICE, THIN)
+    layer.canvas.crisp.text(text, fit_size(text, 32, 120), 36, 0, MIST, "head")
     return layer.render()
 
 

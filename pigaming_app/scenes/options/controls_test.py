@@ -1,18 +1,25 @@
 """Controls test: every pad, key cluster and the mouse, live, with pressed buttons highlighted.
 
-Each key cluster drives a small robot. Escape or the prompt leaves the page; on a pad B is held for a second, because
-short presses are being tested.
+Each device drives a small robot in its driving style. Escape or the prompt leaves the page; on a pad B is held for a
+second, because short presses are being tested.
 """
 
 import math
+from types import SimpleNamespace
 
 import pygame
 
+from pigaming_app.ai.registry import DRIVING
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.driving import PICTURES
+from pigaming_app.scenes.flow.match_choice import last_choice
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.options import controls_pictures as gadgets
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
+from pigaming_app.sim.robot import GAIN, integrate
+from pigaming_app.sim.world import Robot
 from pigaming_app.ui.draw import ADD, ICE
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
@@ -26,7 +33,9 @@ PADS_Y, KEYS_Y = 216, 580
 HOLD = 0.8  # seconds
 LIT = 0.25  # seconds for which a short press stays highlighted
 IDLE = 120.0  # seconds without input until the title
-TURN = 3.0  # rad/s
+SPEED, TURN_RATE = 60.0, 3.0  # px/s and rad/s of the small robots
+TETHER = 0.94  # share of its distance from the middle that a robot keeps in a tick
+GAME = "pitanks"  # whose driving styles are tried
 BUTTONS = (Button.FIRE, Button.BACK, Button.X, Button.Y, Button.START)
 
 
@@ -38,7 +47,8 @@ class ControlsTest:
         self.holding: Device | None = None
         self.held = 0.0
         self.lit: dict[tuple[Device, Button], float] = {}
-        self.headings = [-math.pi / 2] * PLACES
+        self.driven: dict[Device, SimpleNamespace] = {}  # the small robot of each device, as in a match
+        self.timestep = FixedTimestep()
         self.clicks: list[tuple[float, float, float]] = []  # x, y, age in seconds
 
     def on_enter(self) -> None:
@@ -63,8 +73,9 @@ class ControlsTest:
         controls = self.context.controls
         self.lit = {key: left - seconds for key, left in self.lit.items() if left > seconds}
         self.clicks = [(x, y, age + seconds) for x, y, age in self.clicks if age < 0.45]
-        for i in range(PLACES):
-            self.headings[i] += TURN * controls.drive(Device("keys", i)).angular * seconds
+        for _ in range(self.timestep.due(seconds)):
+            for device in controls.players():
+                self._drive(device)
         if self.holding and controls.drive(self.holding).turbo:
             self.held += seconds
             if self.held > HOLD:
@@ -107,6 +118,8 @@ class ControlsTest:
         drive = controls.drive(device)
         sx, sy = gadgets.STICK
         gadgets.knob().draw(screen, x + sx + gadgets.REACH * drive.angular, y + sy - gadgets.REACH * drive.linear)
+        self._robot(screen, x + gadgets.PAD_ROBOT[0], y + gadgets.PAD_ROBOT[1], device, drive)
+        self._style(screen, x + gadgets.PAD_STYLE[0], y + gadgets.PAD_STYLE[1], device)
         now = {Button.FIRE: drive.fire, Button.BACK: drive.turbo}
         for button, label in zip(BUTTONS, labels, strict=True):
             if now.get(button) or (device, button) in self.lit:
@@ -118,16 +131,43 @@ class ControlsTest:
         for button, box in gadgets.KEYS.items():
             label = self.context.words.key_name(labels[button])
             gadgets.cap(label, *box.size, _down(drive, button)).draw(screen, x + box.x, y + box.y)
-        heading = self.headings[number]
-        ahead = 10 * drive.linear
-        rx = x + gadgets.ROBOT[0] + ahead * math.cos(heading)
-        ry = y + gadgets.ROBOT[1] + ahead * math.sin(heading)
+        self._robot(screen, x + gadgets.ROBOT[0], y + gadgets.ROBOT[1], device, drive)
+        self._style(screen, x + gadgets.STYLE[0], y + gadgets.STYLE[1], device)
+
+    def _style_of(self, device: Device) -> str:
+        return self.context.driving.of(device, GAME, last_choice(self.context, GAME).variant)
+
+    def _style(self, screen: pygame.Surface, x: float, y: float, device: Device) -> None:
+        style = self._style_of(device)
+        gadgets.style(self.context.words(f"lobby.drive_{style}"), PICTURES[style]).draw(screen, x, y)
+
+    def _drive(self, device: Device) -> None:
+        """One tick of a device's robot, which a tether pulls back to its place."""
+        state = self.driven.setdefault(device, _new_robot())
+        linear, angular = DRIVING[GAME][self._style_of(device)](state, 0, self.context.controls.drive(device))
+        robot = state.robots[0]
+        robot.requested_linear, robot.requested_angular = linear * SPEED, angular * TURN_RATE
+        integrate(robot)
+        robot.x, robot.y = TETHER * robot.x, TETHER * robot.y
+
+    def _robot(self, screen: pygame.Surface, x: float, y: float, device: Device, drive: StickState) -> None:
+        """Draw a device's robot, at home at (x, y)."""
+        robot = self.driven.get(device, _new_robot()).robots[0]
+        heading, rx, ry = robot.heading, x + robot.x, y + robot.y
+        number = device.number if device.kind == "keys" else self.context.controls.pads().index(device)
         if drive.turbo:
             _add(screen, effects.flame(number, step(heading, effects.TURNS), pygame.time.get_ticks() // 60 % 2), rx, ry)
         blit_sprite(screen, tank(number, step(heading, HEADINGS)), rx, ry)
         if drive.fire or (device, Button.FIRE) in self.lit:
             muzzle = rx + 70 * math.cos(heading), ry + 70 * math.sin(heading)
             _add(screen, effects.flash(number, step(heading, effects.TURNS)), *muzzle)
+
+
+def _new_robot() -> SimpleNamespace:
+    """The part of a match's state that a driving style reads: one robot, and its turn rate."""
+    robot = Robot()
+    robot.gain, robot.heading = GAIN, 1.5 * math.pi
+    return SimpleNamespace(robots=[robot], rules=SimpleNamespace(turn_rate=TURN_RATE))
 
 
 def _down(drive: StickState, button: Button) -> bool:

@@ -1,12 +1,13 @@
-"""The device table of a pause: for each seat its device and the keys for steering, fire and turbo."""
+"""The device table of a pause: for each seat its device, driving style, and the keys for steering, fire and turbo."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import chain
 
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.ui.draw import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
 from pigaming_app.ui.draw.frame_budget import Steps, budget
@@ -15,14 +16,22 @@ from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 
 TOP, PITCH, HIGH = 236, 164, 140
-NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 530, LEFT + 1000, LEFT + 1370
+NAMES, MOVES, FIRES, TURBO = LEFT + 150, LEFT + 500, LEFT + 1040, LEFT + 1390
 
 
 class DeviceTable:
-    """One row per seat driven by a device; None: an AI or nobody. `access`: which devices may act."""
+    """One row per seat driven by a device; None: an AI or nobody. `access`: which devices may act; `style_of`: the
+    driving style of a device.
+    """
 
-    def __init__(self, context: Context, devices: Sequence[Device | None], access: Access) -> None:
-        self.context, self.access = context, access
+    def __init__(
+        self,
+        context: Context,
+        devices: Sequence[Device | None],
+        access: Access,
+        style_of: Callable[[Device], str],
+    ) -> None:
+        self.context, self.access, self.style_of = context, access, style_of
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]
         self.lit: list[LitImage] = []
         self.making = self._make()
@@ -74,7 +83,7 @@ class DeviceTable:
         badge(layer.glow, seat, LEFT + 84, y, 40)
         icon(layer.glow, "pad" if device.kind == "pad" else "keys", NAMES + 40, y, 34, MIST, THIN)
         name = words(f"devices.{controls.name(device)}")
-        layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, 264, "body"))
+        layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, MOVES - NAMES - 112, "body"))
         self._moves(layer, device, y)
         for x, function, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
             wide = button(layer.canvas, x, y, words.key_name(controls.label(device, function)))
@@ -89,4 +98,7 @@ class DeviceTable:
         for mark in self.context.controls.moves(device).replace(" ", ""):
             button(layer.canvas, x, y, mark)
             x += 66
-        layer.canvas.body(self.context.words("pause.moves"), x + 12, y, MIST)
+        style = self.style_of(device)
+        icon(layer.glow, PICTURES[style], x + 36, y, 24, ICE, THIN)
+        name = self.context.words(f"lobby.drive_{style}")
+        layer.canvas.body(name, x + 72, y, MIST, "l", fit_size(name, BODY, FIRES - x - 84, "body"))

@@ -57,6 +57,9 @@ class PausedMatch(Protocol):
     def picture(self) -> pygame.Surface:
         """The match as drawn behind a page."""
 
+    def style_of(self, device: Device) -> str:
+        """The driving style of a device in this match."""
+
     def next_brain(self) -> None:
         """Show the thoughts of the next AI."""
 
@@ -185,7 +188,7 @@ class Pause:
             case "end":
                 self.match.stop()
             case "controls":
-                return Push(DeviceTable(self.context, self.match.devices, self.access))
+                return Push(DeviceTable(self.context, self.match.devices, self.access, self.match.style_of))
             case extra if extra in self.match.extra_items:
                 return Push(self.match.extra_items[extra](self.access))
         return Pop()

@@ -8,10 +8,11 @@ from contextlib import AbstractContextManager
 
 import pygame
 
-from pigaming_app.ai.registry import RIVALS
+from pigaming_app.ai.registry import RIVALS, TURN
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.last_hit import LastHit
@@ -134,7 +135,7 @@ class MatchRunner:
         for seat, key in self.view.hints.items():
             if device := devices[seat]:
                 label = words.key_name(controls.label(device, Button.FIRE))
-                sheet = caption(words(key, button=label), PLAYERS[seat], face="head")
+                sheet = caption(words(key, button=label), PLAYERS[seat], player=seat, face="head")
                 robot, gap = self.match.state.robots[seat], self.view.reach(seat, CAPTION_GAP)
                 margin = LEFT + 24 + sheet.width / 2
                 x = min(max(LEFT + robot.x, margin), 1920 - margin)
@@ -145,14 +146,17 @@ class MatchRunner:
                 sheet.draw(screen, x, TOP + robot.y + gap)
 
     def driver(self, seat: int, device: Device | None) -> tuple[str, str]:
-        """Name and icon of a seat's driver."""
+        """Name and icon of a seat's driver; the icon of a person who does not steer is that of the driving style."""
         words = self.context.words
+        if device:
+            style = self.context.driving.of(device, self.match.setup.game, self.match.setup.variant)
+            sign = device.kind if style == TURN else PICTURES[style]
         if device and device.kind == "pad":
-            return words(f"devices.{self.context.controls.name(device)}"), "pad"
+            return words(f"devices.{self.context.controls.name(device)}"), sign
         if device:
             moves = self.context.controls.moves(device)
             steer = words("match.arrows") if "←" in moves else moves
-            return f"{steer} + {words.key_name(self.context.controls.label(device, Button.FIRE))}", "keys"
+            return f"{steer} + {words.key_name(self.context.controls.label(device, Button.FIRE))}", sign
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"

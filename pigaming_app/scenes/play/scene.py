@@ -13,7 +13,6 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.brain.driving import Driving
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.registry import DRIVING, make_brain, new_match
 from pigaming_app.games.game import Setup
@@ -30,6 +29,7 @@ from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import Results, SceneFactory
+from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
@@ -81,6 +81,7 @@ class MatchScene:
         self.again: SlowMotion | None = None
         if repeats_last_hit(self.match):
             self.runner.last_hit = LastHit()
+        self.moment: WinnersMoment
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
@@ -239,6 +240,10 @@ class MatchScene:
         self.assign_seat(self.idle_seats.claims[event.device], event.device)
         return True
 
+    def style_of(self, device: Device) -> str:
+        """The driving style of a device in this match."""
+        return self.context.driving.of(device, self.setup.game, self.setup.variant)
+
     def next_brain(self) -> None:
         """Show the thoughts of the next AI, after the last none; show a notice if there is no AI."""
         if not self.runner.brain.seats:
@@ -333,15 +338,12 @@ class MatchScene:
         if device is None:
             self.ai_assisted.add(seat)
         brain = (
-            HumanPlayer(lambda: self._read(seat, device), self._driving(device))
+            HumanPlayer(lambda: self._read(seat, device), DRIVING[self.setup.game][self.style_of(device)])
             if device
             else make_brain(self.setup.game, SUBSTITUTE_BRAIN, new_seed())
         )
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else SUBSTITUTE_BRAIN
-
-    def _driving(self, device: Device) -> Driving:
-        return DRIVING[self.setup.game][self.context.driving.of(device, self.setup.game, self.setup.variant)]
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
@@ -377,11 +379,14 @@ class MatchScene:
             )
             if finished:
                 self.context.sounds.play("go")
+            self.moment = WinnersMoment(self.context, self.results)
         self.frozen += seconds
         self.runner.wait(seconds)
-        if not self.results.prewarm(PREWARM_MS) or self._repeats(seconds):
+        if self.stop_requested:
+            return Swap(self.results) if self.results.prewarm(PREWARM_MS) else None
+        if not self.moment.prewarm(PREWARM_MS) or self._repeats(seconds):
             return None
-        return Swap(self.results) if self.stop_requested or self.frozen >= FREEZE_SECONDS else None
+        return Swap(self.moment) if self.frozen >= FREEZE_SECONDS else None
 
     def _repeats(self, seconds: float) -> bool:
         """Show the last hit again, after the final picture; true while it is not over."""

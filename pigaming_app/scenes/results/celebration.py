@@ -1,22 +1,22 @@
-"""Victory animation on the results page: the winner drives along the title line and spins, with sparks."""
+"""Light and confetti of the winner's moment."""
 
 import math
 import random
+from collections.abc import Sequence
 
 import pygame
 
 from pigaming_app.scenes.views.sprites.effects import SPARK_LEVELS, SPARK_SIZES, SPARK_TURNS, sparks
-from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.ui.draw import PLAYERS
-from pigaming_app.ui.draw.layers import LEFT, RIGHT
-from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
+from pigaming_app.ui.draw import ADD, BLACK, FOCUS, ICE, PRE, Color, GlowCanvas, cut_box, dim, shape_points
+from pigaming_app.ui.draw.sprites import Batch, Sprite, put, step, trim
+from pigaming_app.ui.draw.surface_cache import cached
 
-Y = 176  # px, the line
-DRIVE = 2.0  # s along the line
-SPIN = 1.4  # s per spin
-REST = 6.0  # s between spins
 BURST = 36  # sparks per burst
-FALL = 260.0  # px/s²
+FALL = 260.0  # px/s², of sparks
+VOLLEY = 44  # pieces of confetti from each side
+GRAVITY, DRAG, SINK = 1100.0, 1.1, 210.0  # px/s², 1/s, and px/s at which confetti sinks at most
+TUMBLES = 6  # views of a tumbling piece
+SIZES = (11, 15)  # px
 
 
 class Spark:
@@ -34,41 +34,89 @@ class Spark:
         return self.age < self.life
 
 
-class Celebration:
-    """Victory animation of `player` at (x, y), the position of its crown. `sparks`: include bursts of light."""
+class Piece:
+    """A piece of confetti: shot up from a lower corner, then sinking, swaying and tumbling."""
 
-    def __init__(self, player: int, x: float, y: float, sparks: bool) -> None:
-        self.player, self.x, self.y = player, x, y
-        self.rng = random.Random()
-        self.bursts = [0.0, 0.5, 1.1, 2.0, 3.2] if sparks else []
-        self.sparks: list[Spark] = []
+    def __init__(self, side: int, color: Color, shape: int, chance: random.Random) -> None:
+        self.x, self.y = 960 + side * 980.0, 1000.0
+        self.vx, self.vy = -side * chance.uniform(250, 1500), -chance.uniform(800, 1750)
+        self.color, self.shape, self.size = color, shape, chance.choice(SIZES)
+        self.phase, self.rate = chance.uniform(0, math.tau), chance.uniform(5, 11)
         self.age = 0.0
 
-    def update(self, seconds: float) -> None:
+    def move(self, seconds: float) -> bool:
+        """Advance by `seconds`; False once it is below the picture."""
         self.age += seconds
-        while self.bursts and self.bursts[0] <= self.age:
-            self.bursts.pop(0)
-            x, y = self.x + self.rng.uniform(-160, 160), self.y + self.rng.uniform(-20, 30)
-            self.sparks += [Spark(x, y, self.rng) for _ in range(BURST)]
-        self.sparks = [spark for spark in self.sparks if spark.move(seconds)]
+        slower = max(0.0, 1.0 - DRAG * seconds)
+        self.vx, self.vy = self.vx * slower, min(SINK, self.vy * slower + GRAVITY * seconds)
+        sway = 60 * math.cos(3 * self.age + self.phase) if self.vy > 0 else 0.0
+        self.x, self.y = self.x + (self.vx + sway) * seconds, self.y + self.vy * seconds
+        return self.y < 1100
 
     @property
-    def reach(self) -> float:
-        """Position of the winner along the line, px from its left end."""
-        share = min(1.0, self.age / DRIVE)
-        return (1.0 - (1.0 - share) ** 2) * (RIGHT - 40 - LEFT)
+    def tumble(self) -> int:
+        """The present view, 0..TUMBLES - 1."""
+        return int((self.phase + self.rate * self.age) / math.tau * TUMBLES) % TUMBLES
+
+
+class Celebration:
+    """Sparks and confetti in the look of a game. `players`: the celebrated seats; `colors`: theirs or their team's."""
+
+    def __init__(self, game: str, players: Sequence[int], colors: Sequence[Color]) -> None:
+        self.game, self.players = game, list(players)
+        self.colors = [*colors, *colors, FOCUS, ICE]
+        self.rng = random.Random()
+        self.sparks: list[tuple[Spark, Color]] = []
+        self.pieces: list[Piece] = []
+
+    def burst(self, x: float, y: float, color: Color) -> None:
+        """Sparks round a point."""
+        self.sparks += [(Spark(x, y, self.rng), color) for _ in range(BURST)]
+
+    def volley(self) -> None:
+        """Shoot confetti from both lower corners."""
+        for side in (-1, 1):
+            for _ in range(VOLLEY):
+                shape = self.rng.choice(self.players)
+                self.pieces.append(Piece(side, self.rng.choice(self.colors), shape, self.rng))
+
+    def update(self, seconds: float) -> None:
+        self.sparks = [(spark, color) for spark, color in self.sparks if spark.move(seconds)]
+        self.pieces = [piece for piece in self.pieces if piece.move(seconds)]
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Draw sparks and winner."""
-        color = PLAYERS[self.player]
         light: Batch = []
-        for spark in self.sparks:
+        for spark, color in self.sparks:
             level = min(SPARK_LEVELS - 1, int(SPARK_LEVELS * (1 - spark.age / spark.life)))
             turn = step(math.atan2(spark.vy, spark.vx), SPARK_TURNS)
             put(light, sparks(color, spark.size, turn)[level], spark.x, spark.y)
-        screen.fblits(light, pygame.BLEND_RGB_ADD)
-        dancing = self.age - DRIVE
-        angle = math.tau * min(1.0, dancing % REST / SPIN) if dancing > 0 else 0.0
-        robot: Batch = []
-        put(robot, tank(self.player, step(angle, HEADINGS)), LEFT + self.reach, Y)
-        screen.fblits(robot, pygame.BLEND_PREMULTIPLIED)
+        screen.fblits(light, ADD)
+        paper: Batch = []
+        for piece in self.pieces:
+            put(paper, confetti(self.game, piece.shape, piece.color, piece.size, piece.tumble), piece.x, piece.y)
+        screen.fblits(paper, PRE)
+
+
+@cached
+def confetti(game: str, shape: int, color: Color, size: int, tumble: int) -> Sprite:
+    """A piece in a view of its tumbling: the player's shape, in the factory a crate, in the race a chequer."""
+    half = size + 10
+    ink = GlowCanvas(2 * half, 2 * half)
+    flat, turn = 0.3 + 0.7 * abs(math.cos(tumble * math.pi / TUMBLES)), 0.5 + tumble * math.pi / TUMBLES
+    c, s = math.cos(turn), math.sin(turn)
+
+    def placed(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+        return [(half + x * c - flat * y * s, half + x * s + flat * y * c) for x, y in points]
+
+    if game == "factory":
+        crate = placed(cut_box(-size, -size, 2 * size, 2 * size, 0.35 * size))
+        ink.solid(crate).fill(crate, dim(color, 0.35)).line(crate, color, 4, True)
+    elif game == "race":
+        whole = placed([(-size, -size), (size, -size), (size, size), (-size, size)])
+        ink.solid(whole).fill(whole, color)
+        for x, y in ((-size, -size), (0.0, 0.0)):
+            ink.fill(placed([(x, y), (x + size, y), (x + size, y + size), (x, y + size)]), BLACK)
+    else:
+        piece = placed(shape_points(shape, size))
+        ink.solid(piece).fill(piece, color)
+    return trim(ink.sprite(0.5), half, half)

@@ -68,7 +68,7 @@ class Results:
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
         self.claims = qualifying(context, outcome, setup, own) if finished else []
         self.initials = Initials(context, setup, self.claims)
-        self.sounds = self.page.sounds(humans)
+        self.sounds = self.page.sounds()
         self.age = self.idle = self.message_left = 0.0
         self.message: Caption | None = None
         self.access = Access(context, lambda: self.ballot.devices)
@@ -129,7 +129,6 @@ class Results:
         self.age += seconds
         self.idle += seconds
         self.message_left -= seconds
-        self.page.update(seconds, self.age)
         while self.sounds and self.sounds[0][0] <= self.age:
             _, name, player = self.sounds.pop(0)
             self.context.sounds.play(name, player)

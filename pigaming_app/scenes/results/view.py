@@ -11,13 +11,10 @@ from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
-from pigaming_app.scenes.results.celebration import Celebration
 from pigaming_app.scenes.results.headline import headline, is_allied, stars, winning_color
 from pigaming_app.scenes.results.high_score_tables import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
-from pigaming_app.scenes.results.stars import APART as STAR_APART
-from pigaming_app.scenes.results.stars import HIGH, StarRow, empty, sign
-from pigaming_app.scenes.results.stars import POPS as STAR_POPS
+from pigaming_app.scenes.results.stars import HIGH, star_row
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
@@ -32,7 +29,6 @@ from pigaming_app.ui.draw import (
     TITLE,
     WHITE,
     Color,
-    GlowCanvas,
     badge,
     icon,
     mix,
@@ -41,7 +37,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget
 from pigaming_app.ui.draw.frame_budget import clock as frame_clock
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
+from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
 
 TOP, ROW, PITCH = 280, 120, 136
@@ -82,8 +78,6 @@ class ResultsPage:
         self.ready_at = self.title_at + 0.4
         self.parts: list[Part] = []
         self.plot: Plot
-        self.finale: Celebration | None = None
-        self.star_row: StarRow | None = None
         self._rendering = self._render_parts()
 
     def prewarm(self, milliseconds: float) -> bool:
@@ -97,22 +91,9 @@ class ResultsPage:
                 return False
         return True
 
-    def sounds(self, humans: Sequence[int]) -> list[tuple[float, str, int | None]]:
+    def sounds(self) -> list[tuple[float, str, int | None]]:
         """Sounds of the reveal: (seconds, name, player)."""
-        rows = [(FIRST + APART * i, "move", team[0].seat) for i, team in enumerate(reversed(self.teams))]
-        if not self.finished:
-            return [*rows]
-        if is_allied(self.setup):
-            lit = [(self.title_at + STAR_APART * i, "ready", i) for i in range(self.stars)]
-            return [*rows, *lit, (self.title_at + STAR_APART * self.stars, "win" if self.stars else "lose", None)]
-        cheer = "tie" if not self.winners else "win" if not humans or set(self.winners) & set(humans) else "lose"
-        return [*rows, (self.title_at, cheer, self.winners[0] if self.winners else None)]
-
-    def update(self, seconds: float, age: float) -> None:
-        """Advance the celebration."""
-        for show in (self.finale, self.star_row):
-            if show and age >= self.title_at:
-                show.update(seconds)
+        return [(FIRST + APART * i, "move", team[0].seat) for i, team in enumerate(reversed(self.teams))]
 
     def draw(self, screen: pygame.Surface, age: float) -> None:
         """Draw the page `age` seconds after it was opened."""
@@ -136,13 +117,7 @@ class ResultsPage:
         else:
             reach = self._reach(age)
             self.steel.draw(screen, begin=share_of(self.steel, LEFT + reach))
-            drawn_whole = not self.finale and reach >= SHORT
-            self.colored.draw(screen, share=1.0 if drawn_whole else share_of(self.colored, LEFT + reach))
-            if self.star_row:
-                self.star_row.draw(screen)
-            if self.finale:
-                self.crown.draw(screen, dy=-70 * max(0.0, 1 - (age - self.title_at) / 0.3) ** 2)
-                self.finale.draw(screen)
+            self.colored.draw(screen, share=share_of(self.colored, LEFT + reach))
 
     # ---- widgets
 
@@ -174,11 +149,7 @@ class ResultsPage:
         x, w = span(6, 6)
         self.plot = self._plot(x, w)
         if is_allied(self.setup) and self.finished:
-            self.star_row = StarRow(self.stars, x, TOP + HIGH / 2, w, self.context.settings.flashes != "off")
-            for pop in range(STAR_POPS):
-                sign(pop)
-                yield True
-            empty()
+            self.parts.append(Part(star_row(self.stars, x, TOP, w), self.title_at))
             yield True
         self.parts.append(Part(self.plot.grid(), 0.1))
         yield True
@@ -205,10 +176,7 @@ class ResultsPage:
         layer.canvas.text(text, size, x, 112, self._color())
         if self.winners and not self.stars:
             at = x + text_width(text, size) + 70
-            ink = GlowCanvas(160, 140).set_transform(80, 70)
-            icon(ink, "crown", 0, 0, 40, FOCUS, LINE)
-            self.crown = LitImage(ink.lit(), (round(at) - 80, 108 - 70))
-            self.finale = Celebration(self.winners[0], at, 108, self.context.settings.flashes != "off")
+            icon(layer.glow, "crown", at, 108, 40, FOCUS, LINE)
         return layer.render()
 
     def _where(self) -> LitImage:
@@ -329,7 +297,8 @@ class ResultsPage:
 
     def _reach(self, age: float) -> float:
         """Coloured length of the line below the title, px."""
-        return self.finale.reach if self.finale else SHORT * min(1.0, (age - self.title_at) / WIPE)
+        length = RIGHT - LEFT + MARGIN if self.winners else SHORT + MARGIN
+        return length * (1.0 - (1.0 - min(1.0, (age - self.title_at) / WIPE)) ** 2)
 
 
 def ends(wanted: Sequence[float], left: float, right: float, apart: float) -> list[float]:

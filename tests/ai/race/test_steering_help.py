@@ -5,14 +5,17 @@ from math import atan2, pi
 
 import pytest
 
+from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.race.steering_help import helped_stick
+from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, POINT, TURN
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import locate, point_at, segment_at
-from pigaming_app.sim.action import set_action
+from pigaming_app.sim.action import quantise, set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.input.events import StickState
 from tests.cases import one_in
 
 TRACKS = arenas("race")
@@ -118,3 +121,15 @@ def test_the_stick_stays_in_its_range_and_the_race_is_not_changed():
             assert 0.0 < linear <= 1.0
             assert -1.0 <= turn <= 1.0
         assert digest(state) == before
+
+
+def test_a_helped_person_drives_by_the_helped_stick_of_the_style():
+    state = placed(600.0, -90.0)
+    for name, style in ((HELPED_TURN, DRIVING["race"][TURN]), (HELPED_POINT, DRIVING["race"][POINT])):
+        stick = StickState(0.5, 0.75, False, True)
+        HumanPlayer(lambda stick=stick: stick, DRIVING["race"][name]).think(state, 0)
+        action = state.actions[0]
+        expected = helped_stick(state, 0, *style(state, 0, stick))
+        assert (action.linear, action.angular) == tuple(map(quantise, expected))
+        assert (action.linear, action.angular) != tuple(map(quantise, style(state, 0, stick)))
+        assert (action.fire, action.turbo) == (0, 1)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import DRIVING, POINT, TURN
+from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, POINT, TURN
 from pigaming_app.scenes.flow.driving import PARTY, PICTURES, DrivingStyles
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import ICONS
@@ -24,15 +24,23 @@ def test_a_new_pad_points_in_party_rules_and_everything_else_turns_and_drives() 
 def test_a_choice_holds_for_the_device_in_every_game_and_for_new_devices_of_its_kind(tmp_path: Path) -> None:
     settings = Settings()
     styles = DrivingStyles(settings)
-    styles.change(PAD, "race", PARTY, 1)
+    styles.change(PAD, "pitanks", PARTY, 1)
     assert styles.of(PAD, "factory", PARTY) == TURN
-    styles.change(OTHER, "race", PARTY, 1)
-    assert (styles.of(PAD, "race", PARTY), styles.of(OTHER, "race", PARTY)) == (TURN, POINT)
-    assert styles.of(KEYS, "race", PARTY) == TURN
+    styles.change(OTHER, "pitanks", PARTY, 1)
+    assert (styles.of(PAD, "pitanks", PARTY), styles.of(OTHER, "pitanks", PARTY)) == (TURN, POINT)
+    assert styles.of(KEYS, "pitanks", PARTY) == TURN
     settings.save(tmp_path)
     loaded, problems = Settings.load(tmp_path)
     assert not problems
     assert DrivingStyles(loaded).of(PAD, "pitanks", "plain") == POINT
+
+
+def test_the_choice_of_one_player_does_not_change_another() -> None:
+    styles = DrivingStyles(Settings())
+    assert styles.of(OTHER, "race", "standard") == TURN
+    styles.change(PAD, "race", "standard", 1)
+    assert styles.of(OTHER, "race", "standard") == TURN
+    assert styles.of(Device("pad", 9), "race", "standard") == POINT
 
 
 def test_the_styles_go_round_in_both_directions() -> None:
@@ -43,6 +51,13 @@ def test_the_styles_go_round_in_both_directions() -> None:
         seen.append(styles.of(KEYS, "race", PARTY))
     assert sorted(seen) == sorted(DRIVING["race"])
     assert seen[-1] == TURN
+
+
+def test_a_helped_style_is_the_same_without_help_in_games_that_offer_none() -> None:
+    for helped, plain in ((HELPED_TURN, TURN), (HELPED_POINT, POINT)):
+        styles = DrivingStyles(Settings(pad_driving=helped))
+        assert styles.of(PAD, "race", PARTY) == helped
+        assert styles.of(PAD, "pitanks", PARTY) == styles.of(PAD, "factory", "standard") == plain
 
 
 def test_a_style_that_a_game_does_not_offer_is_replaced_by_the_default() -> None:

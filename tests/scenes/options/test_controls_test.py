@@ -1,5 +1,6 @@
 """The controls test shows pressed buttons, and every device can leave it."""
 
+import math
 from pathlib import Path
 
 import pygame
@@ -7,6 +8,8 @@ import pytest
 
 from pigaming_app.scenes.options import controls_test as padtest
 from pigaming_app.scenes.options.controls_test import ControlsTest
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.robot import LAG
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import Arcade
@@ -72,8 +75,26 @@ def test_escape_and_a_click_on_the_hint_leave(arcade: Arcade) -> None:
 
 
 def test_a_keyboard_robot_turns_with_its_keys(arcade: Arcade) -> None:
-    before = arcade.shown(ControlsTest).headings[0]
+    device = Device("keys", 0)
     pygame.event.post(pygame.Event(pygame.KEYDOWN, scancode=pygame.KSCAN_D, key=0, mod=0))
     arcade.wait(0.5)
-    assert arcade.shown(ControlsTest).headings[0] == pytest.approx(before + padtest.TURN * 0.5, abs=0.15)
-    assert Device("keys", 0) not in arcade.context.controls.pads()
+    robot = arcade.shown(ControlsTest).driven[device].robots[0]
+    assert robot.angular == pytest.approx(padtest.TURN_RATE, rel=0.02)
+    turned = (robot.heading - 1.5 * math.pi) % math.tau
+    assert turned == pytest.approx(padtest.TURN_RATE * (0.5 - LAG), abs=0.15)
+
+
+def test_a_robot_shows_the_driving_style_of_its_device_and_stays_on_its_card(arcade: Arcade) -> None:
+    with VirtualPad() as pad:
+        arcade.frame()
+        device = Device("pad", pad.number)
+        pad.stick(1.0, 0.0)
+        arcade.wait(1.0)
+        robot = arcade.shown(ControlsTest).driven[device].robots[0]
+        assert robot.angular == pytest.approx(padtest.TURN_RATE, rel=0.02)
+        arcade.context.driving.change(device, "pitanks", "plain", 1)
+        arcade.wait(2.5)
+        assert abs(turn_to(robot.heading)) < 0.05
+        assert abs(robot.angular) < 0.05
+        assert 10.0 < robot.x < 30.0
+        arcade.shown(ControlsTest)

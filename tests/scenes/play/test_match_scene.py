@@ -1,5 +1,6 @@
 """Matches as played: the countdown, unplugged pads, replacements, pauses, and the results."""
 
+import math
 from collections.abc import Iterator
 from contextlib import ExitStack
 
@@ -7,12 +8,17 @@ import pygame
 import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
+from pigaming_app.ai.registry import TURN
+from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.play.countdown import CENTRE, clear_of
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import TIMEOUT, Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.results.winner import WinnersMoment
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.sim.angles import turn_to
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
@@ -70,14 +76,41 @@ def test_the_stick_is_read_on_the_tick_that_acts_on_it(arcade: Arcade, pads: Exi
     assert match.match.state.actions[0].linear == 1.0
 
 
+def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replugged(
+    arcade: Arcade, pads: ExitStack
+) -> None:
+    pad, device = plug(arcade, pads)
+    arcade.context.driving.change(device, "pitanks", "plain", 1)
+    match = MatchScene(arcade.context, setup("human easy off off", 5.0), [device])
+    arcade.open(match)
+    assert match.runner.driver(0, device)[1] == "point"
+    arcade.wait(COUNTDOWN + 0.1)
+    pad.stick(0.0, 1.0)
+    arcade.wait(1.5)
+    robot = match.match.state.robots[0]
+    assert robot.heading == pytest.approx(0.5 * math.pi, abs=0.1), "down the screen"
+    pad.unplug()
+    arcade.wait(0.1)
+    arcade.context.settings.pad_driving = TURN
+    new, other = plug(arcade, pads)
+    arcade.wait(1.0)
+    new.tap("a")
+    arcade.wait(4.0)
+    assert match.devices[0] == other
+    new.stick(1.0, 0.0)
+    arcade.wait(1.5)
+    assert abs(turn_to(robot.heading)) < 0.1, "right on the screen"
+
+
 def test_time_is_up_then_the_results(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human easy hard off"), [KEYS[0], None, None, None])
     arcade.open(match)
     arcade.until(lambda: match.match.over)
     assert arcade.sounds.heard.count("tick") == 6
     last = match.match.state.tick
-    waited = arcade.until(lambda: isinstance(arcade.stack.top, Results))
+    waited = arcade.until(lambda: isinstance(arcade.stack.top, WinnersMoment))
     assert 1.4 <= waited <= 2.0
+    arcade.until(lambda: isinstance(arcade.stack.top, Results))
     assert match.match.state.tick == last
 
 
@@ -250,7 +283,7 @@ def test_a_held_stick_counts_as_input(arcade: Arcade, pads: ExitStack) -> None:
 def test_a_match_of_ais_never_asks(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("easy easy off off", 1.2))
     arcade.open(match)
-    arcade.until(lambda: isinstance(arcade.stack.top, Results), 80.0)
+    arcade.until(lambda: isinstance(arcade.stack.top, Results), 85.0)
 
 
 def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcade) -> None:
@@ -280,3 +313,56 @@ def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, r
     arcade.until(lambda: scene.results is not None)
     assert scene.results
     assert len(scene.results.claims) == records
+
+
+def race(arcade: Arcade) -> MatchScene:
+    """A race of a person and an AI, before its countdown."""
+    one, two, three, four = Seat("human", 0), Seat("random", 1), Seat("off", 2), Seat("off", 3)
+    setup = Setup("race", "classic", (one, two, three, four), 1.0, 1, "standard", 1)
+    return MatchScene(arcade.context, setup, [KEYS[0]])
+
+
+def test_hints_are_drawn_from_go_to_the_end(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    match, drawn = race(arcade), []
+    monkeypatch.setattr(match.runner, "draw_hints", lambda screen, devices: drawn.append(devices))
+    match.draw(arcade.screen)
+    assert drawn == []
+    while match.countdown.locked:
+        match.countdown.update(0.1)
+    match.draw(arcade.screen)
+    assert drawn == [match.devices]
+    match.match.state.over = 1
+    match.draw(arcade.screen)
+    assert len(drawn) == 1
+
+
+@pytest.mark.parametrize(("y", "side"), [(60.0, 1), (300.0, 1), (820.0, -1)])
+def test_a_hint_stays_in_the_picture_and_clear_of_the_sign(arcade: Arcade, y: float, side: int) -> None:
+    match = race(arcade)
+    robot = match.match.state.robots[0]
+    robot.x, robot.y = 20.0, y
+    match.runner.view.hints = {0: "race.back_hint"}
+    box = drawn_hints(arcade, match)
+    assert pygame.Rect(LEFT, TOP, 1600, 900).contains(box)
+    assert (box.centery - TOP - y) * side > 80.0
+
+
+def test_a_hint_names_the_button_and_an_ai_gets_none(arcade: Arcade) -> None:
+    match = race(arcade)
+    match.runner.view.hints = {1: "race.back_hint"}
+    assert drawn_hints(arcade, match).w == 0
+    widths = []
+    for device in KEYS[:3]:
+        match.devices[0], match.runner.view.hints = device, {0: "race.back_hint"}
+        widths.append(drawn_hints(arcade, match).w)
+    assert len(set(widths)) == 3  # SPACE, R CTRL, U
+
+
+def drawn_hints(arcade: Arcade, match: MatchScene) -> pygame.Rect:
+    """The part of the screen that the hints take."""
+    arcade.screen.fill("black")
+    match.runner.draw_hints(arcade.screen, match.devices)
+    lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (8, 8, 8, 255))
+    lit.invert()
+    boxes = lit.get_bounding_rects()
+    return boxes[0].unionall(boxes[1:]) if boxes else pygame.Rect(0, 0, 0, 0)

@@ -98,7 +98,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
     for x, y, _ in mat.arena.poses()[:2]:
         for dx, dy in ((0, 0), (25, 25), (-25, 25), (25, -25), (-25, -25)):
             assert arcade.screen.get_at((round(160 + x + dx), round(140 + y + dy)))[:3] == GREY
-    until(arcade, Results)
+    until(arcade, Results, 12.0)
 
 
 @pytest.mark.long
@@ -109,7 +109,7 @@ def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: 
     arcade.open(match)
     play(arcade, 1.0)
     arcade.press(Button.START)
-    until(arcade, Results, 25.0)
+    until(arcade, Results, 28.0)
     assert match.match.over
 
 
@@ -313,7 +313,7 @@ def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat:
 def test_leaving_a_match_lets_go_of_the_robots(arcade: Arcade, mat: EmulatedSession) -> None:
     match = begun(arcade)
     match.stop()
-    until(arcade, Results)
+    until(arcade, Results, 12.0)
     mat.arena.advance(0.3)
     assert mat.arena.clock() - max(mat.arena.last_driven) > 0.2
     assert mat.fault is None

@@ -7,7 +7,15 @@ import pygame
 from pigaming_app.games.race.start import TrackPlan
 from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
-from pigaming_app.scenes.views.race.lines import frame, line_signs, line_sprite, post_sprite, sign_post, slot_sprite
+from pigaming_app.scenes.views.race.lines import (
+    BADGE,
+    frame,
+    line_signs,
+    line_sprite,
+    post_sprite,
+    sign_post,
+    slot_sprite,
+)
 from pigaming_app.scenes.views.race.track import draw_track, edges
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PRE, STEEL, WIDE, GlowCanvas
@@ -32,34 +40,30 @@ class RaceBackground(Background):
     @cached_property
     def surface(self) -> pygame.Surface:
         """The canvas with everything baked in. The HUD is baked above the arena, so `bare` needs no lines."""
-        boxes, marks = self._boxes(), self._marks()
+        lines, lights = self._marks()
         out = self.bare.copy()
-        out.fblits(boxes, ADD)
-        out.fblits(marks, PRE)
+        out.fblits(lines, PRE)
+        out.fblits(lights, ADD)
         return out
 
-    def _boxes(self) -> Batch:
-        """Start boxes."""
-        boxes: Batch = []
+    def _marks(self) -> tuple[Batch, Batch]:
+        """Lines; start boxes and signs, as light."""
+        lines: Batch = []
+        lights: Batch = []
         for seat, x, y, heading, numbered in self.slots:
-            put(boxes, slot_sprite(seat, heading, numbered), LEFT + x, TOP + y)
-        return boxes
-
-    def _marks(self) -> Batch:
-        """Lines and signs."""
-        marks: Batch = []
+            put(lights, slot_sprite(seat, heading, numbered), LEFT + x, TOP + y)
         course = self.track.course
         for sign, along in zip(self.signs, self.track.lines, strict=True):
             line, (x, y) = frame(course, along), sign_post(course, along)
-            put(marks, line_sprite(line, sign), LEFT + line.x, TOP + line.y)
-            put(marks, post_sprite(sign), LEFT + x, TOP + y)
-        return marks
+            put(lines, line_sprite(line, sign), LEFT + line.x, TOP + line.y)
+            put(lights, post_sprite(sign), LEFT + x, TOP + y)
+        return lines, lights
 
 
 @cached
 @resumable
 def bare(track: TrackPlan) -> Steps[pygame.Surface]:
-    """Road and mud, without lines and HUD."""
+    """Road, mud, and black areas for the signs, without lines and HUD."""
     below = earth(track)
     glow, crisp = GlowCanvas(1920, 1080).set_transform(LEFT, TOP), GlowCanvas(1920, 1080).set_transform(LEFT, TOP)
     yield from draw_track(glow, crisp, track)
@@ -68,6 +72,8 @@ def bare(track: TrackPlan) -> Steps[pygame.Surface]:
     light = yield from glow.lit_steps(GLOW, WIDE)
     out = pygame.Surface((1920, 1080))
     out.blit(below, (LEFT, TOP))
+    for x, y in (sign_post(track.course, along) for along in track.lines):
+        pygame.draw.circle(out, (0, 0, 0), (LEFT + x, TOP + y), BADGE + 12)
     yield
     out.blit(light, (0, 0), special_flags=ADD)
     yield from crisp.downscale_onto(out)

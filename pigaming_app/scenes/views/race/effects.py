@@ -66,7 +66,9 @@ class Announcements:
         self.notes: list[Announcement] = []
 
     def add(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
-        """Start an announcement over a robot."""
+        """Start an announcement over a robot; a sprite replaces an earlier one of the same robot and text."""
+        if sprite:
+            self.notes = [note for note in self.notes if not (note.sprite and (note.seat, note.text) == (seat, text))]
         self.notes.append(Announcement(now, seat, sprite, text, color))
 
     def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
@@ -142,7 +144,7 @@ class RaceEffects:
                     self._say(event.seat, decimal(self.words, f"{event.number:.2f}"), FOCUS)
                 particles.burst(x, y, FOCUS, 16, 44, 80)
             case "last_lap" if self.words:
-                self._say(event.seat, "", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
+                self._say(event.seat, "lap", color, race_signs.notice(self.words("race.last_lap"), color, "flag"))
             case "missed" | "void":
                 particles.burst(x, y, ALARM, 12, 44, 60)
             case "mud":
@@ -150,7 +152,9 @@ class RaceEffects:
             case "finish":
                 self.celebrate(x, y, color)
             case "up" | "down" if state.rules.party and not racer.finished:
-                self._say(event.seat, "", color, place_change(event.seat, event.kind == "up", f"{event.number:.0f}"))
+                self._say(
+                    event.seat, "place", color, place_change(event.seat, event.kind == "up", f"{event.number:.0f}")
+                )
             case "boost":
                 back = robot.heading + math.pi
                 particles.burst(x, y, FOCUS, 14, 40, 90, (back, 0.6))

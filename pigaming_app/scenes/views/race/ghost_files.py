@@ -11,15 +11,15 @@ import json
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
+from glob import escape
 from itertools import pairwise
 from pathlib import Path
 from threading import Thread
 from typing import Any
 
-from pigaming_app.games.arenas import load
 from pigaming_app.games.engine_hash import engine_hash
-from pigaming_app.games.race.course import CoursePosition, distance_ahead, locate
+from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES, Rules
 from pigaming_app.sim.arena import Arena
 from pigaming_app.storage.parsing import parse_json, quote
@@ -27,12 +27,10 @@ from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_wit
 
 RATE = 10.0  # poses per second
 FOLDER = "ghosts"
-FORMER = {  # hashes of the shipped tracks before 1.6, when their lines lay elsewhere
-    "classic": "5d11e68c", "hairpin": "bc717643", "kidney": "155cb634", "technical": "c733e0a0",
-}  # fmt: skip
 LONGEST = 600.0  # s
 FARTHEST = 10_000.0  # px from the centre, or rad
 SLACK = 1.1  # tolerance: real robots may be slightly faster than the rules, and tracked poses jitter
+OFF = 0.2  # share of a lap that may lie off the course; more is a lap of another track
 NEAR = 50.0  # px along the track between a robot and the line it crosses
 Pose = tuple[float, float, float]  # px, px, rad
 log = logging.getLogger(__name__)
@@ -93,23 +91,60 @@ def file_of(folder: Path, arena: Arena) -> Path:
 
 
 def load_ghost(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
-    """The ghost of a track, if any, and the reason if one was dropped: "old", "lost", else "".
-
-    A ghost from before the lines of a shipped track were moved is timed anew at the present lines.
-    """
+    """The ghost of a track, if any, and the reason if one was dropped: "old", "lost", else ""."""
     parsed, warnings = read_or_restore(file_of(folder, arena), _parsed)
-    if parsed is None and not warnings and arena.source == _shipped(arena.name):
-        former = folder / FOLDER / f"{arena.name}-{FORMER[arena.name]}.json"
-        parsed, warnings = read_or_restore(former, lambda text: _retimed(*_parsed(text), arena))
     for line in warnings:
         log.warning("%s", line)
     if parsed is None:
-        return None, "lost" if warnings else ""
+        return (None, "lost") if warnings else (_of_moved_lines(folder, arena), "")
     engine, ghost = parsed
     if drivable(ghost, arena) or engine == engine_hash():  # hashing the engine takes a tenth of a second
         return ghost, ""
     log.warning("%s: dropped; under the current rules no robot can drive this lap", file_of(folder, arena))
     return None, "old"
+
+
+def _of_moved_lines(folder: Path, arena: Arena) -> Ghost | None:
+    """The fastest ghost from the time before a track's lines were moved, timed anew on its present lines."""
+    found = []
+    for path in sorted((folder / FOLDER).glob(f"{escape(arena.name)}-????????.json")):
+        parsed, _ = read_or_restore(path, _parsed)
+        ghost = timed_anew(parsed[1], arena) if parsed else None
+        if ghost and drivable(ghost, arena):
+            found.append(ghost)
+    return min(found, key=lambda ghost: ghost.seconds, default=None)
+
+
+def timed_anew(ghost: Ghost, arena: Arena) -> Ghost | None:
+    """The same lap, from line 0 of a track to itself; None unless it is a lap of this track."""
+    course, place = arena.plan.course, CoursePosition()
+    alongs, off = [], 0
+    for x, y, _ in ghost.poses:
+        locate(course, x, y, place)
+        alongs.append(place.along)
+        off += 1 - place.on
+    if off > OFF * len(alongs):
+        return None
+    ways = [(b - a + course.length / 2) % course.length - course.length / 2 for a, b in pairwise([*alongs, alongs[0]])]
+    if abs(sum(ways) - course.length) > NEAR:
+        return None
+    times = [_passing(line, alongs, ways, course.length, ghost.seconds) for line in arena.plan.lines]
+    start = times[0]
+    crossed = tuple(round((time - start) % ghost.seconds, 4) for time in times)
+    if any(before >= after for before, after in pairwise((*crossed, ghost.seconds))):
+        return None
+    track = [ghost.pose(ghost.line, (start + i / RATE) % ghost.seconds) for i in range(int(ghost.seconds * RATE) + 1)]
+    return Ghost(0, ghost.seconds, crossed, tuple(pose or ghost.poses[0] for pose in track))
+
+
+def _passing(line: float, alongs: Sequence[float], ways: Sequence[float], length: float, seconds: float) -> float:
+    """Time in s at which a lap of `seconds` first passes a line; `ways`: px from each position to the next."""
+    for i, (along, way) in enumerate(zip(alongs, ways, strict=True)):
+        ahead = (line - along) % length
+        if way > 0.0 and ahead < way:
+            begin, end = i / RATE, min((i + 1) / RATE, seconds)
+            return begin + ahead / way * (end - begin)
+    return 0.0
 
 
 def drivable(ghost: Ghost, arena: Arena) -> bool:
@@ -126,35 +161,6 @@ def drivable(ghost: Ghost, arena: Arena) -> bool:
         if min(off, course.length - off) > NEAR:
             return False
     return True
-
-
-def _shipped(name: str) -> str | None:
-    """Source of a shipped track whose lines were moved; None for any other name."""
-    return load("race", name).source if name in FORMER else None
-
-
-def _retimed(engine: str, ghost: Ghost, arena: Arena) -> tuple[str, Ghost]:
-    """The same lap, from the present first line to itself. Raises ValueError if it does not cross every line."""
-    course, place = arena.plan.course, CoursePosition()
-    at, alongs = [k / RATE for k in range(len(ghost.poses))], []
-    for x, y, _ in ghost.poses:
-        locate(course, x, y, place)
-        alongs.append(place.along)
-    crossed: list[float] = []
-    for line in arena.plan.lines:
-        for k, (begin, along) in enumerate(zip(at, alongs, strict=True)):
-            after, end = (at[k + 1], alongs[k + 1]) if k + 1 < len(at) else (ghost.seconds, alongs[0])
-            step, way = distance_ahead(course, along, end), distance_ahead(course, along, line)
-            if way < step < 0.25 * course.length:
-                crossed.append(begin + way / step * (after - begin))
-                break
-        else:
-            raise ValueError("the lap does not cross the lines")
-    start = crossed[0]
-    times = tuple((time - start) % ghost.seconds for time in crossed)
-    whole = replace(ghost, crossed=(0.0,) * LINES)
-    poses = [whole.pose(0, (start + i / RATE) % ghost.seconds) for i in range(len(ghost.poses))]
-    return engine, Ghost(0, ghost.seconds, times, tuple(pose for pose in poses if pose))
 
 
 def save_ghost(folder: Path, arena: Arena, ghost: Ghost) -> Thread:

@@ -41,7 +41,7 @@ class RaceHud:
         self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
         self.parts = HudParts(background)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: (direction, tick) of its last change of place
-        self.notice: tuple[tuple[str, ...], int] = (), 0  # words in place of the clock, and the tick of their end
+        self.notice: tuple[tuple[str, ...], int] = (), 0  # words in place of the clock, and their first tick
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
         """Record a change of place."""
@@ -49,7 +49,7 @@ class RaceHud:
 
     def announce(self, text: str, tick: int) -> None:
         """Show words in place of the clock for a while."""
-        self.notice = announced(text), tick + ANNOUNCED
+        self.notice = announced(text), tick
 
     def follow(self, state: Race) -> None:
         """Record the positions after this tick."""
@@ -60,8 +60,8 @@ class RaceHud:
         for i, (seat, x) in enumerate(zip(order, self.xs, strict=True)):
             card = self._card(state, seat, i + 1)
             self.parts.show(x, card, x - 8, W + 16, partial(card_bits, card, x))
-        lines, end = self.notice
-        if lines and state.tick < end:
+        lines, begin = self.notice
+        if lines and begin <= state.tick < begin + ANNOUNCED:
             bit = partial(race_cards.banner, lines, FOCUS)
             self.parts.show("clock", lines, CLOCK.x, CLOCK.w, lambda: [(bit(), (CLOCK.x, 0), None)])
             return
@@ -74,7 +74,9 @@ class RaceHud:
         for seat in (i for i, robot in enumerate(state.robots) if robot.present):
             yield partial(race_cards.pulse, seat)
             for alarm, done in ((False, False), (True, False), (False, True)):
-                yield partial(race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not done)
+                yield partial(
+                    race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not (alarm or done)
+                )
             for full in (True, False):
                 yield partial(race_cards.turbo, seat, full, False)
                 yield partial(race_cards.foot, seat, state.rules.laps, full)
@@ -106,6 +108,7 @@ class RaceHud:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
         direction, changed_at = self.moves.get(seat, (0, -MOVED))
         done = bool(racer.finished)
+        sign = "" if done else "missed" if racer.missed else "wrong" if drives_wrong(racer) else ""
         share = racer.progress / (laps * state.course.length)
         return RaceCard(
             seat=seat,
@@ -117,11 +120,11 @@ class RaceHud:
             turbo=round(64 * robot.turbo),
             way=FOOT if done else round(FOOT * max(0.0, min(1.0, share))),
             laps=laps,
-            sign="" if done else "missed" if racer.missed else "wrong" if drives_wrong(racer) else "",
+            sign=sign,
             missed=self.signs[racer.missed - 1],
             moved=direction if state.tick - changed_at < MOVED else 0,
             done=done,
-            item=ICONS[racer.item] if state.rules.party and not done else "none",
+            item=ICONS[racer.item] if state.rules.party and not done and not sign else "none",
             slip=bool(racer.slip) and not done,
         )
 

@@ -27,7 +27,6 @@ from pigaming_app.ui.draw import (
     cut_box,
     dim,
     mix,
-    regular_polygon,
 )
 from pigaming_app.ui.draw.frame_budget import run_to_end
 from pigaming_app.ui.draw.sprites import Sprite, trim
@@ -143,10 +142,10 @@ def line_sprite(line: LineFrame, sign: int) -> Sprite:
 
 @cached
 def post_sprite(sign: int) -> Sprite:
-    """Sign beside the track, on a black disc. Blit with PRE."""
-    ink = GlowCanvas(128, 128).set_transform(64, 64).solid(regular_polygon(32, BADGE + 12))
+    """Sign beside the track, as light."""
+    ink = GlowCanvas(128, 128).set_transform(64, 64)
     draw_sign(ink, sign, 0, 0, BADGE)
-    return trim(ink.sprite(GLOW), 64, 64)
+    return trim(ink.lit(GLOW), 64, 64)
 
 
 @cached

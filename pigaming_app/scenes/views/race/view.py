@@ -145,7 +145,7 @@ class RaceView(MatchView):
             self.void_at[event.seat] = self.particles.clock
         elif event.kind == "final_lap" and self.words:
             self.cards.announce(self.words("race.last_lap"), state.tick)
-        elif event.kind == "close" and self.words:
+        elif event.kind == "close" and self.words and state.racers[event.seat].rank == 2:
             number = decimal(self.words, f"{event.number:.2f}")
             self.cards.announce(self.words("race.close_finish", seconds=number), state.tick)
 
