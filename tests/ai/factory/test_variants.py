@@ -42,7 +42,9 @@ def told(shop, seat=0):
 
 
 def without_loose(shop):
-    """Take the loose pallets off the floor."""
+    """Take the loose pallets off the floor, and the rush from all orders."""
+    for pallet in shop.pallets:
+        pallet.rush = 0
     for p in loose(shop):
         shop.slots[shop.pallets[p].at].pallet = 0
         shop.pallets[p].exists = shop.pallets[p].place = 0
@@ -83,8 +85,6 @@ def test_it_leaves_to_its_owner_what_is_not_free_yet():
 @pytest.mark.parametrize("which", [0, 1, 3])
 def test_a_rush_order_comes_first(which):
     shop = without_loose(party(present=(0, 1)))
-    for p in shop.own(ICE):
-        shop.pallets[p].rush = 0
     rush = shop.slot(ENTRY, ICE, which=which)
     shop.pallets[shop.slots[rush].pallet - 1].rush = shop.state.rules.rush
     shop.rails.poses[0] = (300.0, 228.0, 3.14)
@@ -95,8 +95,6 @@ def test_a_rush_order_comes_first(which):
 def test_a_rush_order_without_a_chance_is_an_ordinary_one():
     shop = without_loose(party(present=(0, 1)))
     far = shop.slot(ENTRY, ICE, which=3)
-    for p in shop.own(ICE):
-        shop.pallets[p].rush = 0
     shop.pallets[shop.slots[far].pallet - 1].rush = 8 * HZ
     shop.rails.poses[0] = (200.0, 96.0, 3.14)
     assert first_aim(shop) == shop.slot(ENTRY, ICE)
