@@ -162,7 +162,7 @@ class FactoryView(MatchView):
             put(top, crates.cross(), fork_x, fork_y)
         if load.frozen:
             part = -(-crates.COUNTS * load.frozen // state.rules.freeze)
-            put(light, crates.frozen(part, self.reach(seat, 54)), x, y)
+            put(light, crates.frozen(part, self.reach(seat, crates.FROZEN)), x, y)
             put(top, crates.digit(-(-load.frozen // HZ)), x, y + (BESIDE if y < TOP + BESIDE else -BESIDE))
 
     def _counts(self, light: Batch, state: Factory) -> None:
