@@ -26,6 +26,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.benchmark.frame_times import BusyFactory
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.factory import contest, countdowns, star_panel
+from pigaming_app.scenes.views.factory.hud import CALLS
 from pigaming_app.scenes.views.factory.next_step import is_task
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.record import digest
@@ -252,6 +253,7 @@ def test_a_rush_order_is_announced_shrinks_and_expires(screen):
     view.watch(state)
     pallet.rush = 0
     assert sounds(view, state) == ["expired"]
+    state.tick += CALLS["expired"]
     assert (pixels(screen, view, state, LEFT_PANEL), pixels(screen, view, state, around(slot.x, slot.y))) == plain
 
 
@@ -266,17 +268,21 @@ def test_a_rush_order_that_is_delivered_in_time_does_not_expire():
     assert sounds(view, state) == ["delivered_ice"]
 
 
-def test_a_theft_is_heard_and_called_out_and_flashes_at_the_robbed_team(screen):
+def test_a_theft_is_heard_and_called_out_on_the_panel_of_the_robbed_team(screen):
     match = begun("party")
     view, state = seen(match), match.state
     move(state, 0, IN_SLOT, OUTPUT_A)
     view.watch(state)
-    blooms = len(view.particles.blooms)
+    before = [pixels(screen, view, state, box) for box in (LEFT_PANEL, RIGHT_PANEL)]
     state.pallets[0].team, state.loads[1].stolen = FIRE, 1
     move(state, 0, ON_ROBOT, 1)
     assert sounds(view, state) == ["lift", "stolen"]
-    assert [note.text for note in view.notes.notes] == ["Stolen!"]
-    assert len(view.particles.blooms) > blooms
+    assert view.hud.calls == {ICE: ("stolen", state.tick + CALLS["stolen"])}
+    called = [pixels(screen, view, state, box) for box in (LEFT_PANEL, RIGHT_PANEL)]
+    state.tick += CALLS["stolen"]
+    after = [pixels(screen, view, state, box) for box in (LEFT_PANEL, RIGHT_PANEL)]
+    assert len({before[0], called[0], after[0]}) == 3  # the call, then one pallet less
+    assert called[1] == after[1] != before[1]
 
 
 def test_a_loose_pallet_looks_like_neither_teams_until_somebody_lifts_it(screen):

@@ -74,13 +74,11 @@ def react(
                 particles.burst(x, y, TEAMS[1 - event.worth], 24, 30, 110)
                 if options.flashes != "off":
                     particles.shock(x, y, TEAMS[event.worth])
-                notes.add(particles.clock, x, word_y, "stolen", TEAMS[1 - event.worth])
             case "rush":
                 particles.burst(x, y, FOCUS, 20, 34, 90)
                 notes.add(particles.clock, x, word_y, "rush", FOCUS)
             case "expired":
                 particles.burst(x, y, ALARM, 14, 34, 60)
-                notes.add(particles.clock, x, word_y, "expired", ALARM)
             case "fast":
                 particles.burst(x, y, FOCUS, 24, 80, 70)
             case "spoiled":

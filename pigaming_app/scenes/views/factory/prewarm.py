@@ -52,7 +52,7 @@ def jobs(seats: Sequence[int], state: Factory, notes: Announcements) -> Iterator
     yield from countdowns.jobs()
     if rules.party:
         yield from contest.jobs(rules)
-        yield from notes.jobs(*(("stolen", color) for color in crates.TEAMS), ("rush", FOCUS), ("expired", ALARM))
+        yield from notes.jobs(("rush", FOCUS))
     yield from _moments(seats, bool(rules.party))
 
 
