@@ -116,7 +116,7 @@ def set_rules(rules: Rules, setup: Setup) -> None:
     if setup.variant == "party":
         rules.party, rules.pallets = 1, 0
         rules.orders, rules.loose, rules.renew = 4, 3, 5 * HZ
-        rules.rush_every, rules.rush, rules.rush_points = 3, 40 * HZ, 2
+        rules.rush_every, rules.rush, rules.rush_points = 3, 60 * HZ, 2
         rules.claim, rules.overtime = 4 * HZ, OVERTIME * HZ
         rules.fast_every, rules.fast_process = 45 * HZ, 2 * HZ
     elif setup.variant == "together":
