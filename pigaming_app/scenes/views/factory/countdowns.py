@@ -22,6 +22,7 @@ CLEARING, JAMMING = "clearing", "jamming"  # also the names of their sounds
 SHOWN = {CLEARING: 10, JAMMING: 3}  # s left from which a countdown is shown
 HEARD = {CLEARING: 5, JAMMING: 3}  # s left from which each second is heard, and shown as a number
 BLINK = 5  # ticks for which a jammed machine is bright, then dark
+CORNER = 58.0  # px from a machine's centre to its warning sign, across and down
 OUTSIDE = 0.46  # distance from a slot to its number, as a share of the way from the machine to the slot
 
 
@@ -59,6 +60,7 @@ def draw(light: Batch, top: Batch, state: Factory) -> None:
     for m, machine in enumerate(state.machines):
         if jams_in(state, m) == 0:
             put(light, signs.stuck(state.tick // BLINK % 2 == 0), LEFT + machine.x, TOP + machine.y)
+            put(top, signs.jam(), LEFT + machine.x - CORNER, TOP + machine.y - CORNER)
     for countdown in countdowns(state):
         kind, machine = countdown.kind, state.machines[countdown.machine]
         urgent = countdown.seconds <= HEARD[kind]
@@ -77,3 +79,4 @@ def jobs() -> Iterator[Job]:
         yield partial(signs.time_left, part, part * SHOWN[CLEARING] <= crates.COUNTS * HEARD[CLEARING])
     yield from (partial(signs.seconds_left, number) for number in range(1, max(HEARD.values()) + 1))
     yield from (partial(signs.stuck, bright) for bright in (False, True))
+    yield signs.jam

@@ -65,10 +65,19 @@ def seconds_left(number: int) -> Sprite:
 
 @cached
 def stuck(bright: bool) -> Sprite:
-    """Outline and crossed arrow of a jammed machine; blinks with `bright`."""
+    """Outline of a jammed machine; blinks with `bright`."""
     ink, color = GlowCanvas(240, 240).set_transform(120, 120), ALARM if bright else dim(ALARM, 0.4)
     ink.line(cut_box(-74, -74, 148, 148, 22), color, LINE, True)
     return trim(ink.lit(0.9), 120, 120)
+
+
+@cached
+def jam() -> Sprite:
+    """Warning sign at a corner of a jammed machine."""
+    ink = GlowCanvas(120, 120, 3).set_transform(60, 60)
+    ink.solid(regular_polygon(3, 44, -math.pi / 2)).line(regular_polygon(3, 34, -math.pi / 2), ALARM, 5, True)
+    ink.line([(0, -12), (0, 3)], WHITE, 6).disc(0, 11, 3.6, WHITE)
+    return trim(ink.sprite(0.7), 60, 60)
 
 
 @cached
