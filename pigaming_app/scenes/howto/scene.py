@@ -76,7 +76,7 @@ class HowTo:
         button_label("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
         black_out(screen, *boxes)
-        for i, (box, (name, picture)) in enumerate(zip(boxes, self._lessons(), strict=True)):
+        for i, (box, (name, picture)) in enumerate(zip(boxes, self.lessons(), strict=True)):
             screen.set_clip(box.inflate(-8, -8))
             key = picture(screen, box.centerx, TOP + 268, self.clock)
             screen.set_clip(None)
@@ -92,7 +92,8 @@ class HowTo:
             self.context.sounds.play("move")
             self.game, self.page, self.clock = game, page, 0.0
 
-    def _lessons(self) -> list[tuple[str, LessonPicture]]:
+    def lessons(self) -> list[tuple[str, LessonPicture]]:
+        """The lessons of this page: text keys of the captions, and the pictures."""
         return list(LESSONS[self.game].items())[PAGE * self.page : PAGE * (self.page + 1)]
 
     def _foot(self, screen: pygame.Surface) -> None:
@@ -102,10 +103,10 @@ class HowTo:
             name = words(f"howto.{PAGES[self.game][self.page]}")
             pages(name, self.page, count).draw(screen)
             left += pages_width(name, count) + 40
-        limits = limits_line(words, self.game, self._minutes())
+        limits = limits_line(words, self.game, self.minutes())
         text(limits, BODY, ICE, "body", "l", round(RIGHT - left)).draw(screen, left, LIMITS_Y)
 
-    def _minutes(self) -> int:
+    def minutes(self) -> int:
         """The minutes of the last match, or by default those of another rule set that the page is about."""
         settings, last = self.context.settings, last_variant(self.context.settings, self.game)
         shown = PAGES.get(self.game, (last.name,))[self.page]
