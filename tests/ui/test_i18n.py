@@ -119,7 +119,7 @@ def test_every_game_and_its_rules_have_names(language: str) -> None:
     for game in games().values():
         assert words(f"games.{game.name}")
         asked = game.variants if len(game.variants) > 1 else ()
-        assert all(words(f"setup.{variant}") and words(f"setup.{variant}_line") for variant in asked)
+        assert all(words(f"setup.{variant}") and words(f"rules.{game.name}_{variant}") for variant in asked)
 
 
 def _holes(text: str) -> set[str | None]:

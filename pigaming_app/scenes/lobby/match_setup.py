@@ -155,7 +155,7 @@ class MatchSetupPage:
         if name == "minutes":
             return choice.chips(sizes, words("setup.minutes"), tuple(map(str, self.variant.minutes)), str(now.minutes))
         if name == "rules":
-            line = words(f"setup.{now.variant}_line")
+            line = words(f"rules.{game.name}_{now.variant}")
             return choice.row(sizes, words("setup.rules"), words(f"setup.{now.variant}"), line=line)
         return choice.start_button(words("setup.go"))
 
