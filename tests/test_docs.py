@@ -26,7 +26,7 @@ from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
 from pigaming_app.games.factory import pedestrians as walker
 from pigaming_app.games.factory import rules as factory_rules
-from pigaming_app.games.factory import state
+from pigaming_app.games.factory import stars, state
 from pigaming_app.games.factory.start import Rules as FactoryRules
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks import state as pitanks
@@ -48,7 +48,7 @@ RULES = {"pitanks": pitanks.Rules, "factory": FactoryRules, "race": race_state.R
 CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
     "Units, arena, robots": (world, robots, drivetrain, action, contact, driving, steering_help),
     "PiTanks": (pitanks, arena),
-    "Robot Factory": (state, walker, factory_rules),
+    "Robot Factory": (state, walker, factory_rules, stars),
     "Robot Race": (race, race_rules, race_state, furniture, party, recovery),
     "Results and tables of best scores": (table, initials),
     "Arena files": (world, arena, race, circuit, floor),
@@ -112,7 +112,8 @@ def in_code(row):
     if root == "mind":
         return attrgetter(path)(make_brain(GAME_OF[row.first], row.column, 1).mind)
     if root == "Variant":
-        return attrgetter(path)(games()[GAME_OF[row.section]].default)
+        game = games()[GAME_OF[row.section]]
+        return attrgetter(path)(game.variants[row.column] if row.column else game.default)
     if root in ("Rules", "Game"):
         game = GAME_OF[row.section]
         return attrgetter(path)(match_of(game, row.column or None).state.rules if root == "Rules" else games()[game])

@@ -4,8 +4,10 @@ Twice a second it lists the open jobs of its team, estimates the cost of each fo
 own part of the cheapest pair. A mate with the same brain computes the same allocation; the job of a human mate is
 predicted from position and left to them. For putting down, a slot that a mate has targeted counts as taken. For
 lifting, it counts as taken only while the mate carries a pallet: if one job is left for two free mates, both go and the
-first gets it. The three strengths differ in speed, in the pause after each job, and in the error of their cost
-estimates, never in rules.
+first gets it. The three strengths differ in numbers, never in rules: the weakest drives slowly, hesitates after a job,
+often sets out the wrong way, misjudges costs and does not consider its mate.
+
+In party it prefers rush orders and the fast machine, and takes whatever pallet anybody may take.
 """
 
 from typing import Any

@@ -48,12 +48,16 @@ def _behaviour(obs: Any, mind: Any, slot: Any) -> tuple[str, str]:
         return "free", "stuck"
     if mind.near:
         return "queue", "full" if obs.carries else "nothing"
+    if mind.detour > 0:
+        return "detour", "lost"
     if not obs.carries:
+        if slot.theirs and slot.lift:
+            return "take", "anybody"
         if slot.kind == OUTPUT and not slot.ours:
             return "clear", "blocked"
-        return "fetch", LOADS.get(slot.holds - 1, "next")
+        return "fetch", "rush" if slot.rush else LOADS.get(slot.holds - 1, "next")
     bring = "bring" if slot.kind == INPUT else "deliver" if slot.kind == EXIT else "shelve"
-    return bring, LOADS[obs.carries - 1]
+    return bring, "rush" if obs.rush else "fast" if slot.fast else LOADS[obs.carries - 1]
 
 
 def _chosen(obs: Any, mind: Any, slot: Any, behaviour: str) -> str:
@@ -88,6 +92,7 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
         "resting": mind.resting,
         "frozen": obs.frozen,
         "lead": obs.lead,
+        "rush": obs.rush,
         "goal_distance": obs.goal_distance,
         "stuck_ticks": mind.stuck_ticks,
     }

@@ -26,8 +26,8 @@ STALLED = 12.0  # s without a worker after which a pallet is taken back out of a
 SLOW = 6.0  # s without a worker before that counts as a delay; less is common
 AVOID_COST = 2000.0  # px, cost of the avoided slot, which could not be reached
 LATER = 260.0  # px, cost of a raw pallet, so that pallets nearer to completion come first
-RUSH = 700.0  # px, bonus of a rush order that can still be delivered in time
-RUSH_TIMES = 34.0, 19.0, 6.0  # s that a raw, half-done or done pallet needs at least to be delivered
+RUSH = 1200.0  # px, bonus of a rush order that can still be delivered in time
+RUSH_TIMES = 26.0, 14.0, 4.0  # s that a raw, half-done or done pallet needs at least to be delivered
 FAST = 350.0  # px, bonus of the fast machine
 
 

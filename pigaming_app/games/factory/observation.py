@@ -75,6 +75,7 @@ class SlotView:
     ours: int  # 1: the pallet in process, or in the output, belongs to the own team
     rush: float = added()  # s left to the deadline of its pallet, a rush order; 0: none
     fast: int = added()  # 1: a slot of the fast machine
+    theirs: int = added()  # 1: in party, its pallet is loose or the other team's
 
 
 @record
@@ -170,7 +171,10 @@ def observe_slot(match: Any, seat: int, s: int, seen: Any) -> None:
     seen.kind, seen.machine, seen.x, seen.y = slot.kind, slot.machine, slot.x, slot.y
     seen.mine = 0 if slot.team == NOBODY else 1 if slot.team == team else -1
     seen.holds = match.pallets[slot.pallet - 1].state + 1 if slot.pallet else 0
-    seen.rush = match.pallets[slot.pallet - 1].rush * 0.02 if slot.pallet else 0.0
+    seen.rush, seen.theirs = 0.0, 0
+    if match.rules.party and slot.pallet:
+        pallet = match.pallets[slot.pallet - 1]
+        seen.rush, seen.theirs = pallet.rush * 0.02, 1 if pallet.team != team else 0
     seen.lift = 1 if may_lift(match, seat, s) else 0
     seen.put = 1 if match.loads[seat].pallet and may_set_down(match, seat, s) else 0
     seen.makes, seen.wait, seen.stalled, seen.output_blocked, seen.ours = -1, 0.0, 0.0, 0, 0

@@ -57,10 +57,10 @@ def judge(match: Any) -> None:
             track_motion(match.motions[k], match.robots[k])
             use_fork(match, k)
     age_pallets(match)
-    for team in range(TEAMS):
-        stock_up(match, team)
     if match.rules.party:
         run_orders(match)
+    for team in range(TEAMS):
+        stock_up(match, team)
     run_machines_and_workers(match)
     for k in range(ROBOTS):
         if match.robots[k].present:

@@ -26,7 +26,7 @@ from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 PALLETS = Rules().pallets  # per team, the default goal
 GOALS = tuple(range(2, MAX_PALLETS + 1))
-OVERTIME = 30  # s
+OVERTIME = 30.0  # s
 VARIANTS = named(
     Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1), feats=("time",)),
     Variant(
@@ -116,8 +116,8 @@ def set_rules(rules: Rules, setup: Setup) -> None:
     if setup.variant == "party":
         rules.party, rules.pallets = 1, 0
         rules.orders, rules.loose, rules.renew = 4, 3, 5 * HZ
-        rules.rush_every, rules.rush, rules.rush_points = 3, 40 * HZ, 2
-        rules.claim, rules.overtime = 4 * HZ, OVERTIME * HZ
+        rules.rush_every, rules.rush, rules.rush_points = 3, 60 * HZ, 2
+        rules.claim, rules.overtime = 4 * HZ, round(OVERTIME * HZ)
         rules.fast_every, rules.fast_process = 45 * HZ, 2 * HZ
     elif setup.variant == "together":
         rules.allies = 1

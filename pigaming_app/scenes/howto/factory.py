@@ -95,7 +95,7 @@ def people(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | 
         blit_sprite(screen, crates.person(crates.PERSON_TURNS // 4, stride, False), wx, wy)
     if frozen:
         left = FREEZE - (now - MEET)
-        add(screen, crates.frozen(math.ceil(left / FREEZE * crates.COUNTS)), px, py)
+        add(screen, crates.frozen(math.ceil(left / FREEZE * crates.COUNTS), crates.FROZEN), px, py)
         add(screen, crates.digit(math.ceil(left)), px, py - 116)
         if now - MEET < 1.0:
             blit_sprite(screen, crates.exclaim(), wx + 58, wy - 50)

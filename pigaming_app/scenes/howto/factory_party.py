@@ -35,8 +35,8 @@ def rush(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | No
         py = y + 150 - 216 * ease(now / RUSH_WAY)
         robot(screen, 0, ICE, x, py, UP)
         blit_sprite(screen, crates.crate(ICE, DONE), x, py - FORK)
-        part = math.ceil(crates.COUNTS * (1.0 - 0.8 * now / RUSH_WAY))
-        add(screen, signs.rush_ring(part, now > 0.7 * RUSH_WAY), x, py - FORK)
+        part = math.ceil(signs.RUSH_STEPS * (1.0 - 0.8 * now / RUSH_WAY))
+        add(screen, signs.rush_ring(part, part <= signs.RUSH_STEPS // 3), x, py - FORK)
         blit_sprite(screen, signs.times_two(), x + 34, py - FORK - 34)
     else:
         blit_sprite(screen, crates.crate(ICE, DELIVERED), x, y - 130)
@@ -77,7 +77,7 @@ def claim(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
         return None
     blit_sprite(screen, crates.crate(FIRE, DONE), x, out)
     if now < CLAIM:
-        add(screen, signs.claimed(FIRE, math.ceil(crates.COUNTS * (1.0 - now / CLAIM))), x, out)
+        add(screen, signs.claimed(FIRE, math.ceil(signs.CLAIM_STEPS * (1.0 - now / CLAIM))), x, out)
     else:
         add(screen, signs.open_to_all(int(seconds * 5) % signs.OPEN_TURNS), x, out)
     return None

@@ -101,6 +101,14 @@ def test_a_brain_that_is_not_there_is_refused():
         duel("pitanks", "genius", "random", matches=2, seed=1)
 
 
+def test_allies_play_the_same_seeds_alone_and_the_better_time_wins():
+    result = duel("factory", "hard", "easy", matches=2, seed=7, goal=4, variant="together", fast=False)
+    assert (result.wins, result.ties, result.losses) == (2, 0, 0)
+    assert result.mean_score_left == result.mean_score_right == 4.0
+    even = duel("factory", "hard", "hard", matches=1, seed=7, goal=4, variant="together", fast=False)
+    assert (even.wins, even.ties, even.losses) == (0, 1, 0)
+
+
 # ------------------------------------------------------------------------------------------------------------- leagues
 
 

@@ -2,6 +2,7 @@
 
 from math import cos, sin
 
+from pigaming_app.games.factory import FACTORY
 from pigaming_app.games.factory.state import IN_SLOT, INPUT, MAX_PALLETS, OUTPUT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -11,12 +12,13 @@ OUT_OF_THE_WAY = (800.0, 450.0)
 
 
 class Shop:
-    """A match of Robot Factory on rails. Seats 0 and 2 are ICE's, 1 and 3 FIRE's."""
+    """A match of Robot Factory on rails. Seats 0 and 2 are ICE's, 1 and 3 FIRE's; among allies all are ICE's."""
 
-    def __init__(self, arena="hall", pallets=4, present=(0, 1, 2, 3), minutes=5.0, seed=1):
-        one, two, three, four = (Seat("idle" if i in present else "off", i % 2) for i in range(4))
+    def __init__(self, arena="hall", pallets=4, present=(0, 1, 2, 3), minutes=5.0, seed=1, variant="standard"):
+        teams = FACTORY.variants[variant].teams
+        one, two, three, four = (Seat("idle" if i in present else "off", teams[i]) for i in range(4))
         self.rails = Rails()
-        setup = Setup("factory", arena, (one, two, three, four), minutes, seed, "standard", pallets)
+        setup = Setup("factory", arena, (one, two, three, four), minutes, seed, variant, pallets)
         self.match = Match(setup, self.rails)
         for seat in range(4):
             self.match.sit(seat, Fire())

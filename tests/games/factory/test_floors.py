@@ -60,7 +60,7 @@ def broken(old, new):
         (WORKER, WORKER.replace("720", "-5"), "worker[1].at", "(-5, 450) lies outside the arena"),
         (WORKER, WORKER.replace("720, 450", "520, 216"), "worker[1].at", "no person can get to (520, 216)"),
         (WORKER, WORKER.replace("720, 450", "720, 10"), "worker[1].at", "no person can get to (720, 10)"),
-        ("at = [1080, 216]", "at = [720, 216]", "machine[1].worker", "no person can get to"),
+        ("at = [1080, 216]", "at = [700, 216]", "machine[1].worker", "no person can get to"),
         ("at = [230, 228]", "at = [520, 216]", "start[1]", "would stand inside a wall"),
     ],
 )

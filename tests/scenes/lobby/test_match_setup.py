@@ -8,6 +8,7 @@ import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas
+from pigaming_app.games.game import PAIRS
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow import match_choice
 from pigaming_app.scenes.flow.match_choice import playable_arenas
@@ -152,3 +153,26 @@ def test_only_what_can_be_chosen_is_a_row() -> None:
         assert ("rules" in boxes) == (len(rules.variants) > 1)
         heights = sorted((box.top, box.bottom) for box in boxes.values())
         assert all(one[1] < other[0] for one, other in itertools.pairwise(heights))
+
+
+def test_the_seats_follow_the_team_mode_of_the_chosen_rules(arcade: Arcade) -> None:
+    seats = Seats(team_mode=PAIRS)
+    seats.join(KEYS[0])
+    seats.add_opponents()
+    arcade.open(MatchSetupPage(arcade.context, "factory", seats))
+    while page(arcade).focus.name != "rules":
+        arcade.press(Button.DOWN)
+    teams = {page(arcade).chosen.variant: [seat.team for seat in seats.seats()]}
+    for _ in range(3):
+        arcade.press(Button.RIGHT)
+        arcade.wait(0.1, draw=True)
+        teams[page(arcade).chosen.variant] = [seat.team for seat in seats.seats()]
+    assert list(teams) == ["standard", "party", "together"]
+    assert teams["together"] == [0, 0, 0, 0]
+    assert sorted(teams["party"]) == sorted(teams["standard"]) == [0, 0, 1, 1]
+    arcade.press(Button.LEFT)
+    assert page(arcade).chosen.variant == "together"
+    arcade.wait(0.5)
+    arcade.press(Button.FIRE)
+    match = arcade.shown(MatchScene)
+    assert (match.setup.variant, {seat.team for seat in match.setup.seats}) == ("together", {0})

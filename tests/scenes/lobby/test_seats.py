@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.games.game import ALONE, PAIRS, Seat
+from pigaming_app.games.game import ALLIES, ALONE, FREE, PAIRS, Seat
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, REAL, RIVALS, TEAM, Seats
 from pigaming_app.ui.input.events import Device
 
@@ -188,3 +188,57 @@ def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
         assert seats.seats()[0] == Seat(wanted, 0)
     seats.change_strength(1, 0)
     assert seats.places[0].strength == "easy"
+
+
+def test_among_allies_all_are_in_one_team_and_a_person_alone_gets_mates() -> None:
+    seats = Seats(team_mode=ALLIES)
+    seats.join(ANA)
+    assert not seats.one_team, "no opponents are missing"
+    assert seats.add_opponents() == [1, 2, 3]
+    assert [seat.team for seat in seats.seats()] == [0, 0, 0, 0]
+    assert not seats.teams
+
+
+def test_two_allies_need_nobody_else() -> None:
+    seats = Seats(team_mode=ALLIES)
+    seats.join(ANA)
+    seats.join(BEN)
+    assert not seats.add_opponents()
+
+
+def test_with_the_rule_set_the_seats_change_from_pairs_to_allies_and_back() -> None:
+    seats = Seats(team_mode=PAIRS)
+    for device in (ANA, BEN):
+        seats.join(device)
+    seats.change_mode(ALLIES)
+    assert [seat.team for seat in seats.seats()[:2]] == [0, 0]
+    assert seats.robots == 2, "allies need no opponents"
+    seats.change_mode(PAIRS)
+    assert (team_of(seats), seats.robots) == ([0, 1], 2)
+
+
+def test_allies_who_become_pairs_are_two_on_each_side() -> None:
+    seats = Seats(team_mode=ALLIES)
+    seats.join(ANA)
+    seats.add_opponents()
+    for place in seats.places:
+        place.team = 0
+    seats.change_mode(PAIRS)
+    assert sorted(team_of(seats)) == [0, 0, 1, 1]
+    assert not seats.one_team
+
+
+def test_one_ally_alone_gets_opponents_with_another_rule_set() -> None:
+    seats = Seats(team_mode=ALLIES)
+    seats.join(ANA)
+    seats.change_mode(PAIRS)
+    assert seats.robots == 4
+    assert sorted(team_of(seats)) == [0, 0, 1, 1]
+
+
+def test_the_same_team_mode_changes_nothing() -> None:
+    seats = Seats(team_mode=FREE, teams=True)
+    seats.join(ANA)
+    seats.change_mode(FREE)
+    assert seats.teams
+    assert seats.robots == 1

@@ -11,13 +11,14 @@ import pygame
 
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
+from pigaming_app.games.factory.state import OUTPUT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.benchmark import pitanks as busy
 from pigaming_app.scenes.views.benchmark import race as race_busy
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import DT
+from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.i18n import Words
 
 PARTICLES = 200
@@ -36,20 +37,30 @@ class BenchmarkMatch(Protocol):
 
 
 class BusyFactory:
-    """Factory match with as many pallets as possible and frantic drivers; one robot is always frozen."""
+    """Factory match with as many pallets as possible and frantic drivers. One robot is always frozen, every output
+    counts down, and in party every second order is a rush order.
+    """
 
     def __init__(self, variant: str) -> None:
         rules = games()["factory"].variants[variant]
         one, two, three, four = (Seat("hard", team) for team in rules.teams)
-        goal = max(rules.goals, default=rules.default_goal)
+        goal = max(rules.goals, default=0)
         setup = Setup("factory", arenas("factory")[0], (one, two, three, four), 8.0, 1, variant, goal)
         self.match = new_match(setup)
         self.arena, self.state = self.match.arena, self.match.state
 
     def tick(self) -> None:
         self.match.tick()
-        frozen = self.state.loads[3]
-        frozen.frozen = frozen.frozen or self.state.rules.freeze
+        state = self.state
+        frozen = state.loads[3]
+        frozen.frozen = frozen.frozen or state.rules.freeze
+        for slot in state.slots[: state.slot_count]:
+            if slot.pallet and slot.kind == OUTPUT:
+                pallet = state.pallets[slot.pallet - 1]
+                pallet.waited = max(pallet.waited, state.rules.collect - 10 * HZ)
+        if state.rules.party:
+            for pallet in state.pallets[::2]:
+                pallet.rush = pallet.rush or int(pallet.exists) * state.rules.rush
 
 
 BUSY: dict[str, Callable[[str], BenchmarkMatch]] = {

@@ -38,7 +38,7 @@ class Announcements:
         if self.words is None:
             return
         word = self.words(f"factory.{key}")
-        half = shout(word, color).image.get_width() / 2 + EDGE
+        half = shout(word, color, POPS - 1, LEVELS).image.get_width() / 2 + EDGE
         x = min(max(x, half), 1920 - half)
         self.notes = [note for note in self.notes if abs(note.y - y) > CLEAR or abs(note.x - x) > 2 * half]
         self.notes.append(Announcement(now, x, y, word, color))
@@ -57,5 +57,5 @@ class Announcements:
         """Prewarm jobs for these texts and colours."""
         for key, color in keys:
             word = self.words(f"factory.{key}") if self.words else ""
-            yield from (partial(shout, word, color, pop) for pop in range(POPS))
+            yield from (partial(shout, word, color, pop, LEVELS) for pop in range(POPS))
             yield from (partial(shout, word, color, POPS - 1, level) for level in range(1, LEVELS))

@@ -17,6 +17,7 @@ from pigaming_app.games.factory.state import (
     RAW,
     TEAMS,
     Factory,
+    Rules,
 )
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.factory.order_cards import URGENT
@@ -43,7 +44,7 @@ def draw_floor(light: Batch, state: Factory, clock: float) -> None:
         left = state.rules.claim - pallet.waited if slot.kind == OUTPUT else 0
         ring = signs.open_to_all(turn)
         if left > 0:
-            ring = signs.claimed(pallet.team, -(-crates.COUNTS * left // state.rules.claim))
+            ring = signs.claimed(pallet.team, -(-signs.CLAIM_STEPS * left // state.rules.claim))
         put(light, ring, LEFT + slot.x, TOP + slot.y)
     left = turn_left(state)
     for m, machine in enumerate(state.machines):
@@ -74,12 +75,13 @@ def crate(pallet: Any, tenths: int) -> Any:
 def mark_rush(light: Batch, top: Batch, state: Factory, pallet: Any, x: float, y: float) -> None:
     """Mark a pallet at (x, y), canvas px, if it is a rush order."""
     if pallet.rush and pallet.state != DELIVERED:
-        part = -(-crates.COUNTS * pallet.rush // state.rules.rush)
-        put(light, signs.rush_ring(part, pallet.rush <= URGENT), x, y)
+        part = -(-signs.RUSH_STEPS * pallet.rush // state.rules.rush)
+        urgent = part <= signs.RUSH_STEPS * URGENT // state.rules.rush + 1
+        put(light, signs.rush_ring(part, urgent), x, y)
         put(top, signs.times_two(), x + PLATE_X, y + PLATE_Y)
 
 
-def jobs() -> Iterator[Job]:
+def jobs(rules: Rules) -> Iterator[Job]:
     """Prewarm jobs for these sprites."""
     yield from (signs.times_two, signs.next_fast)
     for turn in range(signs.OPEN_TURNS):
@@ -88,6 +90,7 @@ def jobs() -> Iterator[Job]:
         yield partial(signs.fast, stage)
     for state in (RAW, HALF, DONE, DAMAGED):
         yield from (partial(signs.loose_crate, state, tenths) for tenths in (10, 13, 12, 11))
-    for part in range(1, crates.COUNTS + 1):
+    for part in range(1, signs.CLAIM_STEPS + 1):
         yield from (partial(signs.claimed, team, part) for team in range(TEAMS))
-        yield from (partial(signs.rush_ring, part, urgent) for urgent in (False, True))
+    for part in range(1, signs.RUSH_STEPS + 1):
+        yield partial(signs.rush_ring, part, part <= signs.RUSH_STEPS * URGENT // rules.rush + 1)

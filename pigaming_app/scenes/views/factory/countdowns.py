@@ -22,6 +22,7 @@ CLEARING, JAMMING = "clearing", "jamming"  # also the names of their sounds
 SHOWN = {CLEARING: 10, JAMMING: 3}  # s left from which a countdown is shown
 HEARD = {CLEARING: 5, JAMMING: 3}  # s left from which each second is heard, and shown as a number
 BLINK = 5  # ticks for which a jammed machine is bright, then dark
+CORNER = 58.0  # px from a machine's centre to its warning sign, across and down
 OUTSIDE = 0.46  # distance from a slot to its number, as a share of the way from the machine to the slot
 
 
@@ -55,16 +56,18 @@ def sounds(state: Factory) -> list[SoundCue]:
 
 
 def draw(light: Batch, top: Batch, state: Factory) -> None:
-    """Collect the rings and numbers, and the outlines of jammed machines."""
+    """Collect the numbers, the rings around outputs to be cleared, and the outlines of jammed machines."""
     for m, machine in enumerate(state.machines):
         if jams_in(state, m) == 0:
             put(light, signs.stuck(state.tick // BLINK % 2 == 0), LEFT + machine.x, TOP + machine.y)
+            put(top, signs.jam(), LEFT + machine.x - CORNER, TOP + machine.y - CORNER)
     for countdown in countdowns(state):
         kind, machine = countdown.kind, state.machines[countdown.machine]
         urgent = countdown.seconds <= HEARD[kind]
-        part = -(-crates.COUNTS * countdown.left // (SHOWN[kind] * HZ))
         x, y = LEFT + countdown.x, TOP + countdown.y
-        put(light, signs.time_left(part, urgent), x, y)
+        if kind == CLEARING:
+            part = -(-crates.COUNTS * countdown.left // (SHOWN[kind] * HZ))
+            put(light, signs.time_left(part, urgent), x, y)
         if urgent:
             dx, dy = countdown.x - machine.x, countdown.y - machine.y
             put(top, signs.seconds_left(countdown.seconds), x + OUTSIDE * dx, y + OUTSIDE * dy)
@@ -73,7 +76,7 @@ def draw(light: Batch, top: Batch, state: Factory) -> None:
 def jobs() -> Iterator[Job]:
     """Prewarm jobs for the signs."""
     for part in range(1, crates.COUNTS + 1):
-        for urgent in (False, True):
-            yield partial(signs.time_left, part, urgent)
+        yield partial(signs.time_left, part, part * SHOWN[CLEARING] <= crates.COUNTS * HEARD[CLEARING])
     yield from (partial(signs.seconds_left, number) for number in range(1, max(HEARD.values()) + 1))
     yield from (partial(signs.stuck, bright) for bright in (False, True))
+    yield signs.jam

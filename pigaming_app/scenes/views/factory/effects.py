@@ -19,7 +19,7 @@ from pigaming_app.scenes.views.factory.events import (
 from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
-from pigaming_app.ui.draw import ALARM, FOCUS, PLAYERS
+from pigaming_app.ui.draw import ALARM, FOCUS
 
 POP = 0.12  # s, pop animation of a moved crate
 JINGLES = {ICE: "delivered_ice", FIRE: "delivered_fire"}
@@ -70,17 +70,15 @@ def react(
                 notes.add(particles.clock, x, word_y, "delivered", color)
                 if event.player is not None:
                     particles.score(x, y - 20, f"+{event.worth}", event.player)
-            case "stolen" if event.player is not None:
-                particles.burst(x, y, PLAYERS[event.player], 24, 30, 110)
+            case "stolen":
+                particles.burst(x, y, TEAMS[1 - event.worth], 24, 30, 110)
                 if options.flashes != "off":
                     particles.shock(x, y, TEAMS[event.worth])
-                notes.add(particles.clock, x, word_y, "stolen", TEAMS[1 - event.worth])
             case "rush":
                 particles.burst(x, y, FOCUS, 20, 34, 90)
                 notes.add(particles.clock, x, word_y, "rush", FOCUS)
             case "expired":
                 particles.burst(x, y, ALARM, 14, 34, 60)
-                notes.add(particles.clock, x, word_y, "expired", ALARM)
             case "fast":
                 particles.burst(x, y, FOCUS, 24, 80, 70)
             case "spoiled":

@@ -32,7 +32,7 @@ ONE_TO_GO, STOLEN, RUSH, EXPIRED, FAST, STAR_LOST = "one_to_go", "stolen", "rush
 class FactoryEvent(NamedTuple):
     """An event at (x, y), px; `player`: the robot that caused it, or None.
 
-    `what`: index of the pallet, machine or team, -1: none. `worth`: points of a delivery; of a theft, the team robbed.
+    `what`: index of the pallet or machine, -1: none. `worth`: points of a delivery; of other events the team concerned.
     """
 
     kind: str
@@ -111,12 +111,12 @@ class FactoryEventDetector:
             if pallet.rush > self.rushes[p]:
                 yield FactoryEvent(RUSH, None, *spot(state, p), p)
             elif self.rushes[p] == 1 and not pallet.rush and pallet.state != DELIVERED:
-                yield FactoryEvent(EXPIRED, None, *spot(state, p), p)
+                yield FactoryEvent(EXPIRED, None, *spot(state, p), p, pallet.team)
         goal = state.rules.pallets
         for team in range(TEAMS):
             if goal and self.delivered[team] < state.delivered[team] == goal - 1:
                 out = state.slots[first_slot(team, EXIT)]
-                yield FactoryEvent(ONE_TO_GO, None, out.x, out.y, team)
+                yield FactoryEvent(ONE_TO_GO, None, out.x, out.y, worth=team)
         for m in range(MACHINES):
             if state.machines[m].fast and not self.fast[m]:
                 yield FactoryEvent(FAST, None, state.machines[m].x, state.machines[m].y, m)

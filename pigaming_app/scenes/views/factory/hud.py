@@ -16,8 +16,9 @@ from pigaming_app.scenes.views.factory import order_cards, panels, star_panel
 from pigaming_app.scenes.views.factory.order_cards import Order
 from pigaming_app.scenes.views.factory.panels import EDGE, NUMBER, H, Mate, W, X, Y
 from pigaming_app.scenes.views.hud_parts import CLOCK, HudParts
+from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import FOCUS, LABEL, SUB, Color, GlowCanvas
+from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, SUB, Color, GlowCanvas
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
@@ -25,7 +26,7 @@ from pigaming_app.ui.draw.text import fit_size, glyph, wrap_balanced
 from pigaming_app.ui.i18n import Words
 
 ROBOT, CRATES = 268, 330  # px from a panel's outer edge
-BANNER = 2 * HZ  # ticks for which a call covers a panel
+CALLS = {"one_to_go": 2 * HZ, "stolen": HZ, "expired": HZ}  # ticks for which a call covers a panel
 CLOCK_Y = 82
 
 
@@ -37,15 +38,17 @@ class FactoryHud:
         self.parts = HudParts(background)
         self.teams = (ICE,) if state.rules.allies else tuple(range(TEAMS))
         self.delivered = list(state.delivered)
-        self.called = [-BANNER] * TEAMS  # tick at which each team's call began
+        self.calls: dict[int, tuple[str, int]] = {}  # by team: the call on its panel, and the tick at which it ends
+
+    def call(self, team: int, key: str, tick: int) -> None:
+        """Cover a team's panel with a call (a key of CALLS) that begins at `tick`."""
+        self.calls[team] = key, tick + CALLS[key]
 
     def show(self, state: Factory) -> list[int]:
         """Bake changed panels; returns the teams with new deliveries."""
         new = [team for team in self.teams if state.delivered[team] > self.delivered[team]]
         self.delivered = list(state.delivered)
         for team in self.teams:
-            if team in new and lacks_one(state, team):
-                self.called[team] = state.tick
             self._show_panel(state, team)
         if state.rules.allies:
             star_panel.show_stars(self.parts, state, self._mates(state, ICE))
@@ -60,8 +63,9 @@ class FactoryHud:
         bits: Callable[[], Iterator[Bit]]
         content: tuple[Any, ...]
         color = FOCUS if lacks_one(state, team) else WHITE
-        if self.words and state.tick - self.called[team] < BANNER:
-            content = (self.words("factory.one_to_go"),)
+        key, end = self.calls.get(team, ("", 0))
+        if self.words and state.tick < end:
+            content = self.words(f"factory.{key}"), call_color(key, team)
             bits = partial(call_bits, team, *content)
         elif state.rules.allies:
             content = star_panel.progress(state), color
@@ -86,8 +90,9 @@ class FactoryHud:
             yield partial(panels.pulse, team)
             for char in "0123456789":
                 yield from (partial(glyph, char, SUB, color) for color in (WHITE, FOCUS))
-            if self.words and not state.rules.party:
-                yield partial(panels.banner, team, self.words("factory.one_to_go"))
+            for key in ("stolen", "expired") if state.rules.party else ("one_to_go",):
+                if self.words:
+                    yield partial(panels.banner, self.words(f"factory.{key}"), call_color(key, team))
         if state.rules.allies:
             yield from star_panel.jobs(state)
             return
@@ -120,9 +125,14 @@ def team_bits(
     yield from order_cards.bits(team, shown, left, right, mirrored)
 
 
-def call_bits(team: int, text: str) -> Iterator[Bit]:
+def call_color(key: str, team: int) -> Color:
+    """Good news in the team's colour, bad news in that of an alarm."""
+    return COLORS[team] if key == "one_to_go" else ALARM
+
+
+def call_bits(team: int, text: str, color: Color) -> Iterator[Bit]:
     """A call that covers a team's panel."""
-    yield panels.banner(team, text), (X[team] - EDGE, Y - EDGE), None
+    yield panels.banner(text, color), (X[team] - EDGE, Y - EDGE), None
 
 
 def overtime_bits(text: str) -> Iterator[Bit]:

@@ -7,7 +7,7 @@ where it will set one down.
 import math
 
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, FORK, INPUT, NOBODY, Factory
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, FORK, INPUT, NOBODY, OUTPUT, Factory
 from pigaming_app.games.factory.workers import fits
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites import factory as crates
@@ -49,7 +49,7 @@ class NextStepGuide:
             return
         x, y = LEFT + state.slots[s].x, TOP + state.slots[s].y
         put(light, crates.target(PLAYERS[seat] if human else dim(PLAYERS[seat], AIMS), not human), x, y)
-        if not human and not self._has_human_mate(state, seat):
+        if not human and not (self._has_human_mate(state, seat) and is_task(state, seat, s)):
             return
         from_x, from_y = pose[0] + FORK * math.cos(pose[2]), pose[1] + FORK * math.sin(pose[2])
         way = math.dist((from_x, from_y), (x, y))
@@ -67,6 +67,14 @@ class NextStepGuide:
             driver == "human" and robot.present and robot.team == team
             for driver, robot in zip(self.players, state.robots, strict=True)
         )
+
+
+def is_task(state: Factory, seat: int, s: int) -> bool:
+    """True if slot s is where robot `seat` can lift or set down something now, or soon; not if it only waits there."""
+    if state.loads[seat].pallet:
+        return bool(may_set_down(state, seat, s)) or state.slots[s].kind == INPUT
+    slot = state.slots[s]
+    return bool(may_lift(state, seat, s) or (slot.kind == OUTPUT and state.machines[slot.machine].pallet))
 
 
 def _beside(state: Factory, s: int) -> tuple[float, float]:

@@ -48,9 +48,9 @@ def _outline(ink: GlowCanvas, team: int) -> None:
 
 
 @cached
-def banner(team: int, text: str) -> pygame.Surface:
+def banner(text: str, color: Color) -> pygame.Surface:
     """A whole panel with a call instead of its content."""
-    ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), COLORS[team]
+    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     ink.fill(cut_box(0, 0, W, H), dim(color, 0.2)).line(cut_box(0, 0, W, H), color, LINE + 4, True)
     ink.text(text, fit_size(text, SUB, W - 80, "hero"), W / 2, H / 2, color, "hero", "c")
     return ink.lit(0.7)

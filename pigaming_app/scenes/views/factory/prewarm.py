@@ -37,7 +37,7 @@ def jobs(seats: Sequence[int], state: Factory, notes: Announcements) -> Iterator
     for part in range(crates.COUNTS + 1):
         yield partial(crates.progress, HALF, part)
         yield partial(crates.progress, DONE, part)
-        yield partial(crates.frozen, part)
+        yield partial(crates.frozen, part, crates.FROZEN)
     for char in "0123456789:":
         for color in (ICE, ALARM):
             yield partial(glyph, char, TITLE, color)
@@ -51,8 +51,8 @@ def jobs(seats: Sequence[int], state: Factory, notes: Announcements) -> Iterator
             yield partial(crates.arrow, PLAYERS[seat], turn)
     yield from countdowns.jobs()
     if rules.party:
-        yield from contest.jobs()
-        yield from notes.jobs(*(("stolen", color) for color in crates.TEAMS), ("rush", FOCUS), ("expired", ALARM))
+        yield from contest.jobs(rules)
+        yield from notes.jobs(("rush", FOCUS))
     yield from _moments(seats, bool(rules.party))
 
 
@@ -62,8 +62,7 @@ def _moments(seats: Sequence[int], party: bool) -> Iterator[Job]:
     for seconds in range(1, 11):
         yield partial(crates.awaited, seconds)
     yield from (crates.exclaim, crates.cross)
-    sparks = (*crates.TEAMS, ALARM, FOCUS, *(PLAYERS[seat] for seat in seats)) if party else (*crates.TEAMS, ALARM)
-    for color in (*sparks, crates.STATES[HALF], crates.STATES[DONE]):
+    for color in (*crates.TEAMS, ALARM, *([FOCUS] if party else []), crates.STATES[HALF], crates.STATES[DONE]):
         for size in effects.SPARK_SIZES:
             for turn in range(effects.SPARK_TURNS):
                 yield partial(effects.sparks, color, size, turn)

@@ -27,8 +27,8 @@ from pigaming_app.scenes.views.factory import contest, countdowns
 from pigaming_app.scenes.views.factory.announcements import Announcements
 from pigaming_app.scenes.views.factory.background import bare
 from pigaming_app.scenes.views.factory.effects import CratePops, react
-from pigaming_app.scenes.views.factory.events import STOLEN, FactoryEventDetector, spot
-from pigaming_app.scenes.views.factory.hud import FactoryHud
+from pigaming_app.scenes.views.factory.events import FactoryEventDetector, spot
+from pigaming_app.scenes.views.factory.hud import CALLS, FactoryHud
 from pigaming_app.scenes.views.factory.next_step import NextStepGuide
 from pigaming_app.scenes.views.factory.panels import X as PANELS
 from pigaming_app.scenes.views.factory.panels import Y as TOP_OF_PANELS
@@ -78,8 +78,8 @@ class FactoryView(MatchView):
         events = self.detector.detect(state)
         self.rumbles = rumbles("factory", ((event.kind, event.player) for event in events))
         for event in events:
-            if event.kind == STOLEN and self.options.flashes != "off":
-                self.particles.bloom(PANELS[event.worth], TOP_OF_PANELS, 0.4, pulse(event.worth))
+            if event.kind in CALLS:
+                self.hud.call(event.worth, event.kind, state.tick)
         cues = react(events, state, self.particles, self.pops, self.notes, self.options)
         return [*cues, *countdowns.sounds(state)]
 
@@ -164,7 +164,7 @@ class FactoryView(MatchView):
             put(top, crates.cross(), fork_x, fork_y)
         if load.frozen:
             part = -(-crates.COUNTS * load.frozen // state.rules.freeze)
-            put(light, crates.frozen(part, self.reach(seat, 54)), x, y)
+            put(light, crates.frozen(part, self.reach(seat, crates.FROZEN)), x, y)
             put(top, crates.digit(-(-load.frozen // HZ)), x, y + (BESIDE if y < TOP + BESIDE else -BESIDE))
 
     def _counts(self, light: Batch, state: Factory) -> None:

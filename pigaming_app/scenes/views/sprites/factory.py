@@ -37,6 +37,7 @@ CRATE = 54  # px
 PERSON_TURNS, STRIDE = 36, 4  # headings, frames of the walk cycle
 SUIT, SKIN, BOOTS, GOLD = (80, 205, 215), (255, 205, 160), (40, 96, 110), (255, 214, 48)
 COUNTS = 36  # steps of a progress ring
+FROZEN = 54  # px, radius of the ring of a frozen robot that is not real
 
 
 def state_icon(ink: GlowCanvas, state: int, x: float, y: float, r: float, color: Color) -> None:
@@ -189,7 +190,7 @@ def busy(team: int, kind: int) -> Sprite:
 
 
 @cached
-def frozen(part: int, r: int = 54) -> Sprite:
+def frozen(part: int, r: int) -> Sprite:
     """Timer ring of a frozen robot, radius `r` px, `part` of COUNTS left."""
     half = r + 31
     ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)

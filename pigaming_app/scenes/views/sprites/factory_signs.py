@@ -27,16 +27,17 @@ from pigaming_app.ui.draw.sprites import Sprite, faded, trim
 from pigaming_app.ui.draw.surface_cache import cached
 
 SHOUT = 60  # px, size of a shouted word
-POPS, LEVELS = 4, 6  # cached sizes and brightnesses of a shouted word
+POPS, LEVELS = 3, 4  # cached sizes and brightnesses of a shouted word
 OPEN_TURNS, FAST_STAGES = 8, 6  # cached stages of two animations
+CLAIM_STEPS, RUSH_STEPS = 16, 24  # of two rings
 RING, OPEN_RING = 56, 44  # px, radii of the rings around a slot: time left, and whose its pallet is
 
 
 @cached
-def shout(text: str, color: Color, pop: int = POPS - 1, level: int = LEVELS) -> Sprite:
+def shout(text: str, color: Color, pop: int, level: int) -> Sprite:
     """A shouted word, larger for a smaller `pop` (0..POPS - 1), at `level` of LEVELS."""
     if level < LEVELS:
-        return faded(shout(text, color, pop), level / LEVELS)
+        return faded(shout(text, color, pop, LEVELS), level / LEVELS)
     return edged(text, round(SHOUT * (1.0 + 0.5 * (1.0 - (pop + 1) / POPS))), color)
 
 
@@ -64,10 +65,19 @@ def seconds_left(number: int) -> Sprite:
 
 @cached
 def stuck(bright: bool) -> Sprite:
-    """Outline and crossed arrow of a jammed machine; blinks with `bright`."""
+    """Outline of a jammed machine; blinks with `bright`."""
     ink, color = GlowCanvas(240, 240).set_transform(120, 120), ALARM if bright else dim(ALARM, 0.4)
     ink.line(cut_box(-74, -74, 148, 148, 22), color, LINE, True)
     return trim(ink.lit(0.9), 120, 120)
+
+
+@cached
+def jam() -> Sprite:
+    """Warning sign at a corner of a jammed machine."""
+    ink = GlowCanvas(120, 120, 3).set_transform(60, 60)
+    ink.solid(regular_polygon(3, 44, -math.pi / 2)).line(regular_polygon(3, 34, -math.pi / 2), ALARM, 5, True)
+    ink.line([(0, -12), (0, 3)], WHITE, 6).disc(0, 11, 3.6, WHITE)
+    return trim(ink.sprite(0.7), 60, 60)
 
 
 @cached
@@ -126,21 +136,21 @@ def open_to_all(turn: int) -> Sprite:
 
 @cached
 def claimed(team: int, part: int) -> Sprite:
-    """Ring of the time for which a pallet is its owner's, `part` of COUNTS."""
+    """Ring of the time for which a pallet is its owner's, `part` of CLAIM_STEPS."""
     half = OPEN_RING + 30
     ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
     ink.ring(0, 0, OPEN_RING, dim(TEAMS[team], 0.18), 5)
-    ink.arc(0, 0, OPEN_RING, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, TEAMS[team], 5)
+    ink.arc(0, 0, OPEN_RING, -math.pi / 2, -math.pi / 2 + math.tau * part / CLAIM_STEPS, TEAMS[team], 5)
     return trim(ink.lit(0.7), half, half)
 
 
 @cached
 def rush_ring(part: int, urgent: bool) -> Sprite:
-    """Time left of a rush order, a square ring around its crate, `part` of COUNTS, with its worth."""
+    """Time left of a rush order, a square ring around its crate, `part` of RUSH_STEPS."""
     half, color = 34.0, ALARM if urgent else FOCUS
     ink = GlowCanvas(150, 150).set_transform(75, 75)
     way = [(0.0, -half), (half, -half), (half, half), (-half, half), (-half, -half), (0.0, -half)]
-    ink.line(way, dim(color, 0.22), 6).line(along(way, part / COUNTS), color, 6)
+    ink.line(way, dim(color, 0.22), 6).line(along(way, part / RUSH_STEPS), color, 6)
     return trim(ink.lit(0.9), 75, 75)
 
 

@@ -1,0 +1,98 @@
+"""The results of Robot Factory: one to three stars for allies, without opponents; points and thefts in party."""
+
+import pygame
+import pytest
+
+from pigaming_app.scenes.results.headline import headline, is_allied, stars
+from pigaming_app.scenes.results.high_score_tables import contest, counts
+from pigaming_app.scenes.results.high_scores import conditions
+from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.results.stars import APART
+from pigaming_app.ui.i18n import LANGUAGES, Words
+from tests.scenes.arcade import Arcade
+from tests.scenes.screens import FACTS, Ending
+
+ALLIES = (0, 0, 0, 0)
+BRAINS = "human human hard normal"
+
+
+@pytest.fixture
+def arcade(controls, tmp_path, monkeypatch):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    return Arcade(controls)
+
+
+def ended(monkeypatch, number, variant="together", teams=ALLIES, winners=(0, 1, 2, 3)):
+    monkeypatch.setitem(FACTS, "factory", {**FACTS["factory"], "stars": number})
+    return Ending("factory", BRAINS, teams, (2, 3, 2, 1), winners if number or teams != ALLIES else (), variant)
+
+
+def opened(arcade, ending, finished=True) -> Results:
+    results = ending.results(arcade, finished)
+    results.age = 0.0
+    arcade.open(results)
+    return results
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_headline_of_allies_names_their_stars_and_no_team(monkeypatch, arcade, language):
+    titles = []
+    for number in range(4):
+        ending = ended(monkeypatch, number)
+        setup = opened(arcade, ending).setup
+        assert is_allied(setup)
+        assert stars(ending.outcome()) == number
+        titles.append(headline(Words(language), ending.outcome(), setup))
+    assert len(set(titles)) == 4
+    words = Words(language)
+    assert not any(words(f"lobby.side_{side}") in title for side in (1, 2) for title in titles)
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_each_star_lights_up_with_a_sound_of_its_own_then_all_cheer(monkeypatch, arcade, number):
+    results = opened(arcade, ended(monkeypatch, number))
+    arcade.wait(results.page.title_at + APART * number + 0.3, fps=30, draw=True)
+    assert results.page.star_row.lit == number
+    heard = [name for name in arcade.sounds.heard if name in ("ready", "win", "lose", "tie")]
+    assert heard == ["ready"] * number + (["win"] if number else ["lose"])
+
+
+def test_more_stars_are_more_light(monkeypatch, arcade):
+    shining = []
+    for number in (0, 1, 3):
+        results = opened(arcade, ended(monkeypatch, number))
+        arcade.wait(3.0, fps=5, draw=True)
+        box = pygame.Rect(results.page.star_row.xs[0] - 100, results.page.star_row.y - 90, 760, 180)
+        shining.append(pygame.mask.from_threshold(arcade.screen.subsurface(box), (255, 236, 64), (40, 40, 60)).count())
+    assert shining == sorted(shining)
+    assert shining[0] < 100 < 9000 < shining[1] - shining[0]
+
+
+def test_a_match_of_allies_that_was_left_shows_no_stars(monkeypatch, arcade):
+    results = opened(arcade, ended(monkeypatch, 3), finished=False)
+    arcade.wait(3.0, fps=20, draw=True)
+    assert results.page.star_row is None
+    assert results.page.stars == 0
+
+
+def test_times_of_allies_count_without_opponents(monkeypatch, arcade):
+    setup = opened(arcade, ended(monkeypatch, 3)).setup
+    assert counts(setup, 0)
+    table = contest(setup, 0)
+    assert (table.people, table.side) == (2, 2)
+
+
+def test_party_shows_points_deliveries_and_thefts(monkeypatch, arcade):
+    ending = Ending("factory", BRAINS, (0, 1, 0, 1), (2, 3, 2, 1), (), "party")
+    results = opened(arcade, ending)
+    assert results.page.columns == ("score", "delivered", "stolen")
+    assert results.page.star_row is None
+
+
+@pytest.mark.parametrize(("variant", "length"), [("party", "5 min"), ("standard", "Pallets: 8"), ("together", "12")])
+def test_a_table_names_the_length_of_its_matches(monkeypatch, arcade, variant, length):
+    teams = ALLIES if variant == "together" else (0, 1, 0, 1)
+    setup = opened(arcade, Ending("factory", BRAINS, teams, (2, 3, 2, 1), (0, 1, 2, 3), variant)).setup
+    words = {"setup.count_pallets": "Pallets: {count}", "setup.min": "{minutes} min"}
+    monkeypatch.setattr(Words, "__call__", lambda self, key, **values: words.get(key, "").format(**values))
+    assert length in conditions(Words("en"), contest(setup, 0))
