@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import POINT, TURN
+from pigaming_app.ai.registry import POINT, RIVALS, STRENGTHS, TURN
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
-from pigaming_app.scenes.lobby.view import card_rect
+from pigaming_app.scenes.lobby.view import card_rect, stars
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
@@ -276,3 +276,8 @@ def test_everyone_chooses_a_driving_style_on_the_own_card_with_pad_keys_or_mouse
         arcade.press(Button.DOWN)
         arcade.press(Button.LEFT)
         assert styles() == [TURN, TURN]
+
+
+def test_strengths_have_stars_and_the_other_ais_none() -> None:
+    assert [stars(strength) for strength in STRENGTHS] == [(i + 1, len(STRENGTHS)) for i in range(len(STRENGTHS))]
+    assert {stars(rival) for rival in RIVALS["pitanks"] if rival not in STRENGTHS} == {(0, 0)}
