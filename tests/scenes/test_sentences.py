@@ -40,7 +40,7 @@ WHO_WINS = [
     ("pitanks", "human human hard off", ALONE, (1,), "Player 2 wins!", "Jogador 2 ganha!"),
     ("pitanks", "human human hard off", ALONE, (2,), "AI 3 (hard) wins!", "Computador 3 (difícil) ganha!"),
     ("pitanks", "human q2 off off", ALONE, (1,), "AI 2 (self-taught 2) wins!", "Computador 2 (autodidata 2) ganha!"),
-    ("pitanks", "human fsm off off", ALONE, (1,), "AI 2 (fsm) wins!", "Computador 2 (fsm) ganha!"),
+    ("pitanks", "human fsm off off", ALONE, (1,), "AI 2 (the old machine) wins!", "Computador 2 (a máquina antiga) ganha!"),
     ("pitanks", "human human human easy", PAIRS, (0, 2), "Team 1 wins!", "Equipa 1 ganha!"),
     ("pitanks", "human human human human", (0, 1, 1, 1), (1, 2, 3), "Team 2 wins!", "Equipa 2 ganha!"),
     ("factory", "human normal human hard", PAIRS, (0, 2), "Ice wins!", "Gelo ganha!"),
