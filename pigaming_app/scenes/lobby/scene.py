@@ -5,7 +5,8 @@ others can still join. A seated device controls its own seat, a free one can onl
 the element under the pointer.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 import pygame
 
@@ -16,14 +17,16 @@ from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.robot_session import settings_problem
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.match_choice import choice_summary, last_choice
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
-from pigaming_app.scenes.lobby.view import LobbyPage, LobbyState, problem, spots
+from pigaming_app.scenes.lobby.view import LobbyPage, LobbyState, problem, spots, stars
 from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
@@ -56,6 +59,7 @@ class Lobby:
         )
         self.focus = Focus(spots(self.seats))
         self.prewarm_queue = PrewarmQueue(card.prewarm_jobs())
+        self.prewarm_queue.append(self._row_jobs())
         self.warmup: MatchRunner | None = None
 
     @property
@@ -140,6 +144,15 @@ class Lobby:
             self.warmup = MatchRunner(self.context, Match(setup), loud=False)
         elif self.warmup:
             self.warmup.prewarm(PREWARM_MS)
+
+    def _row_jobs(self) -> Iterator[Callable[[], object]]:
+        """Prewarm jobs for the rows that appear when somebody joins and AIs fill the seats."""
+        words = self.context.words
+        for style in registry.DRIVING[self.game]:
+            for color in (*PLAYERS, None):
+                yield partial(card.driving, words(f"lobby.drive_{style}"), PICTURES[style], color)
+        for strength in registry.STRENGTHS:
+            yield partial(card.strength, words(f"lobby.{strength}"), *stars(strength), None)
 
     # ---- input
 

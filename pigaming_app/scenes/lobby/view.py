@@ -134,9 +134,8 @@ class LobbyPage:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
         if place.kind == AI:
             chosen = [PLAYERS[i] for i in self.seats.of_kind(HUMAN) if self.seats.row(i) == RIVALS]
-            stars, of = (1 + STRENGTHS.index(place.strength), len(STRENGTHS)) if place.strength in STRENGTHS else (0, 0)
-            text = words(f"lobby.{place.strength}")
-            card.strength(text, stars, of, chosen[0] if chosen else None).draw(screen, x, y)
+            text, color = words(f"lobby.{place.strength}"), chosen[0] if chosen else None
+            card.strength(text, *stars(place.strength), color).draw(screen, x, y)
         elif place.ready:
             ready_bar(seat, words("lobby.ready")).draw(screen, x, y)
         else:
@@ -190,6 +189,11 @@ def spots(seats: Seats) -> list[FocusSpot]:
                 box = pygame.Rect(x + 24, y + middle - card.ROW_H // 2, W - 48, card.ROW_H)
                 targets.append(FocusSpot(f"{row} {seat}", box))
     return [*targets, *(FocusSpot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
+
+
+def stars(strength: str) -> tuple[int, int]:
+    """Stars of a strength, and of the highest one; (0, 0) for an AI that is none of the strengths."""
+    return (1 + STRENGTHS.index(strength), len(STRENGTHS)) if strength in STRENGTHS else (0, 0)
 
 
 def real_y(seats: Seats) -> int:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import POINT, TURN
+from pigaming_app.ai.registry import POINT, RIVALS, STRENGTHS, TURN
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.flow import match_choice
@@ -16,7 +16,7 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
-from pigaming_app.scenes.lobby.view import card_rect
+from pigaming_app.scenes.lobby.view import card_rect, stars
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -301,3 +301,8 @@ def test_a_kiosk_offers_party_rules_until_visitors_choose_others_and_again_after
     assert last_choice(arcade.context, "pitanks").variant == "plain"
     title.on_enter()
     assert last_choice(arcade.context, "pitanks").variant == KIOSK_RULES
+
+
+def test_strengths_have_stars_and_the_other_ais_none() -> None:
+    assert [stars(strength) for strength in STRENGTHS] == [(i + 1, len(STRENGTHS)) for i in range(len(STRENGTHS))]
+    assert {stars(rival) for rival in RIVALS["pitanks"] if rival not in STRENGTHS} == {(0, 0)}
