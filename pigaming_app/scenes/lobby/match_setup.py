@@ -12,6 +12,7 @@ import pygame
 
 from pigaming_app.games.game import PAIRS, Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
+from pigaming_app.games.rounds import ROUND_MINUTES, Rounds
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, fit_choice, last_choice, load_cached, playable_arenas
@@ -41,8 +42,7 @@ FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 PICTURE = FRAME.inflate(-24, -24)
 MARGIN = 8  # px around the arena preview
 ROW_X, ROW_W = span(8, 4)
-HEIGHTS = {"arena": 140, "goal": 140, "minutes": 140, "rules": 236}  # px, row heights
-GAP = 16  # px between rows
+GAP, TIGHT_GAP = 16, 12  # px between rows
 GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
 log = logging.getLogger(__name__)
 
@@ -127,14 +127,16 @@ class MatchSetupPage:
         if not self.context.preloader.ready(self.game.name, self.chosen.arena):
             return None
         setup = replace(self._setup(), seed=new_seed())
+        rounds = Rounds(self.chosen.rounds) if self.chosen.rounds > 1 else None
+        seats = self.seats
         return Push(
-            match_of(self.context, setup, self.seats.devices(), self.seats.real(), game_choice=self.game_choice)
+            match_of(self.context, setup, seats.devices(), seats.real(), game_choice=self.game_choice, rounds=rounds)
         )
 
     def _setup(self) -> Setup:
         """The setup selected now, without a seed."""
         now = self.chosen
-        seats, minutes = self.seats.seats(), float(now.minutes)
+        seats, minutes = self.seats.seats(), ROUND_MINUTES if now.rounds > 1 else float(now.minutes)
         return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
     def _save_selection(self) -> None:
@@ -147,17 +149,21 @@ class MatchSetupPage:
     def _row(self, name: str) -> LitImage:
         """Render a row."""
         words, now, game = self.context.words, self.chosen, self.game
+        tight = is_tight(game, self.variant)
         if name == "arena":
             position = f"{self.arenas.index(now.arena) + 1} / {len(self.arenas)}"
             arena = arena_title(load_cached(game.name, now.arena), words.language)
-            return choice.row(words(f"setup.arena_{game.name}"), arena, position)
+            return choice.row(words(f"setup.arena_{game.name}"), arena, position, "", tight)
         if name == "goal":
-            return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, self.variant.goals)), str(now.goal))
+            return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, self.variant.goals)), str(now.goal), tight)
         if name == "minutes":
-            return choice.chips(words("setup.minutes"), tuple(map(str, self.variant.minutes)), str(now.minutes))
+            values, value = (f"{minutes:g}" for minutes in self.minutes), f"{self._setup().minutes:g}"
+            return choice.chips(words("setup.minutes"), tuple(values), value, tight)
+        if name == "rounds":
+            return choice.short_chips(words("setup.rounds"), self._round_labels(), game.rounds.index(now.rounds))
         if name == "rules":
             line = words(f"setup.{game.name}_{now.variant}_line")
-            return choice.row(words("setup.rules"), words(f"setup.{game.name}_{now.variant}"), line=line)
+            return choice.row(words("setup.rules"), words(f"setup.{game.name}_{now.variant}"), "", line, tight)
         return choice.start_button(words("setup.go"))
 
     def _change(self, name: str, delta: int) -> None:
@@ -169,8 +175,10 @@ class MatchSetupPage:
             self.slide, self.direction = 0.0, delta
         elif name == "goal":
             now.goal = step_clamped(self.variant.goals, now.goal, delta)
-        elif name == "minutes":
+        elif name == "minutes" and now.rounds == 1:
             now.minutes = step_clamped(self.variant.minutes, now.minutes, delta)
+        elif name == "rounds":
+            now.rounds = step_clamped(game.rounds, now.rounds, delta)
         elif name == "rules":
             self._change_variant(delta)
         if now != before:
@@ -181,6 +189,14 @@ class MatchSetupPage:
     def variant(self) -> Variant:
         """The selected rule set."""
         return self.game.variants[self.chosen.variant]
+
+    @property
+    def minutes(self) -> Sequence[float]:
+        """The choices of minutes; of a match of several rounds only one."""
+        return self.variant.minutes if self.chosen.rounds == 1 else (ROUND_MINUTES,)
+
+    def _round_labels(self) -> tuple[str, ...]:
+        return tuple(self.context.words(f"setup.rounds_{count}") for count in self.game.rounds)
 
     def _change_variant(self, delta: int) -> None:
         """Step the rule set by `delta`; choices that it does not offer change to its defaults."""
@@ -197,11 +213,15 @@ class MatchSetupPage:
         if name == "go":
             return self._go()
         if name in ("goal", "minutes"):
-            values = self.variant.goals if name == "goal" else self.variant.minutes
-            now = self.chosen.goal if name == "goal" else self.chosen.minutes
+            values = self.variant.goals if name == "goal" else self.minutes
+            now = self.chosen.goal if name == "goal" else self._setup().minutes
             chip = choice.chip_at(len(values), at[0] - self.rows[name].left)
             if chip is not None:
                 self._change(name, chip - values.index(now))
+        elif name == "rounds":
+            chip = choice.short_chip_at(self._round_labels(), at[0] - self.rows[name].left)
+            if chip is not None:
+                self._change(name, chip - self.game.rounds.index(self.chosen.rounds))
         elif name:
             self._change(name, 1 if at[0] > self.rows[name].centerx else -1)
         elif FRAME.collidepoint(at):
@@ -269,18 +289,29 @@ def start_positions(game: str, name: str, seats: tuple[Seat, Seat, Seat, Seat]) 
 
 def rows(game: Game, variant: Variant) -> dict[str, pygame.Rect]:
     """Rectangles of the rows that offer a choice, and of the start button."""
+    heights, gap = (choice.TIGHT, TIGHT_GAP) if is_tight(game, variant) else (choice.HEIGHTS, GAP)
+    boxes, y = {}, FRAME.top
+    for name in _offered(game, variant):
+        boxes[name] = pygame.Rect(ROW_X, y, ROW_W, heights[name])
+        y += heights[name] + gap
+    return {**boxes, "go": GO}
+
+
+def is_tight(game: Game, variant: Variant) -> bool:
+    """True if there are too many rows for their usual height."""
+    return sum(choice.HEIGHTS[name] + GAP for name in _offered(game, variant)) > GO.top - FRAME.top
+
+
+def _offered(game: Game, variant: Variant) -> list[str]:
+    """The rows that offer a choice."""
     there = {
         "arena": True,
         "goal": bool(variant.goals),
         "minutes": len(variant.minutes) > 1,
+        "rounds": len(game.rounds) > 1,
         "rules": len(game.variants) > 1,
     }
-    boxes, y = {}, FRAME.top
-    for name, height in HEIGHTS.items():
-        if there[name]:
-            boxes[name] = pygame.Rect(ROW_X, y, ROW_W, height)
-            y += height + GAP
-    return {**boxes, "go": GO}
+    return [name for name, offered in there.items() if offered]
 
 
 def step_clamped(values: Sequence[int], value: int, delta: int) -> int:

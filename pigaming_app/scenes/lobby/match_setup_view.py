@@ -1,5 +1,7 @@
 """Rows and small widgets of the match setup page."""
 
+import pygame
+
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
@@ -23,36 +25,71 @@ from pigaming_app.ui.draw.text import fit_lines, fit_size
 W = span(8, 4)[1]
 PAD = 32  # px, inner padding of a row
 CHIP, APART, CLOSE = 112, 16, 8  # px: maximum chip width, gap for few chips, gap for many
+HEIGHTS = {"arena": 140, "goal": 140, "minutes": 140, "rounds": 76, "rules": 236}  # px, rows
+TIGHT = {"arena": 116, "goal": 116, "minutes": 116, "rounds": 76, "rules": 192}  # px, rows where there are many
 FEW = 4  # chips that fit at full width
 
 
 @cached
-def row(name: str, value: str, note: str = "", line: str = "") -> LitImage:
+def row(name: str, value: str, note: str = "", line: str = "", tight: bool = False) -> LitImage:
     """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
-    height = 236 if line else 140
-    layer = _layer(name, height)
-    layer.canvas.body(note, W - PAD, 38, MIST, "r")
+    heights = TIGHT if tight else HEIGHTS
+    layer = _layer(name, heights["rules" if line else "arena"], tight)
+    head, middle, below, pitch = (30, 76, 126, 42) if tight else (38, 94, 156, 48)
+    layer.canvas.body(note, W - PAD, head, MIST, "r")
     size = fit_size(value, LABEL, W - 2 * PAD - 100)
-    layer.canvas.text(value, size, W / 2, 94, ICE, "head", "c")
+    layer.canvas.text(value, size, W / 2, middle, ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
-        icon(layer.glow, sign, x, 94, 20, MIST, LINE)
+        icon(layer.glow, sign, x, middle, 20, MIST, LINE)
     room = W - 2 * PAD
     size, parts = fit_lines(line, room, 2)
     for i, part in enumerate(parts):
-        layer.canvas.body(part, PAD, 156 + 48 * i, MIST, "l", size)
+        layer.canvas.body(part, PAD, below + pitch * i, MIST, "l", size)
     return layer.render()
 
 
 @cached
-def chips(name: str, values: tuple[str, ...], value: str) -> LitImage:
+def chips(name: str, values: tuple[str, ...], value: str, tight: bool = False) -> LitImage:
     """All values side by side, the selected one lit; top left at (0, 0)."""
-    layer = _layer(name, 140)
+    layer = _layer(name, (TIGHT if tight else HEIGHTS)["minutes"], tight)
     width, pitch = chip_size(len(values))
+    top, high = (54, 52) if tight else (66, 60)
     for i, label in enumerate(values):
-        x, on = PAD + i * pitch, label == value
-        layer.glow.line(cut_box(x, 66, width, 60, 12 if width == CHIP else 10), ICE if on else STEEL, THIN, True)
-        layer.canvas.crisp.text(label, BODY, x + width / 2, 96, ICE if on else MIST, "head", "c")
+        _chip(layer, label, pygame.Rect(PAD + i * pitch, top, width, high), label == value)
     return layer.render()
+
+
+@cached
+def short_chips(name: str, labels: tuple[str, ...], selected: int) -> LitImage:
+    """A low row: the name, and all values beside it; top left at (0, 0)."""
+    layer = Layer(0, 0, W, HEIGHTS["rounds"])
+    layer.glow.line(cut_box(0, 0, W, HEIGHTS["rounds"], 16), STEEL, THIN, True)
+    boxes = short_boxes(labels)
+    size = fit_size(name, BODY, boxes[0].left - PAD - 16, "body")
+    layer.canvas.body(name, PAD, HEIGHTS["rounds"] / 2, MIST, "l", size)
+    for i, (label, box) in enumerate(zip(labels, boxes, strict=True)):
+        _chip(layer, label, box, i == selected)
+    return layer.render()
+
+
+def short_boxes(labels: tuple[str, ...]) -> list[pygame.Rect]:
+    """Rectangles of the values of a low row, right-aligned."""
+    widths = [round(text_width(label, BODY)) + 44 for label in labels]
+    x, boxes = W - PAD + CLOSE - sum(widths) - CLOSE * len(widths), []
+    for width in widths:
+        boxes.append(pygame.Rect(x, 12, width, HEIGHTS["rounds"] - 24))
+        x += width + CLOSE
+    return boxes
+
+
+def short_chip_at(labels: tuple[str, ...], x: float) -> int | None:
+    """Index of the value at `x` px from the left edge of a low row, if any."""
+    return next((i for i, box in enumerate(short_boxes(labels)) if box.left <= x < box.right), None)
+
+
+def _chip(layer: Layer, label: str, box: pygame.Rect, on: bool) -> None:
+    layer.glow.line(cut_box(box.x, box.y, box.w, box.h, 12 if box.w >= CHIP else 10), ICE if on else STEEL, THIN, True)
+    layer.canvas.crisp.text(label, BODY, box.centerx, box.centery, ICE if on else MIST, "head", "c")
 
 
 def chip_size(count: int) -> tuple[int, int]:
@@ -127,8 +164,8 @@ def focus_outline(height: int) -> LitImage:
     return layer.render()
 
 
-def _layer(name: str, height: int) -> Layer:
+def _layer(name: str, height: int, tight: bool) -> Layer:
     layer = Layer(0, 0, W, height)
     layer.glow.line(cut_box(0, 0, W, height, 16), STEEL, THIN, True)
-    layer.canvas.body(name, PAD, 38, MIST)
+    layer.canvas.body(name, PAD, 30 if tight else 38, MIST)
     return layer
