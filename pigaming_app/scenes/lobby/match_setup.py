@@ -136,7 +136,7 @@ class MatchSetupPage:
     def _setup(self) -> Setup:
         """The setup selected now, without a seed."""
         now = self.chosen
-        seats, minutes = self.seats.seats(), ROUND_MINUTES if now.rounds > 1 else float(now.minutes)
+        seats, minutes = self.seats.seats(), float(self._minutes)
         return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
     def _save_selection(self) -> None:
@@ -157,8 +157,7 @@ class MatchSetupPage:
         if name == "goal":
             return choice.chips(words(f"setup.{game.goal}"), tuple(map(str, self.variant.goals)), str(now.goal), tight)
         if name == "minutes":
-            values, value = (f"{minutes:g}" for minutes in self.minutes), f"{self._setup().minutes:g}"
-            return choice.chips(words("setup.minutes"), tuple(values), value, tight)
+            return choice.chips(words("setup.minutes"), tuple(map(str, self.minutes)), str(self._minutes), tight)
         if name == "rounds":
             return choice.short_chips(words("setup.rounds"), self._round_labels(), game.rounds.index(now.rounds))
         if name == "rules":
@@ -191,9 +190,14 @@ class MatchSetupPage:
         return self.game.variants[self.chosen.variant]
 
     @property
-    def minutes(self) -> Sequence[float]:
+    def minutes(self) -> Sequence[int]:
         """The choices of minutes; of a match of several rounds only one."""
         return self.variant.minutes if self.chosen.rounds == 1 else (ROUND_MINUTES,)
+
+    @property
+    def _minutes(self) -> int:
+        """The minutes of the match, or of one of its rounds."""
+        return self.chosen.minutes if self.chosen.rounds == 1 else ROUND_MINUTES
 
     def _round_labels(self) -> tuple[str, ...]:
         return tuple(self.context.words(f"setup.rounds_{count}") for count in self.game.rounds)
@@ -214,7 +218,7 @@ class MatchSetupPage:
             return self._go()
         if name in ("goal", "minutes"):
             values = self.variant.goals if name == "goal" else self.minutes
-            now = self.chosen.goal if name == "goal" else self._setup().minutes
+            now = self.chosen.goal if name == "goal" else self._minutes
             chip = choice.chip_at(len(values), at[0] - self.rows[name].left)
             if chip is not None:
                 self._change(name, chip - values.index(now))
