@@ -67,7 +67,7 @@ class ReplayScene:
 
     def update(self, seconds: float) -> StackOperation:
         self.hints_left -= seconds
-        self.prewarmed = self.prewarmed or self.runner.prewarm(4.0)
+        self.prewarmed = self.prewarmed or self.runner.prewarm(7.0)
         self.timeline.explore(EXPLORED)
         if self.playing and not self.ended:
             self.runner.advance(seconds, self.speed)

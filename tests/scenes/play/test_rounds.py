@@ -9,6 +9,7 @@ from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.round_break import margin, round_title
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import FREEZE_SECONDS, MatchScene
 from pigaming_app.scenes.results.podium import Stand, stands
 from pigaming_app.scenes.results.podium_page import PodiumPage
@@ -17,6 +18,7 @@ from pigaming_app.scenes.results.view import ResultsPage
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
+from tests.cases import one_in
 from tests.games.test_rounds import played
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.measuring import faults, measuring
@@ -28,6 +30,7 @@ MINUTES = 0.02
 @pytest.fixture
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
     return Arcade(controls)
 
 
@@ -181,7 +184,7 @@ def test_the_margin_keeps_clear_of_arena_and_corner_markers(controls: Controls, 
     assert pygame.Rect(4, 150, 150, 770).contains(box)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 def test_texts_of_break_and_podium_keep_off_each_other(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:
