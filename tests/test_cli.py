@@ -28,6 +28,23 @@ def test_a_match_without_a_window_tells_its_result(capsys):
     assert told["match_seconds"] == pytest.approx(6.0)
 
 
+def test_rounds_are_played_until_one_side_has_won_most(capsys):
+    words = "play pitanks --rounds 3 --minutes 0.05 --headless --speed max --seats hard,idle --json"
+    assert main(words.split()) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert 2 <= len(result["rounds"]) <= 3
+    wins = {row["seat"]: row["wins"] for row in result["rows"]}
+    assert wins == {seat: sum(seat in one["winners"] for one in result["rounds"]) for seat in (1, 2)}
+    assert result["match_seconds"] == pytest.approx(3.0 * len(result["rounds"]))
+
+
+def test_a_round_lasts_a_minute(capsys):
+    words = "play pitanks --rounds 3 --headless --speed max --seats random,idle --json"
+    assert main(words.split()) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert result["match_seconds"] == pytest.approx(60.0 * len(result["rounds"]))
+
+
 def test_a_recorded_match_is_proven(tmp_path, capsys):
     file = tmp_path / "a.replay"
     assert main(["play", *SHORT, "--record", str(file)]) == 0
@@ -115,6 +132,9 @@ def test_the_doctor_speaks_json(capsys):
         ["play", "--teams", "1,1,1,1"],
         ["play", "--teams", "a,b"],
         ["play", "--record", "/nowhere/at/all.replay", "--headless"],
+        ["play", "race", "--rounds", "3", "--headless"],
+        ["play", "--rounds", "2", "--headless"],
+        ["play", "--rounds", "3", "--record", "a.replay", "--headless"],
         ["replay", "/nowhere"],
         ["duel", "pitanks", "fsm", "wizard"],
         ["duel", "pitanks", "fsm", "easy", "--matches", "0"],

@@ -100,6 +100,7 @@ class Game:
     records: Callable[[Any, int], Mapping[str, int]]  # by names of `record_kinds`; only those achieved
     times: Callable[[Any, int], tuple[float, ...]]
     goal: str = ""  # unit of `goals`: laps, pallets
+    rounds: tuple[int, ...] = (1,)  # the choices: the number of rounds of which most decide a match
 
     def records_of(self, variant: str) -> tuple[RecordKind, ...]:
         """The high-score tables of a variant; of an unknown one, those of the default."""

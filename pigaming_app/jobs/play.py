@@ -6,13 +6,16 @@ import os
 import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
 from pigaming_app.ai.registry import BRAINS, new_match
-from pigaming_app.games.game import Setup
+from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
+from pigaming_app.games.rounds import BEST_OF, ROUND_MINUTES, Rounds
 from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import (
@@ -22,6 +25,7 @@ from pigaming_app.jobs.terminal.options import (
     display,
     game_option,
     goal,
+    integer,
     mat_options,
     mat_settings,
     path,
@@ -50,6 +54,9 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--seats", help="human, off, or an AI for each seat; default human,normal")
     parser.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; default: the game's own")
     shared(parser, *MATCH)
+    parser.add_argument(
+        "--rounds", type=integer(), metavar="NUMBER", help="1, or 3: best of three rounds of one minute, in PiTanks"
+    )
     parser.add_argument("--headless", action="store_true", help="no window, no sound")
     parser.add_argument("--speed", default="1", help="times real time, or max; default 1")
     parser.add_argument("--record", type=path, metavar="FILE", help="write a replay")
@@ -75,7 +82,9 @@ def _play(arguments: Namespace) -> int:
     chosen = mat_settings(arguments)
     seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
     names = list(BRAINS.get(arguments.game, {}))
-    arena, minutes, seed, variant = arguments.arena, arguments.minutes, arguments.seed, arguments.variant
+    rounds = _rounds(arguments)
+    arena, seed, variant = arguments.arena, arguments.seed, arguments.variant
+    minutes = ROUND_MINUTES if rounds and arguments.minutes is None else arguments.minutes
     setup = make_setup(arguments.game, seats, arena, minutes, seed, variant, _teams(arguments.teams), names, wanted)
     speed = _speed(arguments.speed)
     real_seats = _real_seats(arguments, setup, speed)
@@ -86,8 +95,8 @@ def _play(arguments: Namespace) -> int:
     if real_seats or arguments.emulate is not None:
         require("hardware")
     if arguments.headless and not real_seats:
-        return _headless(arguments, setup, speed, plant)
-    return _on_screen(arguments, setup, min(speed, FASTEST), real_seats, plant, chosen)
+        return _headless(arguments, setup, speed, plant, rounds)
+    return _on_screen(arguments, setup, min(speed, FASTEST), real_seats, plant, chosen, rounds)
 
 
 def _game(game: str | None, named: str | None) -> str:
@@ -95,6 +104,19 @@ def _game(game: str | None, named: str | None) -> str:
     if game is not None and named is not None and game != named:
         raise Refusal(f"--game: {quote(named)} contradicts {quote(game)}")
     return next((name for name in (game, named) if name is not None), DEFAULT_GAME)
+
+
+def _rounds(arguments: Namespace) -> Rounds | None:
+    """The rounds, none of them played; None: the match has only one. Raises Refusal."""
+    count = arguments.rounds
+    offered = games()[arguments.game].rounds if arguments.game in games() else BEST_OF
+    if count is None or (count == 1 and count in offered):
+        return None
+    if count not in offered:
+        raise Refusal(f"--rounds: {count}; {arguments.game} has {' or '.join(map(str, offered))}")
+    if arguments.record is not None:
+        raise Refusal("--record: a replay is one round; leave out --rounds")
+    return Rounds(count)
 
 
 def _teams(text: str | None) -> list[int] | None:
@@ -178,24 +200,34 @@ def _headless(
     setup: Setup,
     speed: float,
     plant: Callable[[Any], Plant],
+    rounds: Rounds | None,
 ) -> int:
     match = new_match(setup, plant)
     if any(seat.brain == "human" for seat in setup.seats):
         print("PiGaming: human seats need a window; without one their robots stand still", file=sys.stderr)
     began = perf_counter()
     photographer = Photographer(match, arguments.screenshot, arguments.at) if arguments.screenshot else None
-    while not match.over:
-        match.tick()
-        if photographer:
-            photographer.watch()
-        ahead = match.seconds / speed - (perf_counter() - began)
-        if ahead > 0.0:
-            sleep(ahead)
+    played = 0.0  # s of the rounds before this one
+    while True:
+        while not match.over:
+            match.tick()
+            if photographer:
+                photographer.watch()
+            ahead = (played + match.seconds) / speed - (perf_counter() - began)
+            if ahead > 0.0:
+                sleep(ahead)
+        if rounds is None:
+            break
+        rounds.add(match.outcome())
+        if rounds.done:
+            break
+        played += match.seconds
+        match = new_match(replace(setup, seed=setup.seed + rounds.number - 1), plant)
     try:
         if arguments.record:
             save_replay(match, arguments.record)
     finally:
-        _print(match, arguments.json, perf_counter() - began)
+        _print(match, arguments.json, perf_counter() - began, rounds)
     if photographer and photographer.trouble:
         raise photographer.trouble
     return 0
@@ -238,6 +270,7 @@ def _on_screen(
     real: list[int],
     plant: Callable[[Any], Plant],
     chosen: dict[str, Any],
+    rounds: Rounds | None,
 ) -> int:
     """Play in a window; with --headless and emulated robots without one, as fast as possible."""
     from pigaming_app.scenes.app import Options
@@ -260,9 +293,9 @@ def _on_screen(
         devices = dict(zip(people, free, strict=False))
         seats = [devices.get(i) for i in range(ROBOTS)]
         if real:
-            first = match_of(context, setup, seats, real, speed, game_choice)
+            first = match_of(context, setup, seats, real, speed, game_choice, rounds)
         else:
-            first = MatchScene(context, setup, seats, speed, plant, game_choice)
+            first = MatchScene(context, setup, seats, speed, plant, game_choice, rounds)
         if isinstance(first, MatchScene):
             scenes.append(first)
         return first
@@ -277,7 +310,9 @@ def _on_screen(
         return shot
 
     def over() -> bool:
-        return bool(arguments.headless and (not scenes or scenes[0].match.over))
+        if not arguments.headless:
+            return False
+        return not scenes or (rounds.done if rounds else scenes[0].match.over)
 
     code = show(
         Options(
@@ -294,7 +329,9 @@ def _on_screen(
         )
     )
     if scenes and arguments.headless and not arguments.screenshot:
-        _print(scenes[0].match, arguments.json, scenes[0].match.seconds)
+        played = rounds if rounds and rounds.outcomes else None
+        match = scenes[0].match
+        _print(match, arguments.json, played.outcome().seconds if played else match.seconds, played)
     if scenes and arguments.record:
         save_replay(scenes[0].match, arguments.record)
     if code == 0 and arguments.screenshot and not shot:
@@ -310,27 +347,14 @@ def _camera(match: Match) -> Any:
     return Screenshot(match)
 
 
-def _print(match: Match, as_json: bool, seconds: float) -> None:
-    """Print the results: a table, or one JSON object."""
-    outcome = match.outcome()
+def _print(match: Match, as_json: bool, seconds: float, rounds: Rounds | None = None) -> None:
+    """Print the results: a table, or one JSON object; of several rounds the standings, and each round."""
+    outcome = rounds.outcome() if rounds else match.outcome()
     if as_json:
-        rows = [
-            {
-                "seat": row.seat + 1,
-                "place": row.place,
-                "team": row.team,
-                "score": row.score,
-                **row.stats,
-                "times": row.times,
-            }
-            for row in outcome.rows
-        ]
-        result = {
-            "game": match.setup.game,
-            "arena": match.setup.arena,
-            "winners": [seat + 1 for seat in outcome.winners],
-        }
-        print(json.dumps({**result, "rows": rows, "match_seconds": outcome.seconds, "seconds": seconds}))
+        result = {"game": match.setup.game, "arena": match.setup.arena, **_standings(outcome)}
+        if rounds:
+            result["rounds"] = [_standings(one) for one in rounds.outcomes]
+        print(json.dumps({**result, "match_seconds": outcome.seconds, "seconds": seconds}))
         return
     for row in outcome.rows:
         brain = match.setup.seats[row.seat].brain
@@ -339,3 +363,19 @@ def _print(match: Match, as_json: bool, seconds: float) -> None:
             for name, value in row.stats.items()
         )
         print(f"{row.place}.  P{row.seat + 1} {brain:8} {row.score:+4d}   {facts}")
+
+
+def _standings(outcome: Outcome) -> dict[str, Any]:
+    """Winners and rows of an outcome for JSON; seats are numbered from 1."""
+    rows = [
+        {
+            "seat": row.seat + 1,
+            "place": row.place,
+            "team": row.team,
+            "score": row.score,
+            **row.stats,
+            "times": row.times,
+        }
+        for row in outcome.rows
+    ]
+    return {"winners": [seat + 1 for seat in outcome.winners], "rows": rows}

@@ -121,6 +121,7 @@ class Choice:
     minutes: int = _setting(0, Range(0, 60))
     variant: str = _setting("", ShortText())
     goal: int = _setting(0, Range(0, 99))
+    rounds: int = _setting(1, Range(1, 9))
 
 
 _DEFAULT = Choice()

@@ -43,7 +43,7 @@ OPTIONS = {
     (): ("--display", "--frames", "--camera", "--port", "--baud", "--radio", "--emulate", ""),
     tuple(PLAY): (
         "--game", "--seats", "--teams", "--arena", "--minutes", "--variant", "--laps", "--pallets", "--seed", "--speed",
-        "--record", "--screenshot", "--at", "--robots", "--real", "--camera", "--port", "--baud", "--radio",
+        "--rounds", "--record", "--screenshot", "--at", "--robots", "--real", "--camera", "--port", "--baud", "--radio",
         "--display", "",
     ),
     (*PLAY, "--screenshot", "a.png"): ("--at",),

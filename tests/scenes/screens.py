@@ -7,6 +7,7 @@ from pigaming_app.ai.registry import POINT, RIVALS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
@@ -19,6 +20,7 @@ from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.replays.page import ReplaysPage
 from pigaming_app.scenes.results.high_score_tables import high_score_tables
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.scene import Results
@@ -57,7 +59,11 @@ class Ending:
         arena = max(arenas(self.game), key=len)
         setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, variant, goal)
         devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
-        scene = Results(arcade.context, self.outcome(), setup, devices, MatchScene, finished, game_choice=game_choice)
+        recording = Replay(setup, "", b"", "", "")  # so that it can be saved
+        ended = self.outcome()
+        scene = Results(
+            arcade.context, ended, setup, devices, MatchScene, finished, game_choice=game_choice, recording=recording
+        )
         scene.age = 9.0
         return scene
 
@@ -144,6 +150,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),
     "still there": lambda arcade: StillThere(match(arcade)),
+    "replays": lambda arcade: ReplaysPage(arcade.context),
     "devices": lambda arcade: DeviceTable(
         arcade.context, KEYS, Access(arcade.context, lambda: KEYS), lambda device: POINT
     ),

@@ -118,6 +118,7 @@ def test_every_game_and_its_rules_have_names(language: str) -> None:
     words = Words(language)
     for game in games().values():
         assert words(f"games.{game.name}")
+        assert words(f"highlights.last_{game.name}")
         for variant in game.variants:
             assert words(f"setup.{game.name}_{variant}")
             assert words(f"setup.{game.name}_{variant}_line")

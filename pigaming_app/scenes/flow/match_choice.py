@@ -45,7 +45,8 @@ def last_choice(context: Context, game: str) -> Choice:
     rules, last, names = games()[game], context.settings.choice(game), playable_arenas(game)
     variant = rules.variants.get(last.variant, rules.default)
     arena = last.arena if last.arena in names else names[0]
-    choice = Choice(arena=arena, minutes=last.minutes, variant=variant.name, goal=last.goal)
+    rounds = last.rounds if last.rounds in rules.rounds else rules.rounds[0]
+    choice = Choice(arena=arena, minutes=last.minutes, variant=variant.name, goal=last.goal, rounds=rounds)
     fit_choice(variant, choice)
     return choice
 
@@ -68,9 +69,10 @@ def reset_rules(settings: Settings) -> None:
 
 
 def choice_summary(context: Context, game: str) -> str:
-    """Game, minutes or goal, and arena in one line."""
+    """Game, minutes, goal or rounds, and arena in one line."""
     words, choice = context.words, last_choice(context, game)
     arena = arena_title(load_cached(game, choice.arena), words.language)
-    return "  ·  ".join(
-        (words(f"games.{game}"), match_length(words, games()[game], choice.minutes, choice.goal), arena)
-    )
+    length = match_length(words, games()[game], choice.minutes, choice.goal)
+    if choice.rounds > 1:
+        length = words("setup.count_rounds", count=choice.rounds)
+    return "  ·  ".join((words(f"games.{game}"), length, arena))

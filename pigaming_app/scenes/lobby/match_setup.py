@@ -12,6 +12,7 @@ import pygame
 
 from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
 from pigaming_app.games.registry import games
+from pigaming_app.games.rounds import ROUND_MINUTES, Rounds
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, fit_choice, last_choice, load_cached, playable_arenas
@@ -41,7 +42,6 @@ FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 PICTURE = FRAME.inflate(-24, -24)
 MARGIN = 8  # px around the arena preview
 ROW_X, ROW_W = span(8, 4)
-FULL = 4  # so many rows have to be tight
 GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
 log = logging.getLogger(__name__)
 
@@ -126,14 +126,16 @@ class MatchSetupPage:
         if not self.context.preloader.ready(self.game.name, self.chosen.arena):
             return None
         setup = replace(self._setup(), seed=new_seed())
+        rounds = Rounds(self.chosen.rounds) if self.chosen.rounds > 1 else None
+        seats = self.seats
         return Push(
-            match_of(self.context, setup, self.seats.devices(), self.seats.real(), game_choice=self.game_choice)
+            match_of(self.context, setup, seats.devices(), seats.real(), game_choice=self.game_choice, rounds=rounds)
         )
 
     def _setup(self) -> Setup:
         """The setup selected now, without a seed."""
         now = self.chosen
-        seats, minutes = self.seats.seats(), float(now.minutes)
+        seats, minutes = self.seats.seats(), float(self._minutes)
         return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
     def _save_selection(self) -> None:
@@ -153,7 +155,9 @@ class MatchSetupPage:
         if name == "goal":
             return choice.chips(sizes, self._goal_name(), tuple(map(str, self.variant.goals)), str(now.goal))
         if name == "minutes":
-            return choice.chips(sizes, words("setup.minutes"), tuple(map(str, self.variant.minutes)), str(now.minutes))
+            return choice.chips(sizes, words("setup.minutes"), tuple(map(str, self.minutes)), str(self._minutes))
+        if name == "rounds":
+            return choice.short_chips(words("setup.rounds"), self._round_labels(), game.rounds.index(now.rounds))
         if name == "rules":
             line = words(f"setup.{game.name}_{now.variant}_line")
             return choice.row(sizes, words("setup.rules"), words(f"setup.{game.name}_{now.variant}"), line=line)
@@ -172,8 +176,10 @@ class MatchSetupPage:
             self.slide, self.direction = 0.0, delta
         elif name == "goal":
             now.goal = step_clamped(self.variant.goals, now.goal, delta)
-        elif name == "minutes":
+        elif name == "minutes" and now.rounds == 1:
             now.minutes = step_clamped(self.variant.minutes, now.minutes, delta)
+        elif name == "rounds":
+            now.rounds = step_clamped(game.rounds, now.rounds, delta)
         elif name == "rules":
             self._change_variant(delta)
         if now != before:
@@ -184,6 +190,19 @@ class MatchSetupPage:
     def variant(self) -> Variant:
         """The selected rule set."""
         return self.game.variants[self.chosen.variant]
+
+    @property
+    def minutes(self) -> Sequence[int]:
+        """The choices of minutes; of a match of several rounds only one."""
+        return self.variant.minutes if self.chosen.rounds == 1 else (ROUND_MINUTES,)
+
+    @property
+    def _minutes(self) -> int:
+        """The minutes of the match, or of one of its rounds."""
+        return self.chosen.minutes if self.chosen.rounds == 1 else ROUND_MINUTES
+
+    def _round_labels(self) -> tuple[str, ...]:
+        return tuple(self.context.words(f"setup.rounds_{count}") for count in self.game.rounds)
 
     def _change_variant(self, delta: int) -> None:
         """Step the rule set by `delta`; choices that it does not offer change to its defaults."""
@@ -201,11 +220,15 @@ class MatchSetupPage:
         if name == "go":
             return self._go()
         if name in ("goal", "minutes"):
-            values = self.variant.goals if name == "goal" else self.variant.minutes
-            now = self.chosen.goal if name == "goal" else self.chosen.minutes
+            values = self.variant.goals if name == "goal" else self.minutes
+            now = self.chosen.goal if name == "goal" else self._minutes
             chip = choice.chip_at(len(values), at[0] - self.rows[name].left)
             if chip is not None:
                 self._change(name, chip - values.index(now))
+        elif name == "rounds":
+            chip = choice.short_chip_at(self._round_labels(), at[0] - self.rows[name].left)
+            if chip is not None:
+                self._change(name, chip - self.game.rounds.index(self.chosen.rounds))
         elif name:
             self._change(name, 1 if at[0] > self.rows[name].centerx else -1)
         elif FRAME.collidepoint(at):
@@ -276,7 +299,7 @@ def rows(game: Game, variant: Variant) -> dict[str, pygame.Rect]:
     """Rectangles of the rows that offer a choice, and of the start button."""
     sizes, boxes, y = row_sizes(game, variant), {}, FRAME.top
     for name in row_names(game, variant):
-        height = sizes.described if name == "rules" else sizes.choice
+        height = _height(name, sizes)
         boxes[name] = pygame.Rect(ROW_X, y, ROW_W, height)
         y += height + sizes.gap
     return {**boxes, "go": GO}
@@ -288,6 +311,7 @@ def row_names(game: Game, variant: Variant) -> list[str]:
         "arena": True,
         "goal": bool(variant.goals),
         "minutes": len(variant.minutes) > 1,
+        "rounds": len(game.rounds) > 1,
         "rules": len(game.variants) > 1,
     }
     return [name for name, offered in there.items() if offered]
@@ -295,7 +319,12 @@ def row_names(game: Game, variant: Variant) -> list[str]:
 
 def row_sizes(game: Game, variant: Variant) -> choice.RowSizes:
     """Sizes with which all rows fit above the start button."""
-    return choice.WIDE if len(row_names(game, variant)) < FULL else choice.TIGHT
+    needed = sum(_height(name, choice.WIDE) + choice.WIDE.gap for name in row_names(game, variant))
+    return choice.WIDE if needed <= GO.top - FRAME.top else choice.TIGHT
+
+
+def _height(name: str, sizes: choice.RowSizes) -> int:
+    return choice.LOW if name == "rounds" else sizes.described if name == "rules" else sizes.choice
 
 
 def step_clamped(values: Sequence[int], value: int, delta: int) -> int:

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import pygame
+
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
@@ -25,6 +27,7 @@ from pigaming_app.ui.draw.text import SMALLEST, fit_lines, fit_size
 W = span(8, 4)[1]
 PAD = 32  # px, inner padding of a row
 CHIP, APART, CLOSE = 112, 16, 8  # px: maximum chip width, gap for few chips, gap for many
+LOW = 76  # px, height of a row with its values beside its name
 FEW = 4  # chips that fit at full width
 
 
@@ -70,12 +73,41 @@ def chips(sizes: RowSizes, name: str, values: tuple[str, ...], value: str) -> Li
     width, pitch = chip_size(len(values))
     top = sizes.value + 2 - sizes.chip / 2
     for i, label in enumerate(values):
-        x, on = PAD + i * pitch, label == value
-        layer.glow.line(
-            cut_box(x, top, width, sizes.chip, 12 if width == CHIP else 10), ICE if on else STEEL, THIN, True
-        )
-        layer.canvas.crisp.text(label, BODY, x + width / 2, sizes.value + 2, ICE if on else MIST, "head", "c")
+        _chip(layer, label, pygame.Rect(PAD + i * pitch, round(top), width, sizes.chip), label == value)
     return layer.render()
+
+
+@cached
+def short_chips(name: str, labels: tuple[str, ...], selected: int) -> LitImage:
+    """A low row: the name, and all values beside it; top left at (0, 0)."""
+    layer = Layer(0, 0, W, LOW)
+    layer.glow.line(cut_box(0, 0, W, LOW, 16), STEEL, THIN, True)
+    boxes = short_boxes(labels)
+    size = fit_size(name, BODY, boxes[0].left - PAD - 16, "body")
+    layer.canvas.body(name, PAD, LOW / 2, MIST, "l", size)
+    for i, (label, box) in enumerate(zip(labels, boxes, strict=True)):
+        _chip(layer, label, box, i == selected)
+    return layer.render()
+
+
+def short_boxes(labels: tuple[str, ...]) -> list[pygame.Rect]:
+    """Rectangles of the values of a low row, right-aligned."""
+    widths = [round(text_width(label, BODY)) + 44 for label in labels]
+    x, boxes = W - PAD + CLOSE - sum(widths) - CLOSE * len(widths), []
+    for width in widths:
+        boxes.append(pygame.Rect(x, 12, width, LOW - 24))
+        x += width + CLOSE
+    return boxes
+
+
+def short_chip_at(labels: tuple[str, ...], x: float) -> int | None:
+    """Index of the value at `x` px from the left edge of a low row, if any."""
+    return next((i for i, box in enumerate(short_boxes(labels)) if box.left <= x < box.right), None)
+
+
+def _chip(layer: Layer, label: str, box: pygame.Rect, on: bool) -> None:
+    layer.glow.line(cut_box(box.x, box.y, box.w, box.h, 12 if box.w >= CHIP else 10), ICE if on else STEEL, THIN, True)
+    layer.canvas.crisp.text(label, BODY, box.centerx, box.centery, ICE if on else MIST, "head", "c")
 
 
 def chip_size(count: int) -> tuple[int, int]:

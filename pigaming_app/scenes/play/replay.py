@@ -5,7 +5,7 @@ import pygame
 from pigaming_app.games.replay import Replay
 from pigaming_app.games.timeline import Timeline
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.side_hints import SideHints, side_note
 from pigaming_app.sim.world import DT, HZ
@@ -17,6 +17,7 @@ from pigaming_app.ui.widgets.caption import caption
 SPEEDS = {1.0: "1×", 2.0: "2×", 4.0: "4×", 0.5: "½×"}
 JUMP = 5 * HZ  # ticks
 EXPLORED = 40  # ticks played ahead per frame, for later jumps
+IDLE = 60.0  # s without input before the return to the title
 HINTS_SECONDS = 4.0  # seconds for which the hints stay after an input
 NOTICE, NOTICE_Y = 6.0, 990  # seconds of the match for which the other-engine notice is shown, and its y in px
 LINE_Y, LINE_LEFT, LINE_RIGHT = 1060, 160, 1760  # px, of the timeline
@@ -66,13 +67,16 @@ class ReplayScene:
         return None
 
     def update(self, seconds: float) -> StackOperation:
+        """Play; return to the title when a replay that stands still is abandoned."""
         self.hints_left -= seconds
-        self.prewarmed = self.prewarmed or self.runner.prewarm(4.0)
+        self.prewarmed = self.prewarmed or self.runner.prewarm(7.0)
         self.timeline.explore(EXPLORED)
         if self.playing and not self.ended:
             self.runner.advance(seconds, self.speed)
         else:
             self.runner.wait(seconds)
+            if self.context.idle > IDLE:
+                return Home()
         return None
 
     def jump(self, tick: int) -> None:

@@ -7,7 +7,7 @@ of an AI by holding FIRE (see `access`).
 
 import math
 import secrets
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -17,6 +17,7 @@ from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.registry import DRIVING, make_brain, new_match
 from pigaming_app.games.game import Setup
 from pigaming_app.games.replay import recorded, replayable
+from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
@@ -26,6 +27,7 @@ from pigaming_app.scenes.play.idle_seats import IdleSeats
 from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
+from pigaming_app.scenes.play.round_break import RoundBreak, draw_margin
 from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import Results, SceneFactory
@@ -53,7 +55,8 @@ class MatchScene:
     """One match, from its countdown to its results. `devices`: the device of each seat; None: an AI, or nobody yet.
 
     `humans`: seats of people, present or away; `ai_assisted`: those for whom an AI has driven for a while;
-    `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see `Results`.
+    `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see `Results`. `rounds`: the rounds
+    before this one, in a match of several; None: it is the only one.
     """
 
     def __init__(
@@ -64,8 +67,11 @@ class MatchScene:
         speed: float = 1.0,
         plant: Callable[[Any], Plant] = SimPlant,
         game_choice: SceneFactory | None = None,
+        rounds: Rounds | None = None,
     ) -> None:
         self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
+        self.rounds, self.plant_factory = rounds, plant
+        self.round_break: RoundBreak | None = None
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = new_match(setup, plant)
@@ -109,7 +115,7 @@ class MatchScene:
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
-        if self.match.over:
+        if self.match.over and self.round_break is None:
             if self.again:
                 self.again.handle(event)
             return None
@@ -135,7 +141,9 @@ class MatchScene:
         self.notice_left -= seconds
         if self.restart_requested:
             return Swap(self.rematch(self.context, self.setup, self.devices))
-        if self.match.over or self.stop_requested:
+        if self.match.over and self.results is None and self.round_break is None:
+            self._finish()
+        if self.stop_requested or (self.match.over and self.round_break is None):
             return self._end(seconds)
         if held := self.access.update(seconds):
             return Push(Pause(self, held.device))
@@ -143,6 +151,8 @@ class MatchScene:
             return Push(Reconnect(self, lost[0]))
         for event in self.joining.update(seconds):
             self._join(event.device)
+        if self.round_break:
+            return self._wait_for_round(self.round_break, seconds)
         self.signs.work(0.0)
         self.prewarmed = self.prewarmed or self.runner.prewarm(PREWARM_MS if self.countdown.locked else 2.0)
         if self.countdown.shown and (sound := self.countdown.update(seconds)):
@@ -165,6 +175,13 @@ class MatchScene:
             return
         self.runner.draw(screen)
         words = self.context.words
+        if self.round_break and self.frozen >= FREEZE_SECONDS:
+            self.round_break.draw(screen, self.picture)
+            self._draw_notice(screen)
+            return
+        self.runner.draw(screen)
+        if self.rounds:
+            draw_margin(screen, words, self.rounds, self.runner.view.seats)
         if self.match.over and not self.stop_requested:
             pop = min(4, int(self.frozen / 0.04))
             ending = "time" if self.match.seconds_left <= 0.0 else "finish"
@@ -184,6 +201,9 @@ class MatchScene:
             sentence = words("match.still", seconds=max(1, math.ceil(left)))
             self.runner.draw_beside(screen, seat, caption(sentence, PLAYERS[seat], player=seat))
         self._draw_joining(screen)
+        self._draw_notice(screen)
+
+    def _draw_notice(self, screen: pygame.Surface) -> None:
         if self.notice and self.notice_left > 0.0:
             self.notice.draw(screen, 960, 206)
 
@@ -263,8 +283,16 @@ class MatchScene:
         self.restart_requested = True
 
     def rematch(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
-        """The same match with another seed."""
-        return MatchScene(context, rematch_setup(setup, devices), devices, game_choice=self.game_choice)
+        """The same match with another seed, from the first round."""
+        again = fresh_rounds(self.rounds)
+        return MatchScene(context, rematch_setup(setup, devices), devices, game_choice=self.game_choice, rounds=again)
+
+    def next_round(self) -> Scene:
+        """The next round, with the same seats."""
+        setup = rematch_setup(self.setup, self.devices)
+        return MatchScene(
+            self.context, setup, self.devices, self.speed, self.plant_factory, self.game_choice, self.rounds
+        )
 
     @property
     def extra_items(self) -> Mapping[str, Callable[[Access], Scene]]:
@@ -358,27 +386,50 @@ class MatchScene:
         if device and self.context.settings.rumble:
             self.context.controls.rumble(device, *rumble)
 
+    def _finish(self) -> None:
+        """The match has just ended: keep it for attract mode, count the round, and wait for the next one if any."""
+        if replayable(self.match):
+            self.context.highlights.add(recorded(self.match))
+        self.context.sounds.play("go")
+        if self.rounds:
+            self.rounds.add(self.match.outcome(), self._without_records)
+            if not self.rounds.done:
+                self.round_break = RoundBreak(self.context.words, self.rounds)
+
+    @property
+    def _without_records(self) -> Collection[int]:
+        """Seats whose results are no records: an AI has helped, or the match was not played in real time."""
+        return self.ai_assisted if self.speed == 1.0 else range(len(self.devices))
+
+    def _wait_for_round(self, pause: RoundBreak, seconds: float) -> StackOperation:
+        """Show the end of the match, then the standings, then start the next round."""
+        self.frozen += seconds
+        self.runner.wait(seconds)
+        if self.frozen >= FREEZE_SECONDS:
+            pause.update(seconds)
+        if not pause.over:
+            return None
+        scene = self.next_round()
+        if isinstance(scene, MatchScene):
+            scene.idle_seats.claims |= self.idle_seats.claims
+        return Swap(scene)
+
     def _end(self, seconds: float) -> StackOperation:
         """Build the results while the last picture stays on the screen."""
         if self.results is None:
-            finished = self.match.over and not self.stop_requested
-            helped = self.ai_assisted if self.speed == 1.0 else range(len(self.devices))  # slow motion sets no record
-            recording = recorded(self.match) if replayable(self.match) else None
-            if recording and finished:
-                self.context.highlights.add(recording)
+            rounds = self.rounds if self.rounds and self.rounds.outcomes else None
             self.results = Results(
                 self.context,
-                self.match.outcome(),
+                rounds.outcome() if rounds else self.match.outcome(),
                 self.setup,
                 self.devices,
                 self.rematch,
-                finished,
-                helped,
+                rounds.done if rounds else not self.stop_requested,
+                () if rounds else self._without_records,
                 self.game_choice,
-                recording,
+                recorded(self.match) if replayable(self.match) else None,
+                rounds,
             )
-            if finished:
-                self.context.sounds.play("go")
             self.moment = WinnersMoment(self.context, self.results)
         self.frozen += seconds
         self.runner.wait(seconds)
@@ -397,6 +448,11 @@ class MatchScene:
         if self.again.prewarm(PREWARM_MS) and self.frozen >= FREEZE_SECONDS and not self.again.over:
             self.again.update(seconds)
         return not self.again.over
+
+
+def fresh_rounds(rounds: Rounds | None) -> Rounds | None:
+    """As many rounds, none of them played."""
+    return Rounds(rounds.best_of) if rounds else None
 
 
 def rematch_setup(setup: Setup, devices: Sequence[Device | None]) -> Setup:

@@ -2,9 +2,11 @@
 
 import pygame
 
+from pigaming_app.games.replay import Replay, to_match
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.scenes.play.replay import ReplayScene
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.replays import view
@@ -20,6 +22,7 @@ from pigaming_app.ui.widgets.labels import black_out, heading
 
 IDLE = 60.0  # s without input before the return to the title
 INPUT_LOCKOUT = 0.3  # s during which input is ignored
+PREWARM_MS = 5.0  # ms per frame for prewarming
 CONFIRM_SECONDS = 3.0  # s for the second press
 MESSAGE_SECONDS = 4.0  # s, display time of a message
 
@@ -33,6 +36,7 @@ class ReplaysPage:
         self.page, self.age, self.message, self.message_left, self.confirm_left = 0, 0.0, "", 0.0, 0.0
         self.asked: Entry | None = None  # replay that a second press deletes
         self.focus = Focus(self._spots())
+        self.warmup: dict[str, MatchRunner] = {}  # by game
 
     def on_enter(self) -> None:
         """First display, or return from a replay."""
@@ -62,7 +66,7 @@ class ReplaysPage:
         return None
 
     def update(self, seconds: float) -> StackOperation:
-        """Read the files of this page, one per frame; return to the title when idle."""
+        """Read the files of this page, one per frame, and prewarm the focused one; return to the title when idle."""
         self.age += seconds
         self.message_left -= seconds
         self.confirm_left -= seconds
@@ -70,6 +74,8 @@ class ReplaysPage:
         unread = next((entry for entry in self._shown() if not entry.read), None)
         if unread:
             unread.load(self.context.words.language)
+        elif self.entries and self.entry.replay:
+            self._prewarm(self.entry.replay)
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -87,7 +93,8 @@ class ReplaysPage:
                 label = words.key_name(self.context.controls.label(None, Button.X))
                 view.question(words("replays.sure", button="{button}"), label).draw(screen, *box.topleft)
             elif entry.read:
-                view.row(words, entry, entry is self.entry).draw(screen, *box.topleft)
+                for part in view.row(words, entry, entry is self.entry):
+                    part.draw(screen, *box.topleft)
             if self.deletable:
                 view.cross(asked).draw(screen, *view.cross_box(i).topleft)
         if self.entries:
@@ -135,6 +142,13 @@ class ReplaysPage:
         """True for a click on the cross of a row."""
         boxes = map(view.cross_box, range(len(self._shown())) if self.deletable else ())
         return event.button is Button.CLICK and any(box.collidepoint(event.at or (0, 0)) for box in boxes)
+
+    def _prewarm(self, replay: Replay) -> None:
+        """Prewarm the sprites of a game, a few per frame."""
+        game = replay.setup.game
+        if game not in self.warmup:
+            self.warmup[game] = MatchRunner(self.context, to_match(replay), loud=False)
+        self.warmup[game].prewarm(PREWARM_MS)
 
     def _turn(self, delta: int) -> None:
         """Show another page, around the end."""

@@ -27,6 +27,7 @@ from pigaming_app.ui.draw import (
     mix,
     text_width,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
@@ -69,27 +70,33 @@ def cross_box(i: int) -> pygame.Rect:
     return pygame.Rect(RIGHT - CROSS - 8, TOP + PITCH * i + (HIGH - CROSS) // 2, CROSS, CROSS)
 
 
-def row(words: Words, entry: Entry, hot: bool) -> LitImage:
-    """The row of a file that has been read."""
+def row(words: Words, entry: Entry, hot: bool) -> list[LitImage]:
+    """The parts of the row of a file that has been read, top left at (0, 0)."""
     replay = entry.replay
     if replay is None:
-        return damaged(words("replays.damaged", name=entry.path.name))
+        return [damaged(words("replays.damaged", name=entry.path.name))]
     seats = tuple(
         (seat, other.brain == "human", replay.scores[seat] if replay.scores else None, seat in replay.winners)
         for seat, other in enumerate(replay.setup.seats)
         if other.brain != "off"
     )
     when = f"{store.saved_at(entry.path):{DATE}}"
-    return whole(words(f"games.{replay.setup.game}"), entry.arena, when, seats, hot)
+    return [whole(entry.arena, when, seats), game_name(words(f"games.{replay.setup.game}"), hot)]
 
 
 @cached
-def whole(
-    game: str, arena: str, when: str, seats: tuple[tuple[int, bool, int | None, bool], ...], hot: bool
-) -> LitImage:
-    """Row of a valid replay; `seats`: seat, whether a person drove, points if known, whether it won."""
+def game_name(game: str, hot: bool) -> LitImage:
+    """Name of the game in a row; `hot`: the row is focused."""
+    layer = Layer(GAME, 0, ROOM, HIGH)
+    layer.canvas.text(game, fit_size(game, LABEL, ROOM), GAME, HIGH / 2, FOCUS if hot else ICE, "head")
+    return layer.render()
+
+
+@cached
+@resumable
+def whole(arena: str, when: str, seats: tuple[tuple[int, bool, int | None, bool], ...]) -> Steps[LitImage]:
+    """A valid replay without its game; `seats`: seat, whether a person drove, points if known, whether it won."""
     layer, y = _frame(), HIGH / 2
-    layer.canvas.text(game, fit_size(game, LABEL, ROOM), GAME, y, FOCUS if hot else ICE, "head")
     layer.canvas.body(arena, ARENA, y, MIST, "l", fit_size(arena, BODY, ROOM, "body"))
     layer.canvas.body(when, TIME, y, MIST, "l", fit_size(when, BODY, PLAYERS_X - TIME - 24, "body"))
     for i, (seat, human, score, won) in enumerate(seats):
@@ -102,21 +109,25 @@ def whole(
             said = str(score).replace("-", "−")
             size = fit_size(said, LABEL, SLOT - 104, "hero")
             layer.canvas.text(said, size, x + 100, y + 4, mix(PLAYERS[seat], WHITE, 0.3), "hero")
-    return layer.render()
+        yield
+    return (yield from layer.render_steps())
 
 
 @cached
-def damaged(line: str) -> LitImage:
+@resumable
+def damaged(line: str) -> Steps[LitImage]:
     """Row of a file that cannot be played."""
     layer = _frame()
     icon(layer.glow, "cross", GAME + 20, HIGH / 2, 18, ALARM, THIN)
     room = W - GAME - 64 - CROSS - 40
     layer.canvas.body(line, GAME + 64, HIGH / 2, MIST, "l", fit_size(line, BODY, room, "body"))
-    return layer.render()
+    yield
+    return (yield from layer.render_steps())
 
 
 @cached
-def question(sentence: str, label: str) -> LitImage:
+@resumable
+def question(sentence: str, label: str) -> Steps[LitImage]:
     """Row that asks for the second press; `sentence` contains {button}."""
     layer, y = _frame(), HIGH / 2
     before, _, after = sentence.partition("{button}")
@@ -125,7 +136,8 @@ def question(sentence: str, label: str) -> LitImage:
     x += text_width(before.strip(), LABEL) + 20
     button(layer.canvas, x, y, label, FOCUS)
     layer.canvas.text(after.strip(), LABEL, x + button_width(label) + 20, y, FOCUS, "head")
-    return layer.render()
+    yield
+    return (yield from layer.render_steps())
 
 
 @cached

@@ -6,11 +6,13 @@ FIRE; START begins at once; a free device holds FIRE to replace an AI.
 """
 
 from collections.abc import Callable, Collection, Sequence
+from typing import Protocol
 
 import pygame
 
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.replay import Replay
+from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Swap
@@ -19,6 +21,7 @@ from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.initials import Initials, qualifying
+from pigaming_app.scenes.results.podium_page import PodiumPage
 from pigaming_app.scenes.results.rematch_vote import RematchVote
 from pigaming_app.scenes.results.view import ResultsPage
 from pigaming_app.ui.draw import ALARM, FOCUS
@@ -38,12 +41,30 @@ SceneFactory = Callable[
 ]  # scene that follows a match, for these devices
 
 
+class Page(Protocol):
+    """The page without the votes."""
+
+    outcome: Outcome
+    setup: Setup
+    absent: Sequence[int]  # seats of people replaced by an AI
+    ready_at: float  # s, when it is complete
+
+    def prewarm(self, milliseconds: float) -> bool:
+        """Prewarm for at most this many milliseconds; True when complete."""
+
+    def sounds(self) -> list[tuple[float, str, int | None]]:
+        """Sounds of the reveal: (seconds, name, player)."""
+
+    def draw(self, screen: pygame.Surface, age: float) -> None:
+        """Draw the page `age` seconds after it was opened."""
+
+
 class Results:
     """Results of a match. `devices`: driver of each seat; `finished`: played to its end.
 
     `rematch`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `ai_assisted`: seats
     that changed drivers during the match; their scores do not count as records. `recording`: the replay, if it can be
-    saved.
+    saved. `rounds`: those that led to this outcome; their records count even if the match was ended between them.
     """
 
     def __init__(
@@ -57,6 +78,7 @@ class Results:
         ai_assisted: Collection[int] = (),
         game_choice: SceneFactory | None = None,
         recording: Replay | None = None,
+        rounds: Rounds | None = None,
     ) -> None:
         self.context, self.setup, self.rematch, self.game_choice = context, setup, rematch, game_choice
         self.recording = recording
@@ -64,9 +86,13 @@ class Results:
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
         self.ballot = RematchVote(context, seats, humans, devices)
         absent = [seat for seat in humans if devices[seat] is None]
-        self.page = ResultsPage(context, outcome, setup, finished, absent)
+        self.page: Page = (
+            PodiumPage(context, outcome, setup, finished, absent, rounds)
+            if rounds
+            else ResultsPage(context, outcome, setup, finished, absent)
+        )
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
-        self.claims = qualifying(context, outcome, setup, own) if finished else []
+        self.claims = qualifying(context, outcome, setup, own) if finished or rounds else []
         self.initials = Initials(context, setup, self.claims)
         self.sounds = self.page.sounds()
         self.age = self.idle = self.message_left = 0.0

@@ -1,17 +1,24 @@
 """Interface of a match with real robots for the pages above it."""
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from typing import Protocol
 
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.pause import PausedMatch
 from pigaming_app.ui.input.events import Device
 
-MatchOf = Callable[[Setup, Sequence[Device | None], Collection[int]], Scene]  # setup, devices, seats with real robots
+
+class MatchOf(Protocol):
+    """Match factory; `real`: seats with real robots, `rounds`: see `MatchScene`."""
+
+    def __call__(
+        self, setup: Setup, devices: Sequence[Device | None], real: Collection[int], *, rounds: Rounds | None = None
+    ) -> Scene: ...
 
 
 class InterruptedMatch(PausedMatch, Protocol):

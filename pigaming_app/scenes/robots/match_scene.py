@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 import pygame
 
 from pigaming_app.games.game import Setup
+from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, settings_problem
@@ -18,7 +19,7 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperatio
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
-from pigaming_app.scenes.play.scene import LEAD_SECONDS, NOTICE_SECONDS, MatchScene, rematch_setup
+from pigaming_app.scenes.play.scene import LEAD_SECONDS, NOTICE_SECONDS, MatchScene, fresh_rounds, rematch_setup
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
@@ -51,6 +52,7 @@ class RealMatch(MatchScene):
         session: RobotSession,
         match_of: MatchOf,
         game_choice: SceneFactory | None = None,
+        rounds: Rounds | None = None,
     ) -> None:
         if reason := settings_problem(context.settings):
             raise RobotsUnavailable(reason)
@@ -58,7 +60,12 @@ class RealMatch(MatchScene):
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
         self.session, self.match_of = session, match_of
         super().__init__(
-            context, setup, devices, plant=lambda world: MixedPlant(world, rig, chosen), game_choice=game_choice
+            context,
+            setup,
+            devices,
+            plant=lambda world: MixedPlant(world, rig, chosen),
+            game_choice=game_choice,
+            rounds=rounds,
         )
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
@@ -93,7 +100,7 @@ class RealMatch(MatchScene):
         """As in every match; STOP stops all robots. While robots take their places, START begins from the current
         positions, X replaces missing robots with simulated ones, BACK leaves.
         """
-        if event.button is Button.STOP and not self.match.over:
+        if event.button is Button.STOP and (not self.match.over or self.round_break):
             self.plant.safety.all_stop()
             self.plant.watch()
             return Push(FaultPage(self, event.device))
@@ -180,9 +187,14 @@ class RealMatch(MatchScene):
         self._mark_real()
 
     def rematch(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
-        """A rematch with a new seed and the same robots."""
+        """A rematch with a new seed and the same robots, from the first round."""
         self.on_leave()
-        return self.match_of(rematch_setup(setup, devices), devices, self.real)
+        return self.match_of(rematch_setup(setup, devices), devices, self.real, rounds=fresh_rounds(self.rounds))
+
+    def next_round(self) -> Scene:
+        """The next round, for which the robots drive to their places."""
+        self.on_leave()
+        return self.match_of(rematch_setup(self.setup, self.devices), self.devices, self.real, rounds=self.rounds)
 
     # ---- inside
 

@@ -5,6 +5,7 @@ from collections.abc import Collection, Sequence
 from functools import partial
 
 from pigaming_app.games.game import Setup
+from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
@@ -23,20 +24,21 @@ def match_of(
     real: Collection[int],
     speed: float = 1.0,
     game_choice: SceneFactory | None = None,
+    rounds: Rounds | None = None,
 ) -> Scene:
     """The match, or the page with the reason why the robots of the seats `real` are unavailable.
 
-    `speed`: times real time, for a match without real robots. `game_choice`: see `Results`.
+    `speed`: times real time, for a match without real robots. `game_choice`: see `Results`; `rounds`: see `MatchScene`.
     """
     real = [seat for seat in real if setup.seats[seat].brain != "off"]
     if not real or context.session is None:
-        return MatchScene(context, setup, devices, speed, game_choice=game_choice)
+        return MatchScene(context, setup, devices, speed, game_choice=game_choice, rounds=rounds)
     from pigaming_app.scenes.robots.match_scene import RealMatch
     from pigaming_app.scenes.robots.unavailable import UnavailablePage
 
     again = partial(match_of, context, game_choice=game_choice)
     try:
-        return RealMatch(context, setup, devices, real, context.session, again, game_choice)
+        return RealMatch(context, setup, devices, real, context.session, again, game_choice, rounds)
     except RobotsUnavailable as error:
         log.warning("%s", english().long_sentence(error.message))
-        return UnavailablePage(context, setup, devices, real, error.message, again)
+        return UnavailablePage(context, setup, devices, real, error.message, partial(again, rounds=rounds))

@@ -1,4 +1,7 @@
-"""Attract mode: an AI match, the lesson and the high scores of each game in turn. Any input only ends it."""
+"""Attract mode: for each game in turn an AI match, a highlight of any match, the lesson and the high scores.
+
+Any input only ends it.
+"""
 
 import secrets
 from collections.abc import Callable
@@ -17,6 +20,7 @@ from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.title.clip import Clip
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
@@ -29,7 +33,7 @@ LEVELS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """Three shows per game, cyclically, from a random game; pushed over the title when idle."""
+    """Up to four shows per game, cyclically, from a random game; pushed over the title when idle."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -38,9 +42,11 @@ class Attract:
         self.shows = (
             partial(make, game)
             for game in cycle(names[first:] + names[:first])
-            for make in (self._match, self._howto, self._best)
+            for make in (self._match, self._highlight, self._howto, self._best)
         )
         self.show: Scene | None = None
+        self.clip: Clip | None = None  # the next highlight
+        self.clip_ready = self.searched = False
         self._next()
 
     def on_enter(self) -> None:
@@ -55,8 +61,9 @@ class Attract:
         return None if event.button is Button.LOST else Home()
 
     def update(self, seconds: float) -> StackOperation:
-        """Advance the show, or start the next one."""
+        """Advance the show, or start the next one; meanwhile prepare the next highlight."""
         self.age += seconds
+        self._prepare()
         if self.show is None or self.show.update(seconds) is not None:
             self._next()
         return None
@@ -68,12 +75,28 @@ class Attract:
         level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
         color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
         text = self.context.words("attract.press")
-        size, y = (LABEL, PROMPT_Y) if isinstance(self.show, DemoMatch) else (BODY, PAGE_PROMPT_Y)
+        size, y = (LABEL, PROMPT_Y) if isinstance(self.show, DemoMatch | Clip) else (BODY, PAGE_PROMPT_Y)
         caption(text, color, color, size, face="head").draw(screen, 960, y)
 
     def _next(self) -> None:
         self.show = next(show for show in (make() for make in self.shows) if show)
         self.show.on_enter()
+        self.searched = False
+
+    def _prepare(self) -> None:
+        """Look for a highlight, once per show, and prepare it step by step."""
+        if self.clip is None and not self.searched:
+            self.searched = True
+            highlight = self.context.highlights.next()
+            self.clip = Clip(self.context, highlight) if highlight else None
+        self.clip_ready = self.clip is not None and (self.clip_ready or self.clip.prepare())
+
+    def _highlight(self, game: str) -> Scene | None:
+        """The highlight that has been prepared; None if there is none, or it is not ready."""
+        if not self.clip_ready:
+            return None
+        clip, self.clip, self.clip_ready = self.clip, None, False
+        return clip
 
     def _match(self, game: str) -> Scene:
         return DemoMatch(self.context, game)

@@ -217,6 +217,7 @@ def results(walker: TourWalker, game: str) -> None:
         walker.wait(2.0)
         if walker.shows("HighScores"):
             walker.press("escape", pause=0.5)
+    walker.press("w", pause=1.0)  # saves the replay
     walker.set_screen(f"{game}: best scores")
     walker.app.stack.apply(Push(HighScores(walker.context, contest(walker.top.setup))))
     walker.wait(3.0)

@@ -14,7 +14,7 @@ from pigaming_app.scenes.flow import match_choice
 from pigaming_app.scenes.flow.match_choice import playable_arenas
 from pigaming_app.scenes.lobby import match_setup as setup
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, rows
-from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD
+from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD, short_boxes
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
@@ -49,7 +49,7 @@ def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
 
 
 def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) -> None:
-    for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.RIGHT):
+    for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.DOWN, Button.RIGHT):
         arcade.press(button)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
     assert (minutes, variant) == (3, list(games()["pitanks"].variants)[1])
@@ -176,3 +176,40 @@ def test_the_seats_follow_the_team_mode_of_the_chosen_rules(arcade: Arcade) -> N
     arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
     assert (match.setup.variant, {seat.team for seat in match.setup.seats}) == ("together", {0})
+
+
+def test_best_of_three_is_offered_where_the_game_has_rounds(arcade: Arcade) -> None:
+    for game in games().values():
+        assert ("rounds" in rows(game, game.default)) == (len(game.rounds) > 1)
+
+
+def test_best_of_three_plays_rounds_of_one_minute_and_is_remembered(arcade: Arcade) -> None:
+    here = page(arcade)
+    here.focus.move_to("rounds")
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.UP)
+    assert here.focus.name == "minutes"
+    minutes = here.chosen.minutes
+    arcade.press(Button.RIGHT)
+    page(arcade)
+    assert here.chosen.minutes == minutes, "a round always lasts one minute"
+    arcade.wait(0.5)
+    arcade.press(Button.FIRE)
+    match = arcade.shown(MatchScene)
+    assert match.setup.minutes == 1.0
+    assert match.rounds is not None
+    assert match.rounds.best_of == 3
+    assert match_choice.last_choice(arcade.context, "pitanks").rounds == 3
+    assert "Best of 3" in match_choice.choice_summary(arcade.context, "pitanks")
+
+
+def test_a_click_chooses_the_rounds(arcade: Arcade) -> None:
+    here = page(arcade)
+    box = here.rows["rounds"]
+    one, three = short_boxes(("1", arcade.context.words("setup.rounds_3")))
+    arcade.click(box.left + three.centerx, box.centery)
+    assert here.chosen.rounds == 3
+    arcade.click(box.left + one.centerx, box.centery)
+    assert here.chosen.rounds == 1
+    arcade.click(box.left + 5, box.centery)
+    assert here.chosen.rounds == 1

@@ -11,7 +11,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
 from pigaming_app.games.replay import recorded as recording_of
 from pigaming_app.scenes.files import load_replay, save_replay
-from pigaming_app.scenes.play.replay import LINE_LEFT, LINE_RIGHT, LINE_Y, ReplayScene
+from pigaming_app.scenes.play.replay import IDLE, LINE_LEFT, LINE_RIGHT, LINE_Y, ReplayScene
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.title.attract import PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.sim.record import digest
@@ -149,6 +149,17 @@ def test_a_click_on_the_timeline_jumps_there(arcade: Arcade, long: Replay) -> No
     assert tick(scene) == 1000
     arcade.click(0, LINE_Y)
     assert tick(scene) == 0
+
+
+def test_an_abandoned_replay_returns_to_the_title_once_it_stands_still(arcade: Arcade, long: Replay) -> None:
+    scene = ReplayScene(arcade.context, long)
+    arcade.open(scene)
+    arcade.context.idle = IDLE + 1.0
+    arcade.frame()
+    assert arcade.stack.top is scene, "it is being watched"
+    arcade.press(Button.FIRE)
+    arcade.frame()
+    assert arcade.stack.top is arcade.title
 
 
 def test_a_jump_takes_less_than_50_ms(arcade: Arcade, long: Replay) -> None:

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.games.replay import Replay
+from pigaming_app.games.replay import Replay, to_match
 from pigaming_app.scenes.flow.stack import Stack
 from pigaming_app.scenes.play.replay import ReplayScene
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.replays.page import CONFIRM_SECONDS, ReplaysPage
@@ -17,7 +18,7 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import places
-from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.recordings.test_store import NOON, replay
 
@@ -27,6 +28,7 @@ __all__ = ["replay"]
 @pytest.fixture
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
     return Arcade(controls)
 
 
@@ -145,37 +147,35 @@ def test_texts_keep_off_each_other(
             assert faults(screen) == []
 
 
-def ended(arcade: Arcade) -> Results:
-    """The results page of a short match, ready for input."""
-    arcade.open(MatchScene(arcade.context, setup("human hard off off"), KEYS[:1]))
-    arcade.until(lambda: isinstance(arcade.stack.top, Results), 20.0)
-    arcade.wait(4.0)
-    return arcade.shown(Results)
+def ended(arcade: Arcade, replay: Replay) -> Results:
+    """The results page of a match, ready for input."""
+    setup, outcome = replay.setup, to_match(replay).outcome()
+    scene = Results(arcade.context, outcome, setup, [KEYS[0], None, None, None], MatchScene, recording=replay)
+    scene.age = 9.0
+    arcade.open(scene)
+    return scene
 
 
-def test_the_last_match_is_saved_once_from_the_results(arcade: Arcade) -> None:
-    results = ended(arcade)
+def test_the_last_match_is_saved_once_from_the_results(arcade: Arcade, replay: Replay) -> None:
+    results = ended(arcade, replay)
     assert "Save replay" in [text for _, text in results.prompts.labels]
     arcade.press(Button.UP)
     arcade.press(Button.UP)
     (path,) = store.paths()
-    saved = store.load(path)
-    assert saved is not None
-    assert saved.setup == results.setup
-    assert saved.scores
+    assert store.load(path) == replay
     assert "Save replay" not in [text for _, text in results.prompts.labels]
     arcade.shown(Results)
     assert abs(store.saved_at(path) - datetime.now()) < timedelta(minutes=1)
 
 
-def test_a_free_device_saves_nothing(arcade: Arcade) -> None:
-    ended(arcade)
+def test_a_free_device_saves_nothing(arcade: Arcade, replay: Replay) -> None:
+    ended(arcade, replay)
     arcade.press(Button.UP, KEYS[1])
     assert store.paths() == []
 
 
-def test_what_cannot_be_saved_says_so_and_may_be_tried_again(arcade: Arcade) -> None:
-    results = ended(arcade)
+def test_what_cannot_be_saved_says_so_and_may_be_tried_again(arcade: Arcade, replay: Replay) -> None:
+    results = ended(arcade, replay)
     store.folder().parent.mkdir(parents=True, exist_ok=True)
     store.folder().write_text("a file in its place")
     arcade.press(Button.UP)

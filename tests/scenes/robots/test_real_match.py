@@ -8,6 +8,7 @@ import pytest
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.emulated import EmulatedSession
@@ -68,12 +69,45 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
     return match
 
 
-def started(arcade: Arcade, match: RealMatch) -> None:
+@pytest.mark.long
+def test_rounds_are_played_with_robots_that_take_their_places_again(arcade: Arcade) -> None:
+    rounds = Rounds(3)
+    first = match_of(arcade.context, match_for("pitanks", "easy easy off off", 0.02), [], (0, 1), rounds=rounds)
+    assert isinstance(first, RealMatch)
+    arcade.open(first)
+    started(arcade, first, 0.1)
+    for _ in range(round(10 * FPS)):
+        if first.round_break and first.round_break.age > 1.0:
+            break
+        arcade.frame(1 / FPS)
+    arcade.stack.top.draw(arcade.screen)
+    arcade.press(Button.STOP)
+    assert isinstance(arcade.stack.top, FaultPage), "the emergency stop works in the break"
+    first.plant.safety.release()
+    until(arcade, RealMatch)
+    for _ in range(round(15 * FPS)):
+        if arcade.stack.top is not first:
+            break
+        arcade.frame(1 / FPS)
+    second = arcade.stack.top
+    assert isinstance(second, RealMatch)
+    assert second.gathering is not None
+    assert second.real == {0, 1}
+    assert second.rounds is rounds
+    assert rounds.number == 2
+    second.stop()
+    until(arcade, Results)
+    results = arcade.stack.top
+    assert isinstance(results, Results)
+    assert results.recording is None, "the replay of real robots cannot be saved"
+
+
+def started(arcade: Arcade, match: RealMatch, seconds: float = 0.5) -> None:
     """Start from the current positions and wait until the robots drive."""
     play(arcade, 1.0)
     arcade.press(Button.START)
     for _ in range(round(5.0 * FPS)):
-        if match.match.seconds > 0.5:
+        if match.match.seconds > seconds:
             return
         arcade.frame(1 / FPS)
     raise AssertionError("the match does not begin")

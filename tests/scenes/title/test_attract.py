@@ -1,23 +1,34 @@
 """Every lesson and a whole round of attract mode run to the end, in both languages, without a failing scene."""
 
+from dataclasses import replace
 from pathlib import Path
 
+import pygame
 import pytest
 
+from pigaming_app.ai.registry import STRENGTHS, new_match
 from pigaming_app.games.arenas import arenas
+from pigaming_app.games.moments import CLOSE, KINDS, LAST, Moment
 from pigaming_app.games.registry import games
+from pigaming_app.games.replay import Replay, recorded
+from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.howto.lessons import LESSONS
 from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.recordings import store
+from pigaming_app.scenes.recordings.highlights import KEPT, Highlights
 from pigaming_app.scenes.results.high_score_tables import high_score_tables
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.title.attract import Attract, DemoMatch, TimedPage
+from pigaming_app.scenes.title.clip import Clip
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from tests.cases import one_in
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import KEYS, Arcade, setup
 
 LONGEST = 12.0  # s; the longest animation, machine A, then B, repeats after 9.1 s
 PHASES = 0.1  # s between two frames
@@ -88,3 +99,108 @@ def scores_of(context: Context, game: str) -> None:
     contest = ScoreTable(game, arenas(game)[0], "", rules=rules.name, length=rules.default_goal or 2, people=1)
     for board in high_score_tables(contest):
         context.scores.add(board.table, "ABC", 9)
+
+
+def recording(game: str, seed: int = 1) -> Replay:
+    """A short match with moments."""
+    match = new_match(make_setup(game, ["hard", "easy", "hard", "easy"], None, 0.4, seed, None, None, STRENGTHS))
+    while not match.over:
+        match.tick()
+    match.series[0].append((20.0, match.series[0][-1][1] + 1))
+    return recorded(match)
+
+
+@pytest.fixture(scope="module")
+def replays() -> dict[str, Replay]:
+    return {game: recording(game) for game in games()}
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path) -> Arcade:
+    return Arcade(controls)
+
+
+def until_clip(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> tuple[Attract, Clip]:
+    """Attract mode up to its next highlight, with short shows and without prewarming."""
+    monkeypatch.setattr("pigaming_app.scenes.title.attract.MINUTES", 0.02)
+    monkeypatch.setattr("pigaming_app.scenes.title.attract.PAGE", 0.1)
+    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
+    attract = Attract(arcade.context)
+    arcade.open(attract)
+    arcade.until(lambda: isinstance(attract.show, Clip), 60.0)
+    assert isinstance(attract.show, Clip)
+    return attract, attract.show
+
+
+def test_a_highlight_follows_a_demonstration_match(
+    arcade: Arcade, replays: dict[str, Replay], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    arcade.context.highlights.add(replays["pitanks"])
+    attract, clip = until_clip(arcade, monkeypatch)
+    assert clip.runner is not None
+    assert clip.runner.match.state.tick <= clip.start + 2
+    taken = 0.0
+    while attract.show is clip:
+        arcade.frame(1 / 30, draw=taken == 0.0)
+        taken += 1 / 30
+    normal = (clip.end - clip.start) / 50
+    assert normal < taken < normal + 6.0, "the moment passes in slow motion"
+    assert arcade.sounds.heard == [], "nobody is listening"
+
+
+@pytest.mark.parametrize("language", one_in(2, LANGUAGES))
+def test_the_caption_of_a_highlight_fits(
+    arcade: Arcade, replays: dict[str, Replay], monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    arcade.context.words.switch(language)
+    for game, replay in replays.items():
+        for kind in KINDS:
+            clip = Clip(arcade.context, (replay, Moment(kind, 100, 3)))
+            clip.runner = MatchRunner(arcade.context, clip.timeline.match_at(0))
+            monkeypatch.setattr(clip.runner, "draw", lambda canvas: canvas.fill("black"))
+            clip.draw(arcade.screen)
+            lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
+            lit.invert()
+            boxes = lit.get_bounding_rects()
+            assert pygame.Rect(160, 140, 1600, 130).contains(boxes[0].unionall(boxes)), (game, kind)
+
+
+def test_each_kind_takes_its_turn_and_the_closest_finish_is_chosen(replays: dict[str, Replay], home: Path) -> None:
+    pool = Highlights()
+    assert pool.next() is None
+    for lead in (0.9, 0.1, 0.5):
+        pool.add(replace(replays["race"], moments=(Moment(CLOSE, 500, 1, lead), Moment(LAST, 600, 2))))
+    shown = [pool.next() for _ in range(4)]
+    assert [highlight[1].kind for highlight in shown if highlight] == [LAST, CLOSE, LAST, CLOSE]
+    assert shown[1] is not None
+    assert shown[1][1].lead == 0.1
+    for _ in range(100):
+        pool.add(replays["race"])
+    assert len(pool.played) == KEPT
+
+
+def test_saved_replays_are_shown_too_and_files_may_vanish(
+    arcade: Arcade, replays: dict[str, Replay], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = store.save(replays["pitanks"])
+    _, clip = until_clip(arcade, monkeypatch)
+    assert clip.replay == replays["pitanks"]
+    path.unlink()
+    (store.folder() / "noise.replay").write_bytes(b"noise")
+    listed = [path, store.folder() / "noise.replay"]
+    monkeypatch.setattr(store, "paths", lambda: listed)
+    for _ in range(6):
+        assert arcade.context.highlights.next() is None
+    arcade.wait(3.0)
+
+
+def test_a_match_just_played_is_kept_for_attract_mode(arcade: Arcade) -> None:
+    scene = MatchScene(arcade.context, setup("human idle off off", 0.02), KEYS[:1])
+    arcade.open(scene)
+    scene.countdown.seconds_left = 0.05
+    scene.match.series[0].append((0.5, 1))
+    arcade.until(lambda: scene.match.over)
+    arcade.frame()
+    (kept,) = arcade.context.highlights.played
+    assert kept.setup == scene.setup
+    assert {moment.kind for moment in kept.moments} == {LAST}
