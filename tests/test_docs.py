@@ -30,9 +30,9 @@ from pigaming_app.games.factory import state
 from pigaming_app.games.factory.start import Rules as FactoryRules
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks import state as pitanks
-from pigaming_app.games.race import circuit
+from pigaming_app.games.race import circuit, furniture, party, recovery
 from pigaming_app.games.race import rules as race_rules
-from pigaming_app.games.race.state import Rules as RaceRules
+from pigaming_app.games.race import state as race_state
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.results import initials
@@ -44,12 +44,12 @@ from pigaming_app.storage.scores import table
 race = import_module("pigaming_app.games.race.start")  # the package's own name `start` is a function
 
 GAME_OF = {"PiTanks": "pitanks", "Robot Factory": "factory", "Robot Race": "race"}
-RULES = {"pitanks": pitanks.Rules, "factory": FactoryRules, "race": RaceRules}
+RULES = {"pitanks": pitanks.Rules, "factory": FactoryRules, "race": race_state.Rules}
 CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
     "Units, arena, robots": (world, robots, drivetrain, action, contact, driving, steering_help),
     "PiTanks": (pitanks, arena),
     "Robot Factory": (state, walker, factory_rules),
-    "Robot Race": (race, race_rules),
+    "Robot Race": (race, race_rules, race_state, furniture, party, recovery),
     "Results and tables of best scores": (table, initials),
     "Arena files": (world, arena, race, circuit, floor),
 }

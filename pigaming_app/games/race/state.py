@@ -35,11 +35,9 @@ class Rules:
     roll_on: int = round(1.5 * HZ)  # for which a finisher may still drive, to clear the line
     carried: float = 40.0  # px in a tick: a robot that moved further was carried by hand, and has crossed nothing
     party: int = added()  # 1: common start and finish line, slipstream, boost pads, items
-    slip_reach: float = added(
-        240.0
-    )  # px between the centres of two robots, up to which the one behind is in the slipstream
-    slip_width: float = added(45.0)  # px by which it may be aside of the other's track
-    slip_refill: float = added(1.0 / (5 * HZ))  # of the turbo meter, per tick and place: twice for the second
+    slip_reach: float = added(350.0)  # px, length of the slipstream behind a robot's centre
+    slip_width: float = added(45.0)  # px to either side of it
+    slip_refill: float = added(1.0 / (5 * HZ))  # of the meter, per tick, times the place: most for the last
     surge_factor: float = added(1.3)  # of speed, on a boost pad and after it
     pad_surge: int = added(round(1.0 * HZ))
     item_surge: int = added(round(1.4 * HZ))  # of the item `turbo`, which also fills the meter
