@@ -225,7 +225,7 @@ def quoted():
     yield f"one a bullet, from {arena.HEALTH}"
     yield f"{tanks.bullet_speed:g} px/s, radius {tanks.bullet_radius:g} px, one each {tanks.cooldown / world.HZ:g} s"
     yield f"at most {tanks.bullets_alive} alive"
-    yield f"{tanks.protection / world.HZ:g} s of protection, none in `classic`"
+    yield f"{tanks.protection / world.HZ:g} s of protection, none in `original` and `classic`"
     yield f"after {shop.replace / world.HZ:g} s it is replaced"
     yield f"three workers, {shop.walk:g} px/s, {shop.process / world.HZ:g} s a pallet"
     yield f"{games()['factory'].default.default_goal} a team; 2 to {games()['factory'].default.goals[-1]} by choice"

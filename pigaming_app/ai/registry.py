@@ -11,7 +11,7 @@ from pigaming_app.ai.brain import baselines
 from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.factory import foreman, foreman_thoughts
-from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts
+from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner, gunner_thoughts
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.race import racer, racer_thoughts
 from pigaming_app.games.game import Setup
@@ -23,9 +23,9 @@ KINDS: dict[str, dict[str, BrainKind]] = {
     "pitanks": {
         "idle": baselines.IDLE,
         "random": baselines.RANDOM,
-        "hand1": replace(fsm.HAND1, explain=fsm_thoughts.explain),
-        "hand2": replace(fsm.HAND2, explain=fsm_thoughts.explain),
-        "hand3": replace(fsm.HAND3, explain=fsm_thoughts.explain),
+        "hand1": replace(gunner.HAND1, explain=gunner_thoughts.explain),
+        "hand2": replace(gunner.HAND2, explain=gunner_thoughts.explain),
+        "hand3": replace(gunner.HAND3, explain=gunner_thoughts.explain),
         "fsm": replace(fsm.FSM, explain=fsm_thoughts.explain),
         "classic": replace(classic.CLASSIC, explain=classic_thoughts.explain),
         "q1": table_files.shipped_brain("q1"),

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, Protocol
 
 from pigaming_app.games.arenas import load
-from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.games.game import Game, Outcome, Row, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import Arena
@@ -62,8 +62,16 @@ class Match:
         return self.state.tick * DT  # type: ignore[no-any-return]
 
     @property
+    def overtime(self) -> bool:
+        """True while the match goes on after its regular time."""
+        return not self.over and self.state.tick >= self.state.rules.ticks
+
+    @property
     def seconds_left(self) -> float:
-        return max(0.0, self.setup.minutes * 60 - self.seconds)
+        """Of the regular time; from its end on, of the overtime, if there is one."""
+        began = self.overtime or self.state.tick > self.state.rules.ticks
+        most = self.game.variants[self.setup.variant].overtime if began else 0.0
+        return max(0.0, self.setup.minutes * 60 + most - self.seconds)
 
     def tick(self) -> None:
         """Advance by DT (1/50 s)."""
@@ -82,11 +90,8 @@ class Match:
     def outcome(self) -> Outcome:
         """The standings: final if the match is over, else as of now."""
         state, game = self.state, self.game
-        seats = [i for i in range(ROBOTS) if state.robots[i].present]
-        keys = {i: game.ranking_key(state, i) for i in seats}
-        best = max(keys.values())
-        leaders = [i for i in seats if keys[i] == best]
-        one_team = len({state.robots[i].team for i in leaders}) == 1
+        keys, winners = standings(game, state)
+        seats = list(keys)
         order = sorted(seats, key=lambda i: (-keys[i], state.robots[i].team, -state.robots[i].score))
         ranks = [keys[i] for i in order]
         rows = tuple(
@@ -101,8 +106,14 @@ class Match:
             )
             for i in order
         )
-        winners = tuple(leaders) if one_team else ()
         return Outcome(rows, winners, tuple(tuple(line) for line in self.series), state.tick * DT)
+
+
+def standings(game: Game, state: Any) -> tuple[dict[int, float], tuple[int, ...]]:
+    """Ranking key of each robot that plays, by seat, and all seats of the winning team; none: a tie."""
+    keys = {i: game.ranking_key(state, i) for i in range(ROBOTS) if state.robots[i].present}
+    leaders = tuple(i for i in keys if keys[i] == max(keys.values()))
+    return keys, leaders if len({state.robots[i].team for i in leaders}) == 1 else ()
 
 
 class ActionLog:

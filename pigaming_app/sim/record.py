@@ -165,9 +165,13 @@ def packed(states: Sequence[Any]) -> Any:
 
 def unpack(kind: type[T], row: Any) -> T:
     """A plain record from one element of a NumPy array of `dtype(kind)`."""
-    stream = iter(_layout(kind).unpack(row.tobytes()))
+    return from_bytes(kind, row.tobytes())
+
+
+def from_bytes(kind: type[T], raw: bytes) -> T:
+    """A plain record from the result of `to_bytes`."""
     state = kind()
-    _fill(state, stream)
+    _fill(state, iter(_layout(kind).unpack(raw)))
     return state
 
 

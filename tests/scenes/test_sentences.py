@@ -40,7 +40,14 @@ WHO_WINS = [
     ("pitanks", "human human hard off", ALONE, (1,), "Player 2 wins!", "Jogador 2 ganha!"),
     ("pitanks", "human human hard off", ALONE, (2,), "AI 3 (hard) wins!", "Computador 3 (difícil) ganha!"),
     ("pitanks", "human q2 off off", ALONE, (1,), "AI 2 (self-taught 2) wins!", "Computador 2 (autodidata 2) ganha!"),
-    ("pitanks", "human fsm off off", ALONE, (1,), "AI 2 (the old machine) wins!", "Computador 2 (a máquina antiga) ganha!"),
+    (
+        "pitanks",
+        "human fsm off off",
+        ALONE,
+        (1,),
+        "AI 2 (the old machine) wins!",
+        "Computador 2 (a máquina antiga) ganha!",
+    ),
     ("pitanks", "human human human easy", PAIRS, (0, 2), "Team 1 wins!", "Equipa 1 ganha!"),
     ("pitanks", "human human human human", (0, 1, 1, 1), (1, 2, 3), "Team 2 wins!", "Equipa 2 ganha!"),
     ("factory", "human normal human hard", PAIRS, (0, 2), "Ice wins!", "Gelo ganha!"),
@@ -104,14 +111,15 @@ def test_the_numbers_of_the_rules_are_those_of_the_game() -> None:
 
 def test_the_lessons_say_what_limits_a_match() -> None:
     english, portuguese = Words("en"), Words("pt")
-    assert "0.75 s of protection" in limits_line(english, "pitanks", 2)
-    assert "0,75 s" in limits_line(portuguese, "pitanks", 2)
-    assert "Time limit: 5 min." in limits_line(english, "factory", 5)
-    assert "Time limit: 10 min, 30 s after the winner." in limits_line(english, "race", 10)
-    assert "10 min; 30 s" in limits_line(portuguese, "race", 10)
+    assert "0.75 s of protection" in limits_line(english, "pitanks", 2, "pickups")
+    assert "0,75 s" in limits_line(portuguese, "pitanks", 2, "pickups")
+    assert "After a hit: 2 s of protection" in limits_line(english, "pitanks", 2, "party")
+    assert "Time limit: 5 min." in limits_line(english, "factory", 5, "standard")
+    assert "Time limit: 10 min, 30 s after the winner." in limits_line(english, "race", 10, "standard")
+    assert "10 min; 30 s" in limits_line(portuguese, "race", 10, "standard")
     for game in games():
-        assert "Turbo lasts 2 s and refills in 4 s." in limits_line(english, game, 5)
-        assert "O turbo dura 2 s e enche em 4 s." in limits_line(portuguese, game, 5)
+        assert "Turbo lasts 2 s and refills in 4 s." in limits_line(english, game, 5, games()[game].default.name)
+        assert "O turbo dura 2 s e enche em 4 s." in limits_line(portuguese, game, 5, games()[game].default.name)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -123,7 +131,7 @@ def test_the_page_of_a_game_shows_its_limits(
     with measuring(monkeypatch) as screen:
         HowTo(arcade.context, "factory").draw(screen)
         shown = [mark.text for mark in screen.texts]
-    assert limits_line(arcade.context.words, "factory", 8) in shown
+    assert limits_line(arcade.context.words, "factory", 8, "standard") in shown
     assert any("8 min" in text for text in shown)
 
 

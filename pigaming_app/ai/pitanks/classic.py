@@ -15,7 +15,7 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.steering import bearing, follow, turn_stick
 from pigaming_app.ai.qlearning.features import nearest_opponent
-from pigaming_app.games.pitanks.observation import lead
+from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.grid import BLOCKED, node_at

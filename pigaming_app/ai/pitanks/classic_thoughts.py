@@ -8,7 +8,7 @@ from pigaming_app.ai.brain.steering import bearing
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Percept, Thoughts, clamp, towards
 from pigaming_app.ai.pitanks import classic
 from pigaming_app.ai.qlearning.features import nearest_opponent
-from pigaming_app.games.pitanks.observation import lead
+from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 

@@ -38,7 +38,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
         reason=_reason(obs, mind, behaviour),
         names={"player": player},
         facts=_facts(obs, mind),
-        percepts=tuple(_percepts(match, obs, mind, behaviour)),
+        percepts=tuple(percepts(match, obs, mind, behaviour)),
         rose=_rose(obs, mind, behaviour),
         utilities=utilities,
         chosen=CHOSEN.get(behaviour, "cover" if mind.state == fsm.DEFEND else "attack"),
@@ -52,7 +52,7 @@ def _behaviour(obs: Any, mind: Any) -> str:
     """Text key of the present behaviour."""
     if mind.state == fsm.BREAK_FREE:
         return "free"
-    if mind.dodges and _dodges(obs):
+    if mind.dodges and dodges(obs):
         return "dodge"
     if mind.target < 0:
         return "idle"
@@ -67,7 +67,7 @@ def _behaviour(obs: Any, mind: Any) -> str:
     return "wait" if waits else "cover"
 
 
-def _dodges(obs: Any) -> bool:
+def dodges(obs: Any) -> bool:
     """True if `fsm.dodge` would override the stick."""
     action = Action()
     action.linear = UNTOUCHED
@@ -117,7 +117,7 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _percepts(match: Any, obs: Any, mind: Any, behaviour: str) -> Iterator[Percept]:
+def percepts(match: Any, obs: Any, mind: Any, behaviour: str) -> Iterator[Percept]:
     """The target, the most urgent bullet, and the route to its goal."""
     if mind.target >= 0:
         other = obs.others[mind.target]

@@ -1,8 +1,9 @@
-"""PiTanks: pick-ups, mines, and the scoring of hits by mines and bullets."""
+"""PiTanks: pick-ups and mines."""
 
 from typing import Any
 
-from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS, SHIELD
+from pigaming_app.games.pitanks.scoring import score
+from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
@@ -93,28 +94,15 @@ def drop_pickup(match: Any) -> None:
 
 @kernel
 def is_isolated(match: Any, x: float, y: float) -> int:
-    """1 if no robot is within 200 px of (x, y) and no pick-up within 300 px."""
-    for robot in match.robots:
+    """1 if no pick-up is within 300 px of (x, y), no robot within 200 px, and no lit one within `lit_distance`."""
+    for k in range(ROBOTS):
+        robot = match.robots[k]
         dx, dy = robot.x - x, robot.y - y
-        if robot.present and dx * dx + dy * dy < 200.0 * 200.0:
+        gap = match.rules.lit_distance if match.tanks[k].lit else 200.0
+        if robot.present and dx * dx + dy * dy < gap * gap:
             return 0
     for pickup in match.pickups:
         dx, dy = pickup.x - x, pickup.y - y
         if pickup.alive and dx * dx + dy * dy < 300.0 * 300.0:
             return 0
-    return 1
-
-
-@kernel
-def score(match: Any, k: int, victim: int) -> int:
-    """Score a hit of robot k on robot `victim`. Returns 1 if it counts, 0 if a shield absorbs it."""
-    tank = match.tanks[victim]
-    tank.protected = match.rules.protection
-    if tank.powers[SHIELD]:
-        tank.powers[SHIELD] = 0
-        return 0
-    match.robots[k].score += 1
-    match.tanks[k].hits += 1
-    match.robots[victim].score -= 1
-    tank.taken += 1
     return 1

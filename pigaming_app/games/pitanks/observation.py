@@ -7,12 +7,13 @@ back by `delay` seconds; the own pose is not delayed.
 from math import atan2, cos, sin, sqrt
 from typing import Annotated, Any
 
+from pigaming_app.games.pitanks.scoring import is_finale, is_overtime, lead, worth
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, SHIELD
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
+from pigaming_app.sim.record import added, record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
@@ -44,6 +45,10 @@ class Other:
     clear: int  # 1: a bullet would meet no inner wall
     protected: int
     score: int
+    knocked_out: int = added()  # ticks left
+    lit: int = added()
+    bounty: int = added()  # points that a hit on it is worth in addition
+    worth: int = added(1)  # points that a hit of the observer on it would score now
 
 
 @record
@@ -81,6 +86,12 @@ class Observation:
     waypoint_distance: float
     goal_distance: float  # straight-line
     straight: int  # 1: the straight line to the goal is clear
+    knocked_out: int = added()  # ticks left
+    camped: int = added()  # ticks within `Rules.camp_radius`
+    lit: int = added()
+    bounty: int = added()
+    finale: int = added()  # 1: hits count double
+    overtime: int = added()  # 1: regular time is over; `seconds_left` is that of the overtime
 
 
 @kernel
@@ -89,15 +100,17 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     robot, tank = match.robots[seat], match.tanks[seat]
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
     obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, match.rules.turn_rate
-    obs.seconds_left = (match.rules.ticks - match.tick) * 0.02
+    obs.finale, obs.overtime = 1 if is_finale(match) else 0, 1 if is_overtime(match) else 0
+    obs.seconds_left = (match.rules.ticks + obs.overtime * match.rules.overtime - match.tick) * 0.02
     obs.loaded = 0 if tank.cooldown else 1
     obs.turbo, obs.protected = robot.turbo, tank.protected
     obs.shield, obs.mine = tank.powers[SHIELD], tank.powers[MINE]
+    obs.knocked_out, obs.camped, obs.lit, obs.bounty = tank.knocked_out, tank.camped, tank.lit, tank.bounty
     nearest = -1
     for i in range(OTHERS):
         j = (seat + 1 + i) % ROBOTS
         other = obs.others[i]
-        observe_other(match, robot, j, senses.delay, other)
+        observe_other(match, seat, j, senses.delay, other)
         if other.present and not other.mate and (nearest < 0 or other.distance < obs.others[nearest].distance):
             nearest = i
     obs.lead = lead(match, seat)
@@ -112,9 +125,9 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 
 @kernel
-def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
-    """Fill in robot j, as observed by `robot`."""
-    seen = match.robots[j]
+def observe_other(match: Any, seat: int, j: int, delay: float, other: Any) -> None:
+    """Fill in robot j, as observed by robot `seat`."""
+    robot, seen, tank = match.robots[seat], match.robots[j], match.tanks[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
     if not seen.present:
         return
@@ -128,27 +141,9 @@ def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> N
     other.aim = turn_to(atan2(dy + flight_time * vy, dx + flight_time * vx) - robot.heading)
     other.facing = turn_to(seen.heading - delay * seen.angular - way - 3.141592653589793)
     other.clear = is_clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
-    other.protected = match.tanks[j].protected
+    other.protected, other.knocked_out = tank.protected, tank.knocked_out
+    other.lit, other.bounty, other.worth = tank.lit, tank.bounty, worth(match, seat, j)
     other.score = seen.score
-
-
-@kernel
-def lead(match: Any, seat: int) -> int:
-    """Score of the seat's team less that of the best other team."""
-    own, best = 0, -1000000
-    for j in range(ROBOTS):
-        robot = match.robots[j]
-        if not robot.present:
-            continue
-        total = 0
-        for mate in match.robots:
-            if mate.present and mate.team == robot.team:
-                total += mate.score
-        if robot.team == match.robots[seat].team:
-            own = total
-        elif total > best:
-            best = total
-    return own - best
 
 
 @kernel

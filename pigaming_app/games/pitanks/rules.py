@@ -10,11 +10,13 @@ bullets that bounce off walls; a mine, which your next shot lays behind you.
 from math import cos, sin
 from typing import Any
 
-from pigaming_app.games.pitanks.items import lay_mine, score, update_mines, update_pickups
+from pigaming_app.games.pitanks.items import lay_mine, update_mines, update_pickups
+from pigaming_app.games.pitanks.scoring import is_decided, mark_leaders, score
+from pigaming_app.games.pitanks.spotlight import update_spotlights
 from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, RAPID, RICOCHET, SPEED, TRIPLE
 from pigaming_app.sim.grid import NEAR_UNIT, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, stop_all, use_turbo
+from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
 from pigaming_app.sim.sweep import bounds_contact, disc_contact, offset_from_wall, wall_contact
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
@@ -37,17 +39,23 @@ def judge(match: Any) -> None:
     if match.rules.pickups:
         update_mines(match)
         update_pickups(match)
+    if match.rules.camping:
+        update_spotlights(match)
     for k in range(ROBOTS):
         if match.robots[k].present:
             steer(match, k)
     match.tick += 1
-    if match.tick >= match.rules.ticks:
+    if match.tick >= match.rules.ticks and is_decided(match):
         match.over = 1
+    if match.rules.bounty_lead or match.rules.overtime:
+        mark_leaders(match)
 
 
 @kernel
 def count_down(tank: Any) -> None:
-    """One tick of a tank's timers: gun cooldown, protection, powers."""
+    """One tick of a tank's timers: gun cooldown, knock-out, protection, powers."""
+    if tank.knocked_out:
+        tank.knocked_out -= 1
     if tank.cooldown:
         tank.cooldown -= 1
     if tank.protected:
@@ -59,8 +67,12 @@ def count_down(tank: Any) -> None:
 
 @kernel
 def steer(match: Any, k: int) -> None:
-    """Request the speeds that result from robot k's stick, turbo and powers."""
+    """Request the speeds that result from robot k's stick, turbo and powers; or the recoil, if it is knocked out."""
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
+    if match.tanks[k].knocked_out:
+        stop(robot)
+        robot.requested_linear = -rules.recoil * match.tanks[k].knocked_out / rules.knockout
+        return
     speed = rules.speed
     if rules.turbo:
         use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
@@ -79,7 +91,7 @@ def steer(match: Any, k: int) -> None:
 def use_gun(match: Any, k: int) -> None:
     """Fire, or lay a mine, if robot k's button is pressed and its gun is ready."""
     rules, tank = match.rules, match.tanks[k]
-    if not match.actions[k].fire or tank.cooldown:
+    if not match.actions[k].fire or tank.cooldown or tank.knocked_out:
         return
     if tank.powers[MINE] and lay_mine(match, k):
         tank.powers[MINE] = 0

@@ -10,7 +10,13 @@ from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HZ
 
 MINUTES, DEFAULT_MINUTES = (1, 2, 3, 5), 2
-VARIANTS = named(*(Variant(name, MINUTES, DEFAULT_MINUTES) for name in ("pickups", "plain", "classic")))
+KNOCKOUT, PARTY_PROTECTION = round(0.8 * HZ), 2 * HZ
+OVERTIME = 15.0  # s, at most
+VARIANTS = named(
+    Variant("pickups", MINUTES, DEFAULT_MINUTES),
+    Variant("party", MINUTES, DEFAULT_MINUTES, overtime=OVERTIME),
+    *(Variant(name, MINUTES, DEFAULT_MINUTES) for name in ("original", "plain", "classic")),
+)
 
 
 def read(table: TomlTable) -> Layout:
@@ -31,12 +37,21 @@ def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
 
 
 def set_rules(rules: Rules, setup: Setup) -> None:
-    """Adapt fresh rules to a setup. `plain`: no pick-ups; `classic`: no turbo and no protection either."""
+    """Adapt fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)
-    if setup.variant != "pickups":
+    if setup.variant in ("original", "plain", "classic"):
         rules.pickups = 0
+    if setup.variant in ("original", "classic"):
+        rules.protection = 0
     if setup.variant == "classic":
-        rules.turbo = rules.protection = 0
+        rules.turbo = 0
+    if setup.variant == "party":
+        rules.penalty = 0
+        rules.knockout, rules.protection = KNOCKOUT, PARTY_PROTECTION
+        rules.camping = 4 * HZ
+        rules.bounty_lead = 3
+        rules.finale = 20 * HZ
+        rules.overtime = round(OVERTIME * HZ)
 
 
 def stats(match: PiTanks, seat: int) -> Mapping[str, float]:

@@ -45,6 +45,7 @@ SIGNS = {
     "cover": "shield", "attack": "faster", "fire": "shoot", "dodge": "ricochet", "free": "turn_left",
     "collect": "plus", "left": "left", "line": "up", "right": "right", "brake": "stay", "turbo": "fastest",
     "back": "behind", "put": "down", "wait": "clock",
+    "swing": "turn_right",
 }  # fmt: skip
 
 

@@ -23,9 +23,9 @@ RULES: dict[str, tuple[Callable[[], Any], Callable[[Any, Setup], None]]] = {
 }
 
 
-def limits_line(words: Words, game: str, minutes: float) -> str:
+def limits_line(words: Words, game: str, minutes: float, variant: str) -> str:
     """The rule limits of a game whose matches last at most `minutes`, as one line."""
-    return words(f"howto.limits_{game}", **rule_numbers(game, minutes, games()[game].default.name))
+    return words(f"howto.limits_{game}", **rule_numbers(game, minutes, variant))
 
 
 def tagline(words: Words, game: str, goal: int) -> str:

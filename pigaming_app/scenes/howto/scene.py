@@ -1,20 +1,23 @@
-"""How to play: four animated pictures per game with captions, and the buttons of the device used last."""
+"""How to play: pages of four animated pictures with captions, and the buttons of the device used last."""
 
 from collections.abc import Sequence
 
 import pygame
 
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_words import FIRES, last_minutes, limits_line
+from pigaming_app.scenes.flow.match_words import FIRES, last_minutes, last_variant, limits_line
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
-from pigaming_app.scenes.howto.lessons import LESSONS
+from pigaming_app.scenes.howto.lessons import LESSONS, PAGE, PAGES, LessonPicture
 from pigaming_app.ui.draw import (
     BLACK,
     BODY,
+    FOCUS,
     ICE,
     LABEL,
     MIST,
     STEEL,
+    THIN,
     button,
     button_width,
     panel,
@@ -31,14 +34,15 @@ from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_w
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without input until the title
+DOT = 32  # px from dot to dot of the pages
 LEAVE = (Button.FIRE, Button.BACK, Button.START, Button.CLICK)
 
 
 class HowTo:
-    """The page of one game; left and right, or a click on a name, switch games, most other buttons leave."""
+    """The pages of all games; left and right turn them, a click on a name opens its game, most other buttons leave."""
 
     def __init__(self, context: Context, game: str = "pitanks") -> None:
-        self.context, self.game = context, game
+        self.context, self.game, self.page = context, game, 0
         self.clock = 0.0
 
     def on_enter(self) -> None:
@@ -46,11 +50,12 @@ class HowTo:
         self.clock = 0.0
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """Switch games, or leave."""
+        """Turn the page, open a game, or leave."""
         clicked = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
         if event.button in (Button.LEFT, Button.RIGHT):
-            games = list(LESSONS)
-            self._show(games[(games.index(self.game) + (1 if event.button is Button.RIGHT else -1)) % len(games)])
+            pages = [(game, page) for game in LESSONS for page in range(page_count(game))]
+            step = 1 if event.button is Button.RIGHT else -1
+            self._show(*pages[(pages.index((self.game, self.page)) + step) % len(pages)])
         elif event.button is Button.CLICK and clicked:
             self._show(clicked)
         elif event.button in LEAVE:
@@ -71,7 +76,7 @@ class HowTo:
         button_label("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
         black_out(screen, *boxes)
-        for i, (box, (name, picture)) in enumerate(zip(boxes, LESSONS[self.game].items(), strict=True)):
+        for i, (box, (name, picture)) in enumerate(zip(boxes, self._lessons(), strict=True)):
             screen.set_clip(box.inflate(-8, -8))
             key = picture(screen, box.centerx, TOP + 268, self.clock)
             screen.set_clip(None)
@@ -79,14 +84,41 @@ class HowTo:
             if key:
                 text(words(key), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
-        limits = limits_line(words, self.game, last_minutes(self.context.settings, self.game))
-        text(limits, BODY, ICE, "body", "l", RIGHT - LEFT).draw(screen, LEFT, LIMITS_Y)
+        self._foot(screen)
         keys(self._keys()).draw(screen)
 
-    def _show(self, game: str) -> None:
-        if game != self.game:
+    def _show(self, game: str, page: int = 0) -> None:
+        if (game, page) != (self.game, self.page):
             self.context.sounds.play("move")
-            self.game, self.clock = game, 0.0
+            self.game, self.page, self.clock = game, page, 0.0
+
+    def _lessons(self) -> list[tuple[str, LessonPicture]]:
+        return list(LESSONS[self.game].items())[PAGE * self.page : PAGE * (self.page + 1)]
+
+    def _foot(self, screen: pygame.Surface) -> None:
+        """The limits of the rules, after the name of the rule set and a dot for each page if there are several."""
+        words, count, left = self.context.words, page_count(self.game), float(LEFT)
+        if count > 1:
+            name = words(f"howto.{PAGES[self.game][self.page]}")
+            pages(name, self.page, count).draw(screen)
+            left += pages_width(name, count) + 40
+        limits = limits_line(words, self.game, self._minutes(), self._variant())
+        text(limits, BODY, ICE, "body", "l", round(RIGHT - left)).draw(screen, left, LIMITS_Y)
+
+    def _minutes(self) -> int:
+        """The minutes of the last match, or by default those of another rule set that the page is about."""
+        settings, last = self.context.settings, last_variant(self.context.settings, self.game)
+        shown = self._variant()
+        return (
+            last_minutes(settings, self.game)
+            if shown == last.name
+            else games()[self.game].variants[shown].default_minutes
+        )
+
+    def _variant(self) -> str:
+        """The rule set of the page; if the game has only one page, that of the last match."""
+        names = PAGES.get(self.game, (last_variant(self.context.settings, self.game).name,))
+        return names[self.page]
 
     def _names(self) -> list[tuple[str, pygame.Rect]]:
         """The games and the rectangles of their names, at the right end of the heading."""
@@ -110,6 +142,30 @@ class HowTo:
         if self.game in FIRES:
             pairs.insert(1, (words.key_name(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
         return tuple((label, action) for label, action in pairs if label)
+
+
+def page_count(game: str) -> int:
+    """Number of pages of a game."""
+    return len(LESSONS[game]) // PAGE
+
+
+@cached
+def pages(name: str, page: int, count: int) -> LitImage:
+    """The name of a rule set, and a dot for each page."""
+    layer = Layer(LEFT, LIMITS_Y - 40, pages_width(name, count), 80)
+    for i in range(count):
+        x = LEFT + DOT * (i + 0.5)
+        if i == page:
+            layer.glow.disc(x, LIMITS_Y, 10, FOCUS)
+        else:
+            layer.glow.ring(x, LIMITS_Y, 8, STEEL, THIN)
+    layer.canvas.text(name, BODY, LEFT + DOT * count + 12, LIMITS_Y, FOCUS)
+    return layer.render()
+
+
+def pages_width(name: str, count: int) -> float:
+    """Width of that, px."""
+    return DOT * count + 12 + text_width(name, BODY)
 
 
 @cached

@@ -14,6 +14,7 @@ from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.timestep import FixedTimestep
+from pigaming_app.scenes.play.last_hit import LastHit
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.scenes.views.rumble import Rumble
@@ -47,6 +48,7 @@ class MatchRunner:
         self.timestep = FixedTimestep()
         self.undrawn = 0.0  # seconds of real time since the last picture
         self.second = TICK_SOUNDS + 1
+        self.last_hit: LastHit | None = None  # recorder, if the scene repeats the last hit
 
     def prewarm(self, milliseconds: float) -> bool:
         """Prewarm sprites for up to `milliseconds`; true when done."""
@@ -60,6 +62,8 @@ class MatchRunner:
             if self.match.over:
                 break
             self.match.tick()
+            if self.last_hit:
+                self.last_hit.record(self.match.state)
             with self._tag_sprites():
                 sounds = self.view.watch(self.match.state)
             for name, player, x in sounds:

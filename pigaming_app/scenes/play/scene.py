@@ -22,6 +22,7 @@ from pigaming_app.scenes.flow.match_words import tagline
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
 from pigaming_app.scenes.play.idle_seats import IdleSeats
+from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.runner import MatchRunner
@@ -75,6 +76,9 @@ class MatchScene:
         self.notice: Caption | None = None
         self.results: Results | None = None
         self.moment: WinnersMoment
+        self.again: SlowMotion | None = None
+        if repeats_last_hit(self.match):
+            self.runner.last_hit = LastHit()
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
@@ -103,6 +107,8 @@ class MatchScene:
     def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
         if self.match.over:
+            if self.again:
+                self.again.skip()
             return None
         if event.button is Button.LOST:
             self.idle_seats.forget(event.device)
@@ -150,7 +156,10 @@ class MatchScene:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Draw the arena, and the countdown, captions and notices over it."""
+        """Draw the arena, and the countdown, captions and notices over it; after the end the last hit again."""
+        if self.again and self.again.seconds:
+            self.again.draw(screen)
+            return
         self.runner.draw(screen)
         words = self.context.words
         if self.match.over and not self.stop_requested:
@@ -351,13 +360,21 @@ class MatchScene:
             )
             if finished:
                 self.context.sounds.play("go")
+                self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
             self.moment = WinnersMoment(self.context, self.results)
         self.frozen += seconds
         self.runner.wait(seconds)
         if self.stop_requested:
             return Swap(self.results) if self.results.prewarm(PREWARM_MS) else None
         ready = self.moment.prewarm(PREWARM_MS)
-        return Swap(self.moment) if ready and self.frozen >= FREEZE_SECONDS else None
+        if ready and self.again:
+            ready = self.again.prewarm(PREWARM_MS)
+        if not ready or self.frozen < FREEZE_SECONDS:
+            return None
+        if self.again and not self.again.over:
+            self.again.update(seconds)
+            return None
+        return Swap(self.moment)
 
 
 def rematch_setup(setup: Setup, devices: Sequence[Device | None]) -> Setup:

@@ -7,7 +7,7 @@ import pytest
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
 from pigaming_app.ai.factory import foreman
-from pigaming_app.ai.pitanks import fsm
+from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
 from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
@@ -147,7 +147,7 @@ def test_a_rose_points_where_it_is_told_to():
 
 @pytest.mark.parametrize(("lead", "state", "reason"), [(3, fsm.DEFEND, "ahead"), (-3, fsm.ATTACK, "behind")])
 def test_who_leads_hides_and_who_is_behind_hunts(lead, state, reason):
-    match = play("pitanks", "normal", "idle", variant="plain")
+    match = play("pitanks", "fsm", "idle", variant="plain")
     match.state.robots[0].score = lead
     run(match, 20)
     told = thoughts(match)
@@ -159,18 +159,18 @@ def test_who_leads_hides_and_who_is_behind_hunts(lead, state, reason):
 
 
 def test_the_pull_out_of_cover_grows_while_nobody_shows():
-    match = run(play("pitanks", "easy", "idle", variant="plain"), 20)
+    match = run(play("pitanks", "fsm", "idle", variant="plain"), 20)
     mind = match.brains[0].mind
     for waited, pull in ((0, 0.0), (mind.patience // 2, 0.5), (mind.patience, 1.0), (3 * mind.patience, 1.0)):
         mind.unseen = waited
         utilities = thoughts(match).utilities
-        assert (utilities["attack"], utilities["cover"]) == pytest.approx((pull, 1.0 - pull))
+        assert (utilities["attack"], utilities["cover"]) == pytest.approx((pull, 1.0 - pull), abs=0.01)
     mind.seen, mind.state, mind.unseen = 0, fsm.ATTACK, mind.patience + 1
     assert (thoughts(match).behaviour, thoughts(match).reason) == ("hunt", "nobody")
 
 
 def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_be():
-    match = run(play("pitanks", "hard", "hard", seed=2), 60)
+    match = run(play("pitanks", "fsm", "fsm", seed=2), 60)
     mind, told = match.brains[0].mind, thoughts(match)
     seen = {sight.kind: sight for sight in told.percepts}
     assert (seen[OPPONENT].x, seen[OPPONENT].y) == (mind.obs.others[0].x, mind.obs.others[0].y)
@@ -180,7 +180,7 @@ def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_
 
 
 def test_it_says_that_it_dodges_exactly_when_it_would():
-    match = run(play("pitanks", "normal", "idle", variant="plain"), 10)
+    match = run(play("pitanks", "fsm", "idle", variant="plain"), 10)
     view, said = match.brains[0].mind.obs, []
     for threat, bearing in ((9.0, 0.0), (0.5, pi / 2), (0.5, 0.0), (0.69, 0.4)):
         view.threat, view.threat_bearing, view.threat_side = threat, bearing, 5.0
@@ -195,13 +195,72 @@ def test_it_says_that_it_dodges_exactly_when_it_would():
 
 
 def test_it_knows_that_it_is_stuck():
-    match = run(play("pitanks", "normal", "idle"), 20)
+    match = run(play("pitanks", "fsm", "idle"), 20)
     mind = match.brains[0].mind
     mind.stuck_ticks = fsm.STUCK_TICKS // 2
     assert thoughts(match).utilities["free"] == pytest.approx(0.5)
     mind.state = fsm.BREAK_FREE
     told = thoughts(match)
     assert (told.behaviour, told.reason, told.chosen) == ("free", "stuck", "free")
+
+
+def gunner_in_fight(brain: str = "hard", variant: str = "party") -> Match:
+    """A gunner on seat 0 that has noticed an idle robot 400 px in front of it, in the open, with its gun ready."""
+    match = play("pitanks", brain, "idle", variant=variant)
+    one, two = match.state.robots[0], match.state.robots[1]
+    one.x, one.y, one.heading = 600.0, 600.0, 0.0
+    two.x, two.y = 1000.0, 600.0
+    return run(match, 40)
+
+
+@pytest.mark.parametrize(
+    ("change", "behaviour", "reason"),
+    [
+        ({}, "duel", "sees"),
+        ({"others.0.bounty": 1}, "duel", "bounty"),
+        ({"others.0.lit": 1}, "duel", "lit"),
+        ({"finale": 1}, "duel", "finale"),
+        ({"overtime": 1, "finale": 1}, "duel", "overtime"),
+        ({"others.0.protected": 60}, "swing", "immune"),
+        ({"knocked_out": 10}, "out", "hit"),
+        ({"threat": 0.4, "threat_bearing": pi / 2}, "dodge", "bullet"),
+        ({"threat": 0.4, "threat_bearing": pi / 2, "protected": 50}, "duel", "sees"),
+    ],
+)
+def test_a_gunner_gives_the_reason_of_its_behaviour(change, behaviour, reason):
+    match = gunner_in_fight()
+    mind = match.brains[0].mind
+    mind.state, mind.shot, mind.obs.threat, mind.obs.protected = gunner.FIGHT, 500, 9.0, 0
+    mind.obs.others[0].protected = 0
+    for path, value in change.items():
+        *parts, name = path.split(".")
+        setattr(mind.obs.others[0] if parts else mind.obs, name, value)
+    told = thoughts(match)
+    assert (told.behaviour, told.reason) == (behaviour, reason)
+    assert told.names["player"] == 2
+
+
+def test_a_gunner_swings_aside_after_a_shot_and_only_hand1_watches_it():
+    for brain, first in (("hand1", "watch"), ("hand3", "swing")):
+        match = gunner_in_fight(brain)
+        mind = match.brains[0].mind
+        mind.state, mind.shot, mind.obs.others[0].protected, mind.obs.threat = gunner.FIGHT, 0, 0, 9.0
+        assert thoughts(match).behaviour == first
+        assert ("wait" in thoughts(match).utilities) == (brain == "hand1")
+        mind.shot = mind.watch
+        assert (thoughts(match).behaviour, thoughts(match).reason) == ("swing", "reloads")
+        mind.shot = mind.watch + mind.swing
+        assert thoughts(match).behaviour == "duel"
+
+
+def test_a_gunner_hunts_whoever_leads():
+    match = run(play("pitanks", "hand2", "idle", variant="plain"), 20)
+    for lead in (-5, 0, 5):
+        match.state.robots[0].score = lead
+        run(match, 10)
+        told = thoughts(match)
+        assert (told.behaviour, told.reason, told.chosen) == ("hunt", "nearest", "attack")
+        assert told.facts["lead"] == lead
 
 
 # --------------------------------------------------------------------------------------------------------------- race

@@ -1,7 +1,6 @@
-"""The hand-written opponent of PiTanks: ordered strengths, and never stuck."""
+"""The old machines of PiTanks: they play exactly as they always did, and are never stuck."""
 
-from collections import deque
-from math import hypot
+import hashlib
 
 import pytest
 
@@ -10,17 +9,30 @@ from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.sim.record import digest
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.record import comparable_bytes
+from tests.ai.pitanks.stuck import stuck
 from tests.cases import one_in
 
-STUCK_SECONDS, STUCK_PX = 3.0, 10.0
+SEED, TICKS = 7, 1500
+DIGESTS = {  # of version 1.4.0
+    ("fsm", "classic", "pickups"): "f3194d2dda92c24803be67a5077ef56ec83f8fd5b05da6bca7bbfab06f6b5f7d",
+    ("fsm", "labyrinth", "plain"): "9ceb0d8d92af9b423ef46f093d34afae24503d763dcd097ac89d4e9387e8eb12",
+    ("fsm", "trenches", "classic"): "c296ee07216d3ecd63a40eb109b7d3c8424f7a8583d75eca26d48ba3cfbaeec7",
+    ("classic", "classic", "pickups"): "f8e4597e78e2ccd8f9af5fa9727c6edc9fd9e08b6ebd37e197f1bd6799701a3e",
+    ("classic", "labyrinth", "plain"): "0e52efca5f164ec06b75e1fbd7420841dbe4df9b538b711017e3ed15bd08e4d0",
+    ("classic", "trenches", "classic"): "d944fa6b488459659a11bb3055624d0aaf5cf3b6d263b0d3fe8c26d0d8408491",
+}
 
 
-def test_hard_beats_easy():
-    result = duel("pitanks", "hard", "easy", matches=12, seed=100, minutes=1.0, variant="plain", fast=False)
-    assert result.wins > result.losses
-    assert result.mean_score_left > 0
+@pytest.mark.parametrize(("brain", "arena", "variant"), DIGESTS)
+def test_the_old_machines_play_as_they_did_in_1_4(brain, arena, variant):
+    one, two, three, four = (Seat(brain, team) for team in range(4))
+    match = Match(Setup("pitanks", arena, (one, two, three, four), 1.0, SEED, variant))
+    for seat in range(4):
+        match.sit(seat, make_brain("pitanks", brain, SEED * 4 + seat))
+    for _ in range(TICKS):
+        match.tick()
+    assert hashlib.sha256(comparable_bytes(match.state)).hexdigest() == DIGESTS[brain, arena, variant]
 
 
 def test_fsm_beats_random():
@@ -30,56 +42,7 @@ def test_fsm_beats_random():
     assert result.mean_score_left > 0
 
 
-@pytest.mark.parametrize("strength", ["easy", "normal", "hard"])
-def test_every_strength_thinks_without_changing_anything_but_its_action(strength):
-    one, two, three, four = (Seat(strength, team) for team in range(4))
-    match = Match(Setup("pitanks", "classic", (one, two, three, four), 1.0, 1, "pickups"))
-    brain = make_brain("pitanks", strength, 1)
-    action = match.state.actions[0]
-    before = digest(match.state)
-    brain.think(match.state, 0)
-    action.linear = action.angular = 0.0
-    action.fire = action.turbo = 0
-    assert digest(match.state) == before
-
-
-def stuck(arena, seed, strengths):
-    """(seat, second, x, y) whenever a seat held its stick for 3 s and moved less than 10 px.
-
-    Against an opponent that is in contact it may push for long: such times do not count.
-    """
-    one, two, three, four = (Seat(brain, team) for team, brain in enumerate(strengths))
-    match = Match(Setup("pitanks", arena, (one, two, three, four), 1.0, seed, "pickups"))
-    for seat, brain in enumerate(strengths):
-        if brain != "off":
-            match.sit(seat, make_brain("pitanks", brain, seed * 4 + seat))
-    trails = [deque(maxlen=round(STUCK_SECONDS * HZ)) for _ in range(4)]
-    times = []
-    while not match.over:
-        match.tick()
-        robots = match.state.robots
-        for seat, trail in enumerate(trails):
-            robot = robots[seat]
-            if not robot.present:
-                continue
-            crowded = any(
-                other is not robot and other.present and hypot(other.x - robot.x, other.y - robot.y) < 80.0
-                for other in robots
-            )
-            if match.state.actions[seat].linear == 0.0 or crowded:
-                trail.clear()
-                continue
-            trail.append((robot.x, robot.y))
-            if len(trail) == trail.maxlen:
-                x, y = trail[0]
-                if max(hypot(a - x, b - y) for a, b in trail) < STUCK_PX:
-                    times.append((seat, match.seconds, round(robot.x), round(robot.y)))
-                    trail.clear()
-    return times
-
-
 @pytest.mark.parametrize("arena", one_in(3, arenas("pitanks")))
-def test_nobody_is_stuck(arena):
+def test_fsm_is_never_stuck(arena):
     for seed in (1, 2):
-        assert stuck(arena, seed, ("hard", "normal", "easy", "fsm")) == []
-        assert stuck(arena, seed, ("normal", "normal", "off", "off")) == []
+        assert stuck(arena, seed, ("fsm", "fsm", "off", "off"), "pickups") == []

@@ -52,7 +52,7 @@ class BusyFactory:
 
 
 BUSY: dict[str, Callable[[], BenchmarkMatch]] = {
-    "pitanks": busy.BusyPiTanks,
+    "pitanks": lambda: busy.BusyPiTanks(party=True),
     "factory": BusyFactory,
     "race": lambda: race_busy.BusyRace(laps=max(games()["race"].default.goals)),
 }

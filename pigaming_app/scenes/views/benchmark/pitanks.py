@@ -1,6 +1,7 @@
 """Synthetic PiTanks match at peak load, for benchmarks and visual checks: every number changes.
 
-Four robots, thirty bullets, powers, pick-ups, mines, breaking walls and a changing HUD.
+Four robots, thirty bullets, powers, pick-ups, mines, breaking walls and a changing HUD; by the party rules also lights,
+bounties, stars and the banner.
 """
 
 import math
@@ -8,6 +9,8 @@ import random
 from dataclasses import dataclass
 
 from pigaming_app.games.arenas import load
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.pitanks.start import set_rules
 from pigaming_app.games.pitanks.state import OWN_BULLETS, PICKUPS, PiTanks
 from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.world import DT, HZ
@@ -24,9 +27,9 @@ class AllEffects:
 
 
 class BusyPiTanks:
-    """A match without an engine. `teams`: team of each seat, -1 for an empty seat."""
+    """A match without an engine. `teams`: team of each seat, -1 for an empty seat; `party`: by the party rules."""
 
-    def __init__(self, teams: tuple[int, ...] = (0, 1, 2, 3), arena: Arena | None = None) -> None:
+    def __init__(self, teams: tuple[int, ...] = (0, 1, 2, 3), arena: Arena | None = None, party: bool = False) -> None:
         self.arena = arena or load("pitanks", "classic")
         self.random = random.Random(4)
         self.state = state = PiTanks()
@@ -34,6 +37,10 @@ class BusyPiTanks:
         rules = state.rules
         rules.ticks, rules.turbo, rules.pickups = 120 * HZ, 1, 1
         rules.power_life, rules.pickup_life, rules.mine_arming = 8 * HZ, 12 * HZ, HZ
+        if party:
+            one, two, three, four = (Seat("off", team) for team in teams)
+            set_rules(rules, Setup("pitanks", "classic", (one, two, three, four), 2.0, 1, "party"))
+            rules.finale = rules.ticks
         for seat, robot in enumerate(state.robots):
             robot.present, robot.team = int(teams[seat] >= 0), teams[seat]
             robot.x, robot.y = 400 + 800 * (seat % 2), 250 + 400 * (seat // 2)
@@ -53,6 +60,9 @@ class BusyPiTanks:
             robot.turbo, robot.boosting = 0.5 + 0.5 * math.sin(t + seat), int(math.sin(t + seat) > 0.3)
             tank.protected = max(0, tank.protected - 1)
             tank.powers = [max(0, left - 1) for left in tank.powers]
+            if state.rules.knockout:
+                tank.knocked_out = state.rules.knockout - (state.tick + 10 * seat) % state.rules.knockout
+                tank.camp_x, tank.camp_y, tank.lit, tank.bounty = robot.x, robot.y, 1, 1
         self._shoot()
         if state.tick % 15 == 0:
             self._hit()
@@ -80,7 +90,8 @@ class BusyPiTanks:
         state.tanks[maker].hits += 1
         state.robots[maker].score += 1
         state.tanks[victim].taken += 1
-        state.robots[victim].score -= 1
+        state.robots[victim].score -= state.rules.penalty
+        state.last_hit, state.last_shooter, state.last_victim = state.tick, maker, victim
         state.tanks[victim].protected = 38
         state.tanks[maker].powers[self.random.randrange(6)] = 8 * HZ
         standing = [wall for wall in state.walls[: state.wall_count] if wall.health]

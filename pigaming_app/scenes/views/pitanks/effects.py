@@ -24,6 +24,9 @@ SOUNDS = {
     "power_end": "power_end",
     "mine_laid": "power_end",
     "mine_blown": "mine",
+    "lit": "missed",
+    "finale": "last_lap",
+    "overtime": "go",
 }
 
 
@@ -44,9 +47,11 @@ def _show(event: PiTanksEvent, state: PiTanks, particles: Particles, options: Vi
         case "hit":
             particles.burst(x, y, color, 30, 46, 120)
             _blast(x, y, color, particles, options)
-            particles.score(_clamp_x(x) + BESIDE, y - 66, f"−{event.number}", player or 0)
+            if state.rules.penalty:
+                particles.score(_clamp_x(x) + BESIDE, y - 66, f"−{event.number}", player or 0)
         case "scored":
-            particles.score(_clamp_x(x) - BESIDE, y - 66, f"+{event.number}", player or 0)
+            at = _clamp_x(x) - BESIDE if state.rules.penalty else x
+            particles.score(at, y - 66, f"+{event.number}", player or 0)
         case "shielded":
             particles.burst(x, y, color, 26, 66, 90)
             particles.burst(x, y, FOCUS, 10, 66, 70)

@@ -6,8 +6,10 @@ The engine emits no events: its state consists of numbers only, so that it can r
 import math
 from typing import NamedTuple
 
+from pigaming_app.games.pitanks.scoring import is_finale, is_overtime
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, Bullet, PiTanks
 from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import HEIGHT, WIDTH
 
 NEAR = RADIUS + 20.0  # px, maximum distance between a bullet and the robot that stopped it
 
@@ -23,7 +25,10 @@ class PiTanksEvent(NamedTuple):
     crumbled    -        wall
     hit         victim   count
     shielded    victim   -
-    scored      scorer   points
+    scored      scorer   points; by rules without penalty at the robot that was hit, else at the scorer
+    lit         robot    -
+    finale      -        -
+    overtime    -        -
     pickup      robot    power
     power_end   robot    power
     mine_laid   owner    -
@@ -54,12 +59,21 @@ class PiTanksEventDetector:
 
     def detect(self, state: PiTanks) -> list[PiTanksEvent]:
         """Events since the last call."""
-        events = [*self._tanks(state), *self._bullets(state), *self._walls(state), *self._mines(state)]
+        events = [
+            *self._tanks(state),
+            *self._bullets(state),
+            *self._walls(state),
+            *self._mines(state),
+            *self._phases(state),
+        ]
         self._store(state)
         return events
 
     def _store(self, state: PiTanks) -> None:
         self.tanks = [(t.shots, t.hits, t.taken, tuple(t.powers)) for t in state.tanks]
+        self.lit = [tank.lit for tank in state.tanks]
+        self.scores = [robot.score for robot in state.robots]
+        self.finale, self.overtime = is_finale(state), is_overtime(state)
         self.shots = [_shot(bullet) for bullet in state.bullets]
         self.walls = [wall.health for wall in state.walls]
         self.mines = [(mine.alive, mine.x, mine.y) for mine in state.mines]
@@ -73,7 +87,7 @@ class PiTanksEventDetector:
             if tank.shots > shots:
                 events.append(PiTanksEvent("fire", k, x, y, robot.heading))
             if tank.hits > hits:
-                events.append(PiTanksEvent("scored", k, x, y, 0.0, tank.hits - hits))
+                events += self._scored(state, k, tank.hits - hits)
             if tank.taken > taken:
                 events.append(PiTanksEvent("hit", k, x, y, 0.0, tank.taken - taken))
             for power in range(len(POWERS)):
@@ -84,6 +98,27 @@ class PiTanksEventDetector:
                     events.append(PiTanksEvent("shielded", k, x, y))
                 elif before == 1 and not now:
                     events.append(PiTanksEvent("power_end", k, x, y, 0.0, power))
+        return events
+
+    def _scored(self, state: PiTanks, k: int, hits: int) -> list[PiTanksEvent]:
+        """The points of seat k. Of several hits in one tick only the last is shown where it happened."""
+        scorer = state.robots[k]
+        if state.rules.penalty:
+            return [PiTanksEvent("scored", k, scorer.x, scorer.y, 0.0, hits)]
+        at = state.robots[state.last_victim] if state.last_shooter == k else scorer
+        points = scorer.score - self.scores[k]
+        return [PiTanksEvent("scored", k, at.x, at.y, 0.0, points)] if points else []
+
+    def _phases(self, state: PiTanks) -> list[PiTanksEvent]:
+        """Lights that came on, and the beginning of the finale and of the overtime."""
+        events = []
+        for k, (tank, robot) in enumerate(zip(state.tanks, state.robots, strict=True)):
+            if tank.lit > self.lit[k]:
+                events.append(PiTanksEvent("lit", k, robot.x, robot.y))
+        if is_finale(state) and not self.finale:
+            events.append(PiTanksEvent("finale", None, WIDTH / 2, HEIGHT / 2))
+        if is_overtime(state) and not self.overtime:
+            events.append(PiTanksEvent("overtime", None, WIDTH / 2, HEIGHT / 2))
         return events
 
     def _bullets(self, state: PiTanks) -> list[PiTanksEvent]:

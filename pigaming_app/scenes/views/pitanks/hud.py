@@ -12,9 +12,11 @@ from typing import Any
 import pygame
 
 from pigaming_app.ai.registry import BRAINS
+from pigaming_app.games.pitanks.scoring import is_overtime
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
-from pigaming_app.scenes.views.hud_parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
+from pigaming_app.scenes.views.hud_parts import CLOCK, EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
+from pigaming_app.scenes.views.pitanks.banner import Banner
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.scenes.views.sprites.pickups import small_icon
 from pigaming_app.ui.draw import (
@@ -38,6 +40,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
+from pigaming_app.ui.i18n import Words
 
 SUM_W = 116  # px
 CELL = 17.75  # px, pitch of the turbo bar cells
@@ -84,8 +87,9 @@ def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
 class PiTanksHud:
     """Keeps the HUD up to date. `players`: driver of each seat; names in BRAINS are marked as AI."""
 
-    def __init__(self, background: Background, state: Any, players: list[str]) -> None:
+    def __init__(self, background: Background, state: Any, players: list[str], words: Words | None) -> None:
         self.background, self.players = background, players
+        self.banner = Banner(words)
         self.slots, self.sums = layout(state.robots)
         self.parts = HudParts(background)
         self.points: dict[int, int] = {}
@@ -98,18 +102,22 @@ class PiTanksHud:
         changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
         self.points = points
         for slot in self.slots:
-            leads = slot.seat == ahead and not self.sums
+            leads = self._leads(state, slot.seat, slot.seat == ahead) and not self.sums
             content = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
             self.parts.show(slot, content, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *content))
         for panel in self.sums:
-            total = totals[panel.team], panel.team == ahead
+            total = totals[panel.team], self._leads(state, panel.mates[0].seat, panel.team == ahead)
             if self.parts.changed(panel, total):
                 self._bake_sum(panel, *total)
-        self.parts.countdown(state, 84)
+        if phase := self.banner.content(state):
+            self.parts.show("clock", phase, CLOCK.x, CLOCK.w, partial(self.banner.bits, *phase))
+        else:
+            self.parts.countdown(state, 84)
         return changed
 
     def jobs(self, state: Any) -> Iterator[Callable[[], object]]:
-        """Prewarm jobs for the pieces of the panels."""
+        """Prewarm jobs for the pieces of the panels and of the banner."""
+        yield from self.banner.jobs(state)
         turbo = bool(state.rules.turbo)
         for slot in self.slots:
             for leads in {False, not self.sums}:
@@ -120,6 +128,10 @@ class PiTanksHud:
                 yield partial(turbo_bar, slot.seat, slot.w, False)
         if self.sums:
             yield from (partial(sum_frame, leads, second) for leads in (True, False) for second in (True, False))
+
+    def _leads(self, state: Any, seat: int, alone: bool) -> bool:
+        """True for the sole leader; in overtime for all who are level at the top."""
+        return not state.tanks[seat].barred if is_overtime(state) else alone
 
     def _ai(self, seat: int) -> bool:
         return self.players[seat] in BRAINS["pitanks"]

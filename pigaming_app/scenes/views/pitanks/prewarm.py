@@ -6,7 +6,7 @@ from typing import Any
 
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.views.pitanks.background import wall_sprite
-from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix
@@ -19,11 +19,13 @@ def jobs(state: Any, seats: Sequence[int]) -> Iterator[Job]:
     """One small job per sprite; a cached sprite costs nothing."""
     yield from (partial(tank.ghost, seat) for seat in seats)
     yield from _shooting(seats)
-    yield from _numbers(seats)
+    yield from _numbers(seats, ("+1", "−1") if state.rules.penalty else ("+1",))
     yield from _walls(state)
     yield from _hits(seats)
     if state.rules.pickups:
         yield from _powers(seats)
+    if state.rules.knockout:
+        yield from _party(seats)
 
 
 def _shooting(seats: Sequence[int]) -> Iterator[Job]:
@@ -34,7 +36,17 @@ def _shooting(seats: Sequence[int]) -> Iterator[Job]:
             yield partial(effects.flash, seat, turn)
 
 
-def _numbers(seats: Sequence[int]) -> Iterator[Job]:
+def _party(seats: Sequence[int]) -> Iterator[Job]:
+    for turn in range(party.STAR_TURNS):
+        yield partial(party.stars, turn)
+    yield party.spotlight
+    yield party.stage
+    for points in (2, 4):
+        yield partial(party.bounty, points)
+        yield from (partial(things.popup, f"+{points}", seat) for seat in seats)  # fading it takes 0.1 ms
+
+
+def _numbers(seats: Sequence[int], popups: Sequence[str]) -> Iterator[Job]:
     for char in "0123456789−":
         for seat in seats:
             yield partial(glyph, char, SUB, mix(PLAYERS[seat], WHITE, 0.8))
@@ -42,7 +54,7 @@ def _numbers(seats: Sequence[int]) -> Iterator[Job]:
         for color in (ICE, ALARM):
             yield partial(glyph, char, TITLE, color)
     for seat in seats:
-        for text in ("+1", "−1"):
+        for text in popups:
             for level in range(things.POPUP_LEVELS, 0, -1):
                 yield partial(things.popup, text, seat, level)
 

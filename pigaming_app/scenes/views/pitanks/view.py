@@ -4,6 +4,7 @@ import math
 
 import pygame
 
+from pigaming_app.games.pitanks.scoring import is_finale
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud_parts import Y as TOP_OF_PANELS
@@ -13,18 +14,19 @@ from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
 from pigaming_app.scenes.views.pitanks.hud import PiTanksHud, pulse
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.rumble import rumbles
-from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
 
 FLASH = 0.06  # s
 ENDING = 2 * HZ  # remaining ticks from which a shield blinks
+BOUNTY = 84  # px from a robot to its bounty
 MUZZLE = 70.0  # px from a robot to the centre of its muzzle flash
 
 
@@ -37,7 +39,7 @@ class PiTanksView(MatchView):
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.walls = WalledBackground(state, tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats))
         super().__init__(state, players, options, words, self.walls)
-        self.hud = PiTanksHud(self.background, state, players)
+        self.hud = PiTanksHud(self.background, state, players, words)
         self.detector = PiTanksEventDetector(state)
         self.flashed = [-1.0] * len(state.robots)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
@@ -72,6 +74,7 @@ class PiTanksView(MatchView):
         light: Batch = []
         top: Batch = []
         self._items(over, light, state)
+        self._marks(under, top, state, blend)
         for seat in self.seats:
             self._robot(under, over, light, state, seat, self.pose(seat, blend))
         self._bullets(light, state, blend)
@@ -91,16 +94,36 @@ class PiTanksView(MatchView):
                 armed = mine.age >= rules.mine_arming and mine.age // 12 % 2 == 0
                 put(over, things.mine(i // OWN_MINES, armed), LEFT + mine.x, TOP + mine.y)
 
+    def _marks(self, under: Batch, top: Batch, state: PiTanks, blend: float) -> None:
+        """Draw the lights on robots that stay, and the bounties."""
+        for seat in self.seats:
+            held = state.tanks[seat]
+            if held.lit or (state.rules.camping and held.camped > state.rules.camping - HZ):
+                put(under, party.spotlight() if held.lit else party.stage(), LEFT + held.camp_x, TOP + held.camp_y)
+            if held.bounty:
+                x, y, heading = self.pose(seat, blend)
+                below = self.reach(seat, BOUNTY)  # popups rise above
+                trailed = seat in self.real and math.sin(heading) < 0.0  # by its badge
+                points = (1 + held.bounty) * (2 if is_finale(state) else 1)
+                x = min(max(x, LEFT + 84), LEFT + WIDTH - 84)
+                put(top, party.bounty(points), x, y - below if trailed or y + below > TOP + HEIGHT - 44 else y + below)
+
     def _robot(self, under: Batch, over: Batch, light: Batch, state: PiTanks, seat: int, pose: Pose) -> None:
         x, y, heading = pose
         now, driven, held = self.particles.clock, state.robots[seat], state.tanks[seat]
-        coarse, fine = step(heading, effects.TURNS), step(heading, HEADINGS)
+        out = held.knocked_out / state.rules.knockout if held.knocked_out else 0.0
+        spin = math.tau * out * out if seat not in self.real else 0.0
+        coarse, fine = step(heading, effects.TURNS), step(heading + spin, HEADINGS)
         self.light_up(under, seat, pose, bool(driven.boosting or (held.powers[SPEED] and abs(driven.linear) > 40.0)))
         if seat in self.marked:
             put(under, tank.team_mark(int(driven.team != self.first_team), coarse), x, y)
-        here = not held.protected or held.protected // 4 % 2 == 0 or self.options.flashes == "off"
+        blinks = held.protected and not held.knocked_out and self.options.flashes != "off"
+        here = not blinks or held.protected // 4 % 2 == 0
         put(over, tank.tank(seat, fine) if here else tank.ghost(seat), x, y)
         self._powers(light, state, seat, x, y)
+        if held.knocked_out:
+            turn = int(now * 40) % party.STAR_TURNS
+            put(light, party.stars(turn, self.reach(seat, party.STAR_R)), x, y)
         if now - self.flashed[seat] < FLASH and self.options.flashes != "off":
             flash = effects.flash(seat, coarse)
             put(light, flash, x + MUZZLE * math.cos(heading), y + MUZZLE * math.sin(heading))

@@ -1,0 +1,46 @@
+"""Robots that are stuck: they hold their sticks and do not move."""
+
+from collections import deque
+from math import hypot
+
+from pigaming_app.ai.registry import make_brain
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.sim.world import HZ
+
+STUCK_SECONDS, STUCK_PX = 3.0, 10.0
+
+
+def stuck(arena, seed, strengths, variant):
+    """(seat, second, x, y) whenever a seat held its stick for 3 s and moved less than 10 px.
+
+    Against an opponent that is in contact it may push for long: such times do not count.
+    """
+    one, two, three, four = (Seat(brain, team) for team, brain in enumerate(strengths))
+    match = Match(Setup("pitanks", arena, (one, two, three, four), 1.0, seed, variant))
+    for seat, brain in enumerate(strengths):
+        if brain != "off":
+            match.sit(seat, make_brain("pitanks", brain, seed * 4 + seat))
+    trails = [deque(maxlen=round(STUCK_SECONDS * HZ)) for _ in range(4)]
+    times = []
+    while not match.over:
+        match.tick()
+        robots = match.state.robots
+        for seat, trail in enumerate(trails):
+            robot = robots[seat]
+            if not robot.present:
+                continue
+            crowded = any(
+                other is not robot and other.present and hypot(other.x - robot.x, other.y - robot.y) < 80.0
+                for other in robots
+            )
+            if match.state.actions[seat].linear == 0.0 or crowded:
+                trail.clear()
+                continue
+            trail.append((robot.x, robot.y))
+            if len(trail) == trail.maxlen:
+                x, y = trail[0]
+                if max(hypot(a - x, b - y) for a, b in trail) < STUCK_PX:
+                    times.append((seat, match.seconds, round(robot.x), round(robot.y)))
+                    trail.clear()
+    return times
