@@ -84,10 +84,10 @@ class MatchScene:
         self.idle = self.frozen = self.notice_left = 0.0
         self.notice: Caption | None = None
         self.results: Results | None = None
+        self.moment: WinnersMoment
         self.again: SlowMotion | None = None
         if repeats_last_hit(self.match):
             self.runner.last_hit = LastHit()
-        self.moment: WinnersMoment
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
@@ -431,23 +431,21 @@ class MatchScene:
                 rounds,
             )
             self.moment = WinnersMoment(self.context, self.results)
+            if not self.stop_requested:
+                self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
         self.frozen += seconds
         self.runner.wait(seconds)
         if self.stop_requested:
             return Swap(self.results) if self.results.prewarm(PREWARM_MS) else None
-        if not self.moment.prewarm(PREWARM_MS) or self._repeats(seconds):
+        ready = self.moment.prewarm(PREWARM_MS)
+        if ready and self.again:
+            ready = self.again.prewarm(PREWARM_MS)
+        if not ready or self.frozen < FREEZE_SECONDS:
             return None
-        return Swap(self.moment) if self.frozen >= FREEZE_SECONDS else None
-
-    def _repeats(self, seconds: float) -> bool:
-        """Show the last hit again, after the final picture; true while it is not over."""
-        if self.again is None and not self.stop_requested:
-            self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
-        if self.again is None:
-            return False
-        if self.again.prewarm(PREWARM_MS) and self.frozen >= FREEZE_SECONDS and not self.again.over:
+        if self.again and not self.again.over:
             self.again.update(seconds)
-        return not self.again.over
+            return None
+        return Swap(self.moment)
 
 
 def fresh_rounds(rounds: Rounds | None) -> Rounds | None:

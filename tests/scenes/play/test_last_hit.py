@@ -9,6 +9,7 @@ from pigaming_app.games.pitanks.state import OWN_BULLETS
 from pigaming_app.scenes.play.last_hit import AFTER, BEFORE, SECONDS, LastHit
 from pigaming_app.scenes.play.scene import FREEZE_SECONDS, MatchScene
 from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.sim.record import digest, from_bytes, to_bytes
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
@@ -94,7 +95,7 @@ def test_the_hit_is_shown_before_the_results_and_changes_nothing(arcade: Arcade)
     assert seen == set(range(100 - BEFORE, 100 + AFTER))
     assert arcade.sounds.heard.count("hit") == hits + 1
     assert digest(scene.match.state) == played
-    arcade.shown(Results)
+    arcade.shown(WinnersMoment)
 
 
 def test_any_press_skips_it_after_half_a_second(arcade: Arcade) -> None:
@@ -114,14 +115,14 @@ def test_any_press_skips_it_after_half_a_second(arcade: Arcade) -> None:
     assert isinstance(arcade.stack.top, MatchScene)
     arcade.press(Button.LEFT)
     arcade.frame()
-    arcade.shown(Results)
+    arcade.shown(WinnersMoment)
 
 
 @pytest.mark.parametrize(("hits", "variant"), [((), "party"), ((100,), "plain")])
 def test_without_a_hit_or_by_other_rules_the_results_follow_at_once(arcade: Arcade, hits, variant) -> None:
     scene = ended(arcade, hits, variant)
     assert scene.again is None
-    assert arcade.until(lambda: isinstance(arcade.stack.top, Results)) <= FREEZE_SECONDS + 1.0
+    assert arcade.until(lambda: isinstance(arcade.stack.top, WinnersMoment)) <= FREEZE_SECONDS + 1.0
 
 
 def test_a_stopped_match_shows_nothing_again(arcade: Arcade) -> None:
