@@ -1,6 +1,10 @@
-"""PiTanks: ties, the worth of hits, standing still, revenge and wins by seat, of four equal robots and of two."""
+"""PiTanks: ties, the worth of hits, standing still, revenge and wins by seat, of four equal robots and of two.
+
+A robot camps while it stands still and no opponent has a clear line to it.
+"""
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -8,6 +12,9 @@ import numpy as np
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
+from pigaming_app.sim.kernel import compiled
+from pigaming_app.sim.sweep import is_clear
+from pigaming_app.sim.world import ROBOTS
 from tests.bench.trial import StandingStill, Trial, by_arena, column, live, of_robots, played
 
 
@@ -20,13 +27,15 @@ def measure(trial: Trial) -> Mapping[str, Any]:
 def company(trial: Trial) -> Mapping[str, Mapping[str, float]]:
     """Measures of one trial, by arena."""
     batch = trial.batch()
-    standing, grudges = StandingStill(batch), Grudges(trial.matches)
+    standing, camping, grudges = StandingStill(batch), StandingStill(batch), Grudges(trial.matches)
     present = of_robots(batch, "present") == 1
     for _ in played(trial, batch):
         standing.sample(batch, live(batch)[:, None] & present & (_tanks(batch, "knocked_out") == 0))
+        camping.sample(batch, unseen(batch, standing.since > 0))
         grudges.sample(batch)
     ends = batch.ended()
     shares = np.where(present, standing.still / np.maximum(1, standing.free), np.nan)
+    camped = np.where(present, camping.still / np.maximum(1, standing.free), np.nan)
     winners = [standings(games()[trial.game], end)[1] for end in ends]
     return {
         name: {
@@ -34,6 +43,7 @@ def company(trial: Trial) -> Mapping[str, Mapping[str, float]]:
             "ties": _share([not winners[i] for i in numbers]),
             "most hits wins": _share(_most_hits_win(ends[i], winners[i]) for i in numbers),
             "standing still, median": float(np.nanmedian(shares[numbers])),
+            "camping": float(np.nanmean(camped[numbers])),
             "overtime": _share([ends[i].tick > ends[i].rules.ticks for i in numbers]),
             **({"revenge": grudges.share(numbers)} if ends[0].rules.knockout else {}),
             "hits a match": float(np.mean([sum(tank.hits for tank in ends[i].tanks) for i in numbers])),
@@ -69,6 +79,30 @@ class Grudges:
         """The share over these matches; 0 without such hits."""
         returned, repeated = self.returned[matches].sum(), self.repeated[matches].sum()
         return float(returned / max(1, returned + repeated))
+
+
+def unseen(batch: Batch, robots: Any) -> Any:
+    """Those of `robots`, (n, ROBOTS), to which no opponent has a clear line."""
+    hidden = robots.astype(np.int64)
+    if hidden.any():
+        (_compiled_search() if batch.fast else search)(batch.matches, hidden)
+    return hidden == 1
+
+
+def search(matches: Any, hidden: Any) -> None:
+    """Clear the flag of each robot of `hidden`, (n, ROBOTS), that an opponent sees."""
+    for i in range(len(matches)):
+        match = matches[i]
+        for seat in range(ROBOTS):
+            robot = match.robots[seat]
+            for other in match.robots:
+                if hidden[i, seat] and other.present and other.team != robot.team:
+                    hidden[i, seat] = not is_clear(match, robot.x, robot.y, other.x, other.y, 0.0)
+
+
+@cache
+def _compiled_search() -> Any:
+    return compiled(search)
 
 
 def _tanks(batch: Any, name: str) -> Any:

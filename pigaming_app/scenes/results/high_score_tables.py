@@ -11,9 +11,10 @@ from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, ScoreTable
 
 NONE = "–"
-STRONG = frozenset({"normal", "hard", "hand2", "hand3", "fsm", "q1", "q2"})
-"""AIs no weaker than `normal`. `duel pitanks NAME normal --matches 200`: `fsm` wins 46 and loses 46 (it is the same
-machine), q1 180 and 8, q2 132 and 35. `classic` wins none, and 1 of 200 against `easy`."""
+STRONG = frozenset({"normal", "hard", "hand2", "hand3", "q1", "q2"})
+"""AIs no weaker than `normal`, which is `hand2`. Of 200 matches of `duel pitanks NAME hand2 --matches 200` under
+`pickups`, `hand3` wins 161 and loses 26, q1 187 and 9, q2 109 and 79; `hand1` wins 1, `fsm` 41 (and loses 125) and
+`classic` none."""
 
 
 @dataclass(frozen=True)

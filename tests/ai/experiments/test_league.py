@@ -72,8 +72,8 @@ class Rigged:
 def test_each_seed_is_played_from_both_sides(monkeypatch):
     monkeypatch.setattr(league, "Batch", Rigged)
     Rigged.seen = []
-    result = duel("pitanks", "easy", "hard", matches=6, seed=7, fast=False)
-    assert Rigged.seen == [(["easy", "hard"], [7, 8, 9]), (["hard", "easy"], [7, 8, 9])]
+    result = duel("pitanks", "hand1", "hand3", matches=6, seed=7, fast=False)
+    assert Rigged.seen == [(["hand1", "hand3"], [7, 8, 9]), (["hand3", "hand1"], [7, 8, 9])]
     assert (result.wins, result.losses, result.ties) == (3, 3, 0)
     assert result.mean_score_left == result.mean_score_right == 2.0
 
@@ -107,8 +107,8 @@ def test_a_brain_that_is_not_there_is_refused():
 def test_a_league_is_every_pairs_duel_over_the_same_seeds(monkeypatch):
     monkeypatch.setattr(league, "Batch", Rigged)
     Rigged.seen = []
-    found = league.league("pitanks", ["easy", "hard", "idle"], matches=4, seed=7, fast=False)
-    pairs = [("easy", "hard"), ("easy", "idle"), ("hard", "idle")]
+    found = league.league("pitanks", ["hand1", "hand3", "idle"], matches=4, seed=7, fast=False)
+    pairs = [("hand1", "hand3"), ("hand1", "idle"), ("hand3", "idle")]
     assert [(one.left, one.right) for one in found.duels] == pairs
     both = [([a, b], [7, 8]) for left, right in pairs for a, b in ((left, right), (right, left))]
     assert Rigged.seen == both

@@ -32,7 +32,7 @@ def match(brains, teams=FREE, game="pitanks", minutes=2.0, goal=0, variant=None)
     [
         ("human normal off off", FREE, True),
         ("human human off off", FREE, True),
-        ("human hard fsm q1", FREE, True),
+        ("human hard q2 q1", FREE, True),
         ("human q2 human normal", FREE, True),
         ("human easy off off", FREE, False),
         ("human hard hard easy", FREE, False),
@@ -52,7 +52,7 @@ def test_a_match_counts_against_people_and_opponents_no_weaker_than_normal(brain
 
 @pytest.mark.parametrize("game", games())
 def test_of_the_ais_of_a_game_only_the_weak_ones_do_not_count(game):
-    weak = {"idle", "random", "easy", "hand1", "classic"}
+    weak = {"idle", "random", "easy", "hand1", "fsm", "classic"}
     assert set(BRAINS[game]) - STRONG == weak & set(BRAINS[game])
 
 
