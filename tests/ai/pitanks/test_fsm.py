@@ -14,7 +14,7 @@ from tests.ai.pitanks.stuck import stuck
 from tests.cases import one_in
 
 SEED, TICKS = 7, 1500
-DIGESTS = {  # of version 1.4.0
+DIGESTS = {  # of version 1.5.0
     ("fsm", "classic", "pickups"): "f3194d2dda92c24803be67a5077ef56ec83f8fd5b05da6bca7bbfab06f6b5f7d",
     ("fsm", "labyrinth", "plain"): "9ceb0d8d92af9b423ef46f093d34afae24503d763dcd097ac89d4e9387e8eb12",
     ("fsm", "trenches", "classic"): "c296ee07216d3ecd63a40eb109b7d3c8424f7a8583d75eca26d48ba3cfbaeec7",
@@ -25,7 +25,7 @@ DIGESTS = {  # of version 1.4.0
 
 
 @pytest.mark.parametrize(("brain", "arena", "variant"), DIGESTS)
-def test_the_old_machines_play_as_they_did_in_1_4(brain, arena, variant):
+def test_the_old_machines_play_as_they_did_in_1_5(brain, arena, variant):
     one, two, three, four = (Seat(brain, team) for team in range(4))
     match = Match(Setup("pitanks", arena, (one, two, three, four), 1.0, SEED, variant))
     for seat in range(4):
