@@ -112,6 +112,7 @@ def test_it_contests_the_fast_machine(fast):
     assert (told(shop).behaviour, told(shop).reason) == ("bring", "fast")
 
 
+@pytest.mark.long
 def test_both_teams_score_steal_and_deliver_rush_orders():
     match = begun("party", ("hard",) * 4, "yard")
     doubles = 0
