@@ -121,7 +121,6 @@ def test_every_game_and_its_rules_have_names(language: str) -> None:
         assert words(f"highlights.last_{game.name}")
         for variant in game.variants:
             assert words(f"setup.{game.name}_{variant}")
-            assert words(f"setup.{game.name}_{variant}_line")
             assert words(f"rules.{game.name}_{variant}")
 
 

@@ -100,7 +100,7 @@ class HowTo:
         """The limits of the rules, after the name of the rule set and a dot for each page if there are several."""
         words, count, left = self.context.words, page_count(self.game), float(LEFT)
         if count > 1:
-            name = words(f"howto.{PAGES[self.game][self.page]}")
+            name = words(f"setup.{self.game}_{PAGES[self.game][self.page]}")
             pages(name, self.page, count).draw(screen)
             left += pages_width(name, count) + 40
         limits = limits_line(words, self.game, self.minutes(), self._variant())

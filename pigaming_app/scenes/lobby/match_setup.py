@@ -159,7 +159,7 @@ class MatchSetupPage:
         if name == "rounds":
             return choice.short_chips(words("setup.rounds"), self._round_labels(), game.rounds.index(now.rounds))
         if name == "rules":
-            line = words(f"setup.{game.name}_{now.variant}_line")
+            line = words(f"rules.{game.name}_{now.variant}")
             return choice.row(sizes, words("setup.rules"), words(f"setup.{game.name}_{now.variant}"), line=line)
         return choice.start_button(words("setup.go"))
 
