@@ -300,6 +300,7 @@ def make_reset(delay: float, spread: float, lead: float, watch: float, swing: fl
 
     def fill(mind: GunnerMind, seed: int) -> None:
         mind.senses.delay, mind.spread, mind.lead, mind.loyalty = delay, spread, lead, loyalty
+        mind.senses.cover = 0
         mind.watch, mind.swing = round(watch * HZ), round(swing * HZ)
         mind.random, mind.target, mind.shot, mind.weave = seeded(seed), -1, 10 * HZ, 1.0
         mind.wait = 1 + int(uniform(mind) * PERIOD)

@@ -28,6 +28,7 @@ class Senses:
 
     delay: float  # s, age of the poses of others
     route: Route
+    cover: int = added(1)  # 0: cover is left out
 
 
 @record
@@ -115,7 +116,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
             nearest = i
     obs.lead = lead(match, seat)
     obs.cover = 0
-    if nearest >= 0:
+    if nearest >= 0 and senses.cover:
         observe_cover(match, robot, obs.others[nearest].x, obs.others[nearest].y, obs)
     observe_threat(match, seat, robot, senses.delay, obs)
     obs.prize = 0
