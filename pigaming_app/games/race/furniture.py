@@ -16,7 +16,7 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import ROBOTS
 
 BEHIND = 55.0  # px between a robot's start and its line
-ROW = 110.0  # px between the rows of the grid
+ROW, FARTHEST_ROW = 110, 300  # px between the rows of the grid: on a straight, and the limit in bends
 COLUMN = 46.0  # px from the middle of the course to either column
 SPACE = 6.0  # px, least gap between robots on the grid; virtual walls of real robots need 4
 PAD_RUN = 300.0  # px of straight wanted after a pad
@@ -49,17 +49,16 @@ def common_line(course: Course, lines: Sequence[float]) -> int:
 
 def grid(course: Course, line: float) -> tuple[StartPose, ...]:
     """Four start poses in two rows behind a line at `line` px; the rows are as far apart as a bend requires."""
-    row = ROW
-    while True:
+    poses: list[StartPose] = []
+    for row in range(ROW, FARTHEST_ROW, 10):
         poses = []
         for place in range(ROBOTS):
             along = line - BEHIND - row * (place // 2)
             aside = min(COLUMN, half_width_at(course, *segment_at(course, along)) - RADIUS)
             poses.append(pose_at(course, along, aside if place % 2 else -aside))
-        gaps = [hypot(a.x - b.x, a.y - b.y) for i, a in enumerate(poses) for b in poses[:i]]
-        if min(gaps) >= 2 * RADIUS + SPACE:
-            return tuple(poses)
-        row += 10.0
+        if min(hypot(a.x - b.x, a.y - b.y) for a in poses[:2] for b in poses[2:]) >= 2 * RADIUS + SPACE:
+            break
+    return tuple(poses)
 
 
 def place_pads(course: Course, lines: Sequence[float]) -> tuple[float, ...]:

@@ -61,7 +61,7 @@ def test_turbo_is_used_well(track):
     match = alone("hard", track)
     while not match.over:
         match.tick()
-    assert REFERENCE[track] / match.game.times(match.state, 0)[1] > 1.03
+    assert REFERENCE[track] / match.game.times(match.state, 0)[1] > 1.02
 
 
 @pytest.mark.parametrize("track", TRACKS)
@@ -146,7 +146,7 @@ def test_it_overtakes_whoever_is_slower(slower, faster):
     ahead, behind = match.state.racers[0], match.state.racers[3]
     while not match.over:
         match.tick()
-    assert (ahead.finish - behind.finish) * DT > 4.0
+    assert ((ahead.finish or match.state.tick) - behind.finish) * DT > 4.0
 
 
 # ---------------------------------------------------------------------------------------------------------- recovering
@@ -208,3 +208,42 @@ def test_it_finds_its_way_from_the_middle_of_the_infield(track, place):
     while not match.over and match.seconds < 120.0:
         match.tick()
     assert match.state.racers[0].finished
+
+
+# ------------------------------------------------------------------------------------------------------------- variety
+
+
+def test_no_two_races_of_equal_drivers_are_alike():
+    ends = set()
+    for seed in range(4):
+        match = race(("hand3", "hand3", "off", "off"), seed=seed, laps=1)
+        while not match.over:
+            match.tick()
+        ends.add(tuple(round(racer.finish, 1) for racer in match.state.racers))
+    assert len(ends) == 4
+
+
+def test_the_weaker_make_mistakes_and_the_strongest_none():
+    muddy = {}
+    for name in ("hand1", "hand3"):
+        match, muddy[name] = race((name, "off", "off", "off"), laps=5), 0
+        while not match.over:
+            match.tick()
+            muddy[name] += not match.state.racers[0].place.on
+    assert muddy["hand3"] == 0
+    assert muddy["hand1"] > 10
+
+
+def test_drivers_use_what_party_offers_and_all_finish():
+    one, two, three, four = (Seat("hand3", i) for i in range(4))
+    match = Match(Setup("race", "classic", (one, two, three, four), 10.0, 5, "party", 2))
+    for seat in range(4):
+        match.sit(seat, make_brain("race", "hand3", seat))
+    used = dict.fromkeys(("surge", "slip", "item"), 0)
+    while not match.over:
+        match.tick()
+        for racer in match.state.racers:
+            for name in used:
+                used[name] += getattr(racer, name) > 0
+    assert all(racer.finished for racer in match.state.racers)
+    assert all(count > 20 for count in used.values())

@@ -43,9 +43,11 @@ class Stick:
 def test_robots_drive_1_25_times_as_fast_as_elsewhere():
     match = race()
     match.sit(0, Stick())
+    robot = match.state.robots[0]
+    robot.x, robot.y, robot.heading = 600.0, 116.0, 0.0  # the straight at the top
     for _ in range(HZ):
         match.tick()
-    assert match.state.robots[0].linear == pytest.approx(1.25 * 260.0, rel=1e-4)
+    assert robot.linear == pytest.approx(1.25 * 260.0, rel=1e-4)
 
 
 def test_mud_slows_to_a_third_on_the_tick_the_centre_leaves_the_course_and_not_after_it_is_back():
@@ -228,8 +230,9 @@ def test_at_the_start_all_are_level_and_the_seats_decide():
 def test_distance_past_a_missed_line_is_no_progress():
     ride = Ride(present=(0, 1))
     one, two, three, _ = (line.along for line in ride.lines)
-    ride.along(0, one - 30.0, one + 60.0)
-    ride.along(0, two + 60.0, three + 60.0)
+    ride.along(0, one - 30.0, two - 100.0)
+    ride.along(0, two - 100.0, two + 100.0, aside=140.0)
+    ride.along(0, two + 100.0, three + 60.0)
     assert ride.racers[0].missed
     assert ride.racers[0].progress == pytest.approx(two - one, abs=0.1)
 
@@ -293,8 +296,9 @@ def test_driving_against_the_way_counts_until_it_ends():
 def test_going_back_to_a_missed_line_is_not_the_wrong_way():
     ride = Ride(present=(0,))
     one, two, three, _ = (line.along for line in ride.lines)
-    ride.along(0, one - 30.0, one + 60.0)
-    ride.along(0, two + 60.0, three + 60.0)
+    ride.along(0, one - 30.0, two - 100.0)
+    ride.along(0, two - 100.0, two + 100.0, aside=140.0)
+    ride.along(0, two + 100.0, three + 60.0)
     ride.state.robots[0].linear = 300.0
     x, y = point_at(ride.course, three, 0.0)
     tangent = ride.rails.poses[0][2]
