@@ -14,7 +14,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.world import HZ
-from tests.ai.pitanks.test_fsm import stuck
+from tests.ai.pitanks.stuck import stuck
 from tests.cases import one_in
 
 AHEAD = Move(1.0, 0.0, 0)
@@ -95,5 +95,5 @@ def test_it_is_on_for_seats_alone():
 @pytest.mark.parametrize("arena", one_in(5, arenas("pitanks")))
 def test_nobody_with_a_table_is_stuck(arena):
     for seed in (1, 2):
-        assert stuck(arena, seed, ("q1", "q2", "off", "off")) == []
-        assert stuck(arena, seed, ("q2", "normal", "q1", "classic")) == []
+        assert stuck(arena, seed, ("q1", "q2", "off", "off"), "pickups") == []
+        assert stuck(arena, seed, ("q2", "normal", "q1", "classic"), "pickups") == []
