@@ -40,7 +40,7 @@ BENDS = (-3.0, -2.0, -1.4, -1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0, 
 MUDDY = 40.0  # px off the course, limit of the search
 NEVER = 1e6
 LAPS = 3  # of dynamic programming, until the cost of a further lap is the same from all states
-TARGETS = {"easy": (0.66, 0.85), "normal": (0.82, 0.95), "hard": (0.94, 1.01)}
+TARGETS = {"easy": (0.62, 0.85), "normal": (0.82, 0.95), "hard": (0.94, 1.01)}
 SOLO = 8  # races of a driver alone
 MIXTURES = (
     ("easy", "normal", "hard", "hard"),

@@ -29,14 +29,14 @@ PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LOOK = 115.0  # lookahead along the course, px
 LATE = 0.05  # latency of the motors, s
 GRIP = 1.8  # commanded turn rate, as a share of the highest, above which it slows down
-SHIFT, DASH_SHIFT = 20.0, 20.0  # px of lane change within one lookahead, and in `party`
+SHIFT = 20.0  # px of lane change within one lookahead
 OUT = 30.0  # px inside the edge at which it aims when off the course
 SLACK = 25.0  # px past a line before it counts as missed: the rules may not have registered the crossing yet
 SAVE = 80.0  # px to a robot ahead within which it saves its turbo
 NEW_ERROR = 30  # ticks between draws of the line error
 BEND = 0.3  # sine of the turn ahead, from which a bend may cause a mistake
 BLUNDER = 35  # ticks of a mistake
-WIDE, OVER = 60.0, 45.0  # px by which it runs wide then, at most so far off the course
+WIDE, OVER = 60.0, 45.0  # px of lane change within one lookahead then, and px off the course that it heads for
 CHASE = 60.0, 260.0  # px to a robot behind, for which it drops oil
 SEEN_OIL = 300.0  # px to oil ahead, for which it raises its shield
 NEXT_BOX = 220.0  # px to an item box, before which it uses up its item
@@ -119,9 +119,9 @@ def race(obs: Any, mind: Any, action: Any) -> int:
     lane = aimed_lane(mind)
     if mind.blunder > 0:
         room += OVER
-        lane += -WIDE if obs.turn > 0.0 else WIDE
+        lane = -room if obs.turn > 0.0 else room
+    shift = WIDE if mind.blunder > 0 else SHIFT
     keep = obs.aside - obs.ideal + mark.ideal  # the lane that keeps the present distance to the fastest line
-    shift = DASH_SHIFT if obs.party else SHIFT
     lane = keep + shift if lane > keep + shift else keep - shift if lane < keep - shift else lane
     lane = room if lane > room else -room if lane < -room else lane
     x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
@@ -292,7 +292,7 @@ HAND1 = BrainKind(
     RacerMind,
     think,
     make_reset(
-        speed=0.93, form=0.03, line=0.2, spread=10.0, boost=2.0, delay=0.35, reaction=(10, 30), care=0.2, mistakes=0.1,
+        speed=0.93, form=0.03, line=0.2, spread=10.0, boost=2.0, delay=0.35, reaction=(10, 30), care=0.2, mistakes=0.15,
         foresight=160.0, alert=0.03,
     ),
 )  # fmt: skip

@@ -226,7 +226,7 @@ def test_no_two_races_of_equal_drivers_are_alike():
 def test_the_weaker_make_mistakes_and_the_strongest_none():
     muddy = {}
     for name in ("hand1", "hand3"):
-        match, muddy[name] = race((name, "off", "off", "off"), laps=5), 0
+        match, muddy[name] = race((name, "off", "off", "off"), "kidney", laps=5), 0
         while not match.over:
             match.tick()
             muddy[name] += not match.state.racers[0].place.on
