@@ -150,7 +150,7 @@ def test_the_sentences_about_the_rules_are_not_cut_off(
         with measuring(monkeypatch) as screen:
             MatchSetupPage(arcade.context, game, seats(game)).draw(screen)
             shown = " ".join(mark.text for mark in screen.texts)
-        assert words(f"rules.pitanks_{variant}") in shown
+        assert words(f"rules.{game}_{variant}") in shown
 
 
 def test_the_button_follows_the_question(monkeypatch: pytest.MonkeyPatch, controls: Controls) -> None:

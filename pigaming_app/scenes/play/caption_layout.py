@@ -8,7 +8,7 @@ from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
-SCREEN = pygame.Rect(24, TOP, 1920 - 48, int(HEIGHT))
+ARENA = pygame.Rect(LEFT + 24, TOP, int(WIDTH) - 48, int(HEIGHT))
 BODY = round(RADIUS) + 8  # px, half the side of a robot's box
 
 
@@ -37,7 +37,7 @@ def caption_boxes(
         for dx, dy in shifts:
             box = pygame.Rect((0, 0), size)
             box.center = round(x + dx), round(y + dy)
-            boxes.append(box.clamp(SCREEN))
+            boxes.append(box.clamp(ARENA))
         placed.append(min(boxes, key=lambda box: sum(_overlap(box, other) for other in (*placed, *bodies))))
     return placed
 

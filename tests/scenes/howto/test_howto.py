@@ -33,9 +33,9 @@ def test_left_and_right_turn_all_pages_of_all_games(arcade: Arcade) -> None:
     assert (scene.game, scene.page) == seen[0][:2]
 
 
-def test_a_game_with_several_pages_has_one_for_each_rule_set() -> None:
+def test_a_game_with_several_pages_has_four_lessons_for_each() -> None:
     for game, variants in PAGES.items():
-        assert variants == tuple(games()[game].variants)
+        assert set(variants) <= set(games()[game].variants)
         assert len(LESSONS[game]) == PAGE * len(variants)
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.scenes.play.caption_layout import SCREEN, caption_boxes, robot_boxes
+from pigaming_app.scenes.play.caption_layout import ARENA, caption_boxes, robot_boxes
 from pigaming_app.scenes.views.background import LEFT, TOP
 
 SIZE = (250, 68)
@@ -15,7 +15,7 @@ def test_no_caption_covers_another_caption_or_robot(robots: list[tuple[float, fl
     boxes, bodies = caption_boxes(robots, [SIZE] * 4, [90.0] * 4), robot_boxes(robots)
     for i, box in enumerate(boxes):
         assert box.size == SIZE
-        assert SCREEN.contains(box)
+        assert ARENA.contains(box)
         assert box.collidelist([*boxes[:i], *boxes[i + 1 :], *bodies]) < 0
 
 

@@ -71,7 +71,7 @@ def test_two_rounds_won_lead_to_the_podium_and_the_rematch_begins_anew(arcade: A
     assert isinstance(results.page, PodiumPage)
     assert results.page.winners == (0,)
     arcade.wait(4.0, fps=10, draw=True)
-    assert "win" in arcade.sounds.heard
+    assert "fanfare" in arcade.sounds.heard
     arcade.press(Button.START)
     again = arcade.shown(MatchScene)
     assert again.rounds is not None
