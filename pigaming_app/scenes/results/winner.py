@@ -173,8 +173,8 @@ class WinnersMoment:
             yield partial(popped, self.name, self.size, self.color, pop)
         yield crown
         if self.stars is not None:
-            yield partial(star, False)
-            yield partial(star, True)
+            yield partial(star, False, STAR_R)
+            yield partial(star, True, STAR_R)
         for seat in self.seats if self.bursts else ():
             for size in SPARK_SIZES:
                 for turn in range(SPARK_TURNS):

@@ -13,11 +13,13 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow import match_choice
 from pigaming_app.scenes.flow.match_choice import playable_arenas
 from pigaming_app.scenes.lobby import match_setup as setup
-from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, rows
-from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD, short_boxes
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, row_sizes, rows
+from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD, W, short_boxes
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
+from pigaming_app.ui.draw.text import SMALLEST, fit_lines
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
@@ -213,3 +215,14 @@ def test_a_click_chooses_the_rounds(arcade: Arcade) -> None:
     assert here.chosen.rounds == 1
     arcade.click(box.left + 5, box.centery)
     assert here.chosen.rounds == 1
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("game", list(games()))
+def test_the_sentence_of_every_rule_set_fits_its_row(arcade: Arcade, game: str, language: str) -> None:
+    words = Words(language)
+    for variant in games()[game].variants.values():
+        sizes = row_sizes(games()[game], variant)
+        sentence = words(f"rules.{game}_{variant.name}")
+        _, lines = fit_lines(sentence, W - 2 * PAD, 2, range(sizes.small, SMALLEST, -2))
+        assert len(lines) <= 2, sentence

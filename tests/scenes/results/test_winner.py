@@ -131,8 +131,15 @@ def test_without_flashes_there_is_confetti_and_no_burst(arcade: Arcade) -> None:
     assert scene.celebration.pieces
 
 
-def test_everything_is_rendered_before_it_is_shown(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
-    scene = moment(arcade, "human easy hard easy", WON)
+@pytest.mark.parametrize("stars", [None, 2])
+def test_everything_is_rendered_before_it_is_shown(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, stars: int | None
+) -> None:
+    if stars is None:
+        scene = moment(arcade, "human easy hard easy", WON)
+    else:
+        allies = outcome({0: 1, 1: 1, 2: 2, 3: 0}, (0, 1, 2, 3), (0, 0, 0, 0))
+        scene = moment(arcade, "human easy hard easy", with_stars(allies, stars), (0, 0, 0, 0))
     while not scene.prewarm(50.0):
         pass
     made: list[object] = []
