@@ -31,8 +31,10 @@ def begun(variant, brains, floor="hall", seed=1, goal=0):
 
 
 def first_aim(shop, seat=0):
-    """The target slot of a strong driver after half a second."""
-    shop.match.sit(seat, make_brain("factory", "hard", seat))
+    """The target slot of a strong driver half a second after it sets out."""
+    brain = make_brain("factory", "hard", seat)
+    brain.mind.resting = 0
+    shop.match.sit(seat, brain)
     shop.tick(round(0.6 * HZ))
     return shop.loads[seat].aim - 1
 
