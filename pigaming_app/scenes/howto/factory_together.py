@@ -7,14 +7,12 @@ import pygame
 from pigaming_app.games.factory.state import DELIVERED, DONE, ICE, RAW, B
 from pigaming_app.scenes.howto.animation import Loop, add
 from pigaming_app.scenes.howto.factory_party import DOWN, FORK, SLOT, UP, ease, machine, robot, slot
+from pigaming_app.scenes.results.stars import star
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import factory_signs as signs
-from pigaming_app.scenes.views.sprites.factory import star
-from pigaming_app.ui.draw import FOCUS, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, GlowCanvas
 from pigaming_app.ui.draw import ICE as WHITE
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw import MIST, PLAYERS, TITLE
 from pigaming_app.ui.draw.sprites import HEADINGS, step
-from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import glyph, number_width, text
 from pigaming_app.ui.widgets.labels import blit_sprite
 
@@ -47,7 +45,7 @@ def stars(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
         add(screen, sprite, px, y - 90)
         px += advance
     for i, limit in enumerate(SECONDS):
-        _star(now < limit).draw(screen, round(x + STAR_PITCH * (i - 1)), round(y + 40))
+        star(now < limit, STAR_R).draw(screen, round(x + STAR_PITCH * (i - 1)), round(y + 40))
         text(f"{limit // 60}:{limit % 60:02}", TIME, MIST, "hero").draw(screen, x + STAR_PITCH * (i - 1), y + 128)
     return None
 
@@ -93,15 +91,3 @@ def clear(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | N
         blit_sprite(screen, crates.person(heading, stride, False), x, out + 90 + gone)
         blit_sprite(screen, crates.crate(ICE, DONE), x, out + 130 + gone)
     return None
-
-
-@cached
-def _star(lit: bool) -> LitImage:
-    """A star at (0, 0), lit or lost."""
-    half = STAR_R + 30
-    ink, shape = GlowCanvas(2 * half, 2 * half).set_transform(half, half), star(0, 0, STAR_R)
-    if lit:
-        ink.fill(shape, FOCUS).line(shape, FOCUS, LINE, True)
-    else:
-        ink.line(shape, STEEL, THIN, True)
-    return LitImage(ink.lit(0.7), (-half, -half))

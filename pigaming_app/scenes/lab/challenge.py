@@ -9,7 +9,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import sheet_title
-from pigaming_app.scenes.play.scene import FREEZE_SECONDS, MatchScene, new_seed
+from pigaming_app.scenes.play.scene import MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
@@ -49,9 +49,7 @@ class Challenge:
         if inner.stop_requested:
             return Pop()
         if inner.match.over:
-            inner.frozen += seconds
-            inner.runner.wait(seconds)
-            return Swap(ChallengeResult(self)) if inner.frozen >= FREEZE_SECONDS else None
+            return Swap(ChallengeResult(self)) if inner.ending.hold(seconds) else None
         return inner.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:

@@ -22,20 +22,19 @@ from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
-from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, popped, show, signs
+from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, signs
+from pigaming_app.scenes.play.ending import PREWARM_MS, Ending
 from pigaming_app.scenes.play.idle_seats import IdleSeats
-from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
-from pigaming_app.scenes.play.round_break import RoundBreak, draw_margin
+from pigaming_app.scenes.play.round_break import draw_margin
 from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.results.scene import Results, SceneFactory
-from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, PLAYERS
+from pigaming_app.ui.draw import FOCUS, LABEL, PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.text import text, wrap
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
@@ -44,10 +43,8 @@ from pigaming_app.ui.widgets.caption import RING_STEPS, Caption, caption, hold_r
 
 LEAD_SECONDS = 0.8  # seconds before the countdown, to look round
 RESUME_STEP = 0.5  # seconds per number after an interruption
-FREEZE_SECONDS = 1.5  # seconds between the last tick and the results
 HALT_AFTER = 60.0  # seconds without any input until the match is halted
 NOTICE_SECONDS = 3.0  # seconds for which a notice is shown
-PREWARM_MS = 7.0  # ms per frame for prewarming while motion is locked
 SUBSTITUTE_BRAIN = "normal"  # the brain that takes over for a person
 
 
@@ -71,7 +68,6 @@ class MatchScene:
     ) -> None:
         self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
         self.rounds, self.plant_factory = rounds, plant
-        self.round_break: RoundBreak | None = None
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = new_match(setup, plant)
@@ -81,13 +77,9 @@ class MatchScene:
         self.rule_card: tuple[Caption, tuple[int, int]] | None = None
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.begun = self.prewarmed = self.stop_requested = self.restart_requested = False
-        self.idle = self.frozen = self.notice_left = 0.0
+        self.idle = self.notice_left = 0.0
         self.notice: Caption | None = None
-        self.results: Results | None = None
-        self.moment: WinnersMoment
-        self.again: SlowMotion | None = None
-        if repeats_last_hit(self.match):
-            self.runner.last_hit = LastHit()
+        self.ending = Ending(context, self.runner, rounds, self._results)
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
@@ -115,9 +107,8 @@ class MatchScene:
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
-        if self.match.over and self.round_break is None:
-            if self.again:
-                self.again.handle(event)
+        if self.match.over and self.ending.round_break is None:
+            self.ending.handle(event)
             return None
         if event.button is Button.LOST:
             self.idle_seats.forget(event.device)
@@ -141,18 +132,20 @@ class MatchScene:
         self.notice_left -= seconds
         if self.restart_requested:
             return Swap(self.rematch(self.context, self.setup, self.devices))
-        if self.match.over and self.results is None and self.round_break is None:
-            self._finish()
-        if self.stop_requested or (self.match.over and self.round_break is None):
-            return self._end(seconds)
+        if self.match.over and not self.ending.begun:
+            self.ending.begin(self._without_records)
+        if self.stop_requested:
+            return self.ending.stop(seconds)
+        if self.match.over and self.ending.round_break is None:
+            return self.ending.update(seconds)
         if held := self.access.update(seconds):
             return Push(Pause(self, held.device))
         if lost := self.unplugged_seats:
             return Push(Reconnect(self, lost[0]))
         for event in self.joining.update(seconds):
             self._join(event.device)
-        if self.round_break:
-            return self._wait_for_round(self.round_break, seconds)
+        if pause := self.ending.round_break:
+            return self._begin_round() if self.ending.wait_for_round(pause, seconds) else None
         self.signs.work(0.0)
         self.prewarmed = self.prewarmed or self.runner.prewarm(PREWARM_MS if self.countdown.locked else 2.0)
         if self.countdown.shown and (sound := self.countdown.update(seconds)):
@@ -170,22 +163,16 @@ class MatchScene:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the arena, and the countdown, captions and notices over it; after the end the last hit again."""
-        if self.again and self.again.seconds:
-            self.again.draw(screen)
-            return
-        self.runner.draw(screen)
         words = self.context.words
-        if self.round_break and self.frozen >= FREEZE_SECONDS:
-            self.round_break.draw(screen, self.picture)
-            self._draw_notice(screen)
+        if self.ending.draw(screen, self.picture):
+            if self.ending.round_break:
+                self._draw_notice(screen)
             return
         self.runner.draw(screen)
         if self.rounds:
             draw_margin(screen, words, self.rounds, self.runner.view.seats)
         if self.match.over and not self.stop_requested:
-            pop = min(4, int(self.frozen / 0.04))
-            ending = "time" if self.match.seconds_left <= 0.0 else "finish"
-            show(screen, popped(words(f"match.{ending}"), ALARM, pop))
+            self.ending.draw_sign(screen)
         elif self.countdown.shown:
             if self.match.setup.game == "race" and self.match.seconds < 1.0:
                 self._draw_laps(screen)
@@ -386,66 +373,32 @@ class MatchScene:
         if device and self.context.settings.rumble:
             self.context.controls.rumble(device, *rumble)
 
-    def _finish(self) -> None:
-        """The match has just ended: keep it for attract mode, count the round, and wait for the next one if any."""
-        if replayable(self.match):
-            self.context.highlights.add(recorded(self.match))
-        self.context.sounds.play("go")
-        if self.rounds:
-            self.rounds.add(self.match.outcome(), self._without_records)
-            if not self.rounds.done:
-                self.round_break = RoundBreak(self.context.words, self.rounds)
-
     @property
     def _without_records(self) -> Collection[int]:
         """Seats whose results are no records: an AI has helped, or the match was not played in real time."""
         return self.ai_assisted if self.speed == 1.0 else range(len(self.devices))
 
-    def _wait_for_round(self, pause: RoundBreak, seconds: float) -> StackOperation:
-        """Show the end of the match, then the standings, then start the next round."""
-        self.frozen += seconds
-        self.runner.wait(seconds)
-        if self.frozen >= FREEZE_SECONDS:
-            pause.update(seconds)
-        if not pause.over:
-            return None
+    def _begin_round(self) -> StackOperation:
         scene = self.next_round()
         if isinstance(scene, MatchScene):
             scene.idle_seats.claims |= self.idle_seats.claims
         return Swap(scene)
 
-    def _end(self, seconds: float) -> StackOperation:
-        """Build the results while the last picture stays on the screen."""
-        if self.results is None:
-            rounds = self.rounds if self.rounds and self.rounds.outcomes else None
-            self.results = Results(
-                self.context,
-                rounds.outcome() if rounds else self.match.outcome(),
-                self.setup,
-                self.devices,
-                self.rematch,
-                rounds.done if rounds else not self.stop_requested,
-                () if rounds else self._without_records,
-                self.game_choice,
-                recorded(self.match) if replayable(self.match) else None,
-                rounds,
-            )
-            self.moment = WinnersMoment(self.context, self.results)
-            if not self.stop_requested:
-                self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
-        self.frozen += seconds
-        self.runner.wait(seconds)
-        if self.stop_requested:
-            return Swap(self.results) if self.results.prewarm(PREWARM_MS) else None
-        ready = self.moment.prewarm(PREWARM_MS)
-        if ready and self.again:
-            ready = self.again.prewarm(PREWARM_MS)
-        if not ready or self.frozen < FREEZE_SECONDS:
-            return None
-        if self.again and not self.again.over:
-            self.again.update(seconds)
-            return None
-        return Swap(self.moment)
+    def _results(self) -> Results:
+        """The results of the match, or of the rounds played."""
+        rounds = self.rounds if self.rounds and self.rounds.outcomes else None
+        return Results(
+            self.context,
+            rounds.outcome() if rounds else self.match.outcome(),
+            self.setup,
+            self.devices,
+            self.rematch,
+            rounds.done if rounds else not self.stop_requested,
+            () if rounds else self._without_records,
+            self.game_choice,
+            recorded(self.match) if replayable(self.match) else None,
+            rounds,
+        )
 
 
 def fresh_rounds(rounds: Rounds | None) -> Rounds | None:

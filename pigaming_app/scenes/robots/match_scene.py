@@ -100,7 +100,7 @@ class RealMatch(MatchScene):
         """As in every match; STOP stops all robots. While robots take their places, START begins from the current
         positions, X replaces missing robots with simulated ones, BACK leaves.
         """
-        if event.button is Button.STOP and (not self.match.over or self.round_break):
+        if event.button is Button.STOP and (not self.match.over or self.ending.round_break):
             self.plant.safety.all_stop()
             self.plant.watch()
             return Push(FaultPage(self, event.device))

@@ -82,9 +82,9 @@ def regular_polygon(n: int, r: float, turn: float = 0.0, cx: float = 0, cy: floa
     return [(cx + r * math.cos(a), cy + r * math.sin(a)) for a in angles]
 
 
-def star_points(r: float, cx: float = 0, cy: float = 0) -> list[Point]:
-    """The ten corners of a star with points `r` px from (cx, cy), one of them upwards."""
-    tips, dents = regular_polygon(5, r, -math.pi / 2, cx, cy), regular_polygon(5, 0.46 * r, -0.3 * math.pi, cx, cy)
+def star_points(r: float, cx: float = 0, cy: float = 0, turn: float = -math.pi / 2) -> list[Point]:
+    """The ten corners of a star with points `r` px from (cx, cy), one of them in the direction `turn`."""
+    tips, dents = regular_polygon(5, r, turn, cx, cy), regular_polygon(5, 0.46 * r, turn + 0.2 * math.pi, cx, cy)
     return [corner for pair in zip(tips, dents, strict=True) for corner in pair]
 
 

@@ -6,8 +6,9 @@ import pytest
 
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks.state import OWN_BULLETS
+from pigaming_app.scenes.play.ending import FREEZE_SECONDS
 from pigaming_app.scenes.play.last_hit import AFTER, BEFORE, SECONDS, LastHit
-from pigaming_app.scenes.play.scene import FREEZE_SECONDS, MatchScene
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.sim.record import digest, from_bytes, to_bytes
@@ -80,16 +81,16 @@ def ended(arcade, hits=(100,), variant="party"):
 def test_the_hit_is_shown_before_the_results_and_changes_nothing(arcade: Arcade) -> None:
     scene = ended(arcade)
     played = digest(scene.match.state)
-    arcade.until(lambda: scene.again is not None and scene.again.seconds > 0.0)
+    arcade.until(lambda: scene.ending.again is not None and scene.ending.again.seconds > 0.0)
     hits = arcade.sounds.heard.count("hit")
     seen = set()
     seconds = 0.0
     while isinstance(arcade.stack.top, MatchScene):
         arcade.frame()
         seconds += 1 / 30
-        assert scene.again is not None
-        seen.add(scene.again.state.tick)
-        if scene.again.state.tick % 10 == 0:
+        assert scene.ending.again is not None
+        seen.add(scene.ending.again.state.tick)
+        if scene.ending.again.state.tick % 10 == 0:
             scene.draw(arcade.screen)
     assert seconds == pytest.approx(SECONDS, abs=0.1)
     assert seen == set(range(100 - BEFORE, 100 + AFTER))
@@ -100,8 +101,8 @@ def test_the_hit_is_shown_before_the_results_and_changes_nothing(arcade: Arcade)
 
 def test_any_press_skips_it_after_half_a_second(arcade: Arcade) -> None:
     scene = ended(arcade)
-    arcade.until(lambda: scene.again is not None)
-    again = scene.again
+    arcade.until(lambda: scene.ending.again is not None)
+    again = scene.ending.again
     assert again is not None
     arcade.press(Button.FIRE)
     arcade.until(lambda: again.seconds > 0.3)
@@ -121,7 +122,7 @@ def test_any_press_skips_it_after_half_a_second(arcade: Arcade) -> None:
 @pytest.mark.parametrize(("hits", "variant"), [((), "party"), ((100,), "plain")])
 def test_without_a_hit_or_by_other_rules_the_results_follow_at_once(arcade: Arcade, hits, variant) -> None:
     scene = ended(arcade, hits, variant)
-    assert scene.again is None
+    assert scene.ending.again is None
     assert arcade.until(lambda: isinstance(arcade.stack.top, WinnersMoment)) <= FREEZE_SECONDS + 1.0
 
 
@@ -134,4 +135,4 @@ def test_a_stopped_match_shows_nothing_again(arcade: Arcade) -> None:
     assert scene.match.state.last_hit
     scene.stop()
     arcade.until(lambda: isinstance(arcade.stack.top, Results))
-    assert scene.again is None
+    assert scene.ending.again is None

@@ -6,11 +6,12 @@ import pygame
 import pytest
 
 from pigaming_app.games.rounds import Rounds
+from pigaming_app.scenes.play.ending import FREEZE_SECONDS
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.round_break import margin, round_title
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.play.scene import FREEZE_SECONDS, MatchScene
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.podium import Stand, stands
 from pigaming_app.scenes.results.podium_page import PodiumPage
 from pigaming_app.scenes.results.scene import Results
@@ -58,7 +59,7 @@ def win(arcade: Arcade, seat: int = 0) -> MatchScene:
 def test_two_rounds_won_lead_to_the_podium_and_the_rematch_begins_anew(arcade: Arcade) -> None:
     rounds = begin(arcade)
     first = win(arcade)
-    assert first.round_break
+    assert first.ending.round_break
     arcade.shown(MatchScene)
     arcade.until(lambda: arcade.stack.top is not first, 10.0)
     second = arcade.shown(MatchScene)

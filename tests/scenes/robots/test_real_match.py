@@ -77,7 +77,7 @@ def test_rounds_are_played_with_robots_that_take_their_places_again(arcade: Arca
     arcade.open(first)
     started(arcade, first, 0.1)
     for _ in range(round(10 * FPS)):
-        if first.round_break and first.round_break.age > 1.0:
+        if first.ending.round_break and first.ending.round_break.age > 1.0:
             break
         arcade.frame(1 / FPS)
     arcade.stack.top.draw(arcade.screen)

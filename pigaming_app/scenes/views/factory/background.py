@@ -8,9 +8,22 @@ from pigaming_app.games.factory.layout import BODY, Floor, SlotSpec
 from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_SLOTS, RAW, SHARED_SLOTS, SHELVES, A
 from pigaming_app.games.factory.state import ICE as FIRST_TEAM
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS, star, state_icon
+from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS, state_icon
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import BLACK, ICE, LINE, STEEL, THIN, WALL, Color, GlowCanvas, LayeredCanvas, cut_box, dim
+from pigaming_app.ui.draw import (
+    BLACK,
+    ICE,
+    LINE,
+    STEEL,
+    THIN,
+    WALL,
+    Color,
+    GlowCanvas,
+    LayeredCanvas,
+    cut_box,
+    dim,
+    star_points,
+)
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -159,6 +172,6 @@ def draw_lorry(ink: GlowCanvas, x: float, y: float, color: Color, way: int) -> N
     cab = [(12, -14), (30, -14), (42, 2), (42, 16), (12, 16)]
     for part in (box, cab):
         ink.line([(x + way * u, y + v) for u, v in part], color, 5, True)
-    ink.fill(star(x - way * 17, y - 8, 13), color)
+    ink.fill(star_points(13, x - way * 17, y - 8), color)
     for k in (-24, 24):
         ink.disc(x + k, y + 20, 13, BLACK).ring(x + k, y + 20, 8, color, 5)

@@ -14,9 +14,8 @@ from pigaming_app.scenes.views.factory import panels
 from pigaming_app.scenes.views.factory.order_cards import ORDER
 from pigaming_app.scenes.views.factory.panels import EDGE, MIDDLE, NUMBER, H, Mate, W, X, Y
 from pigaming_app.scenes.views.hud_parts import ALARM_SECONDS, CLOCK, HudParts, number_bits
-from pigaming_app.scenes.views.sprites.factory import star
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, LINE, MIST, STEEL, THIN, TITLE, Color, GlowCanvas
+from pigaming_app.ui.draw import ALARM, FOCUS, LINE, MIST, STEEL, THIN, TITLE, Color, GlowCanvas, star_points
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
@@ -99,7 +98,7 @@ def star_sign(form: str, text: str) -> pygame.Surface:
     """A star that is lit, urgent or lost, above its time."""
     color = {"lit": FOCUS, "urgent": ALARM, "lost": STEEL}[form]
     ink = GlowCanvas(STAR_PITCH + 20, H + 16, 3).set_transform(STAR_PITCH / 2 + 10, H / 2 + 8)
-    shape = star(0, -STAR_UP, STAR_R)
+    shape = star_points(STAR_R, 0, -STAR_UP)
     if form == "lost":
         ink.line(shape, color, THIN, True)
     else:

@@ -25,7 +25,6 @@ from pigaming_app.ui.draw import (
     WHITE,
     Color,
     GlowCanvas,
-    Point,
     badge,
     cut_box,
     dim,
@@ -238,12 +237,3 @@ def u_turn(ink: GlowCanvas, x: float, y: float, k: float) -> GlowCanvas:
     way = [(18.0, 30.0), (18.0, -8.0), *arc, (-18.0, 6.0)]
     ink.line([(x + k * a, y + k * b) for a, b in way], WHITE, 11 * k)
     return ink.fill([(x + k * a, y + k * b) for a, b in ((-39, 4), (3, 4), (-18, 32))], WHITE)
-
-
-def star(x: float, y: float, r: float) -> list[Point]:
-    """Outline of a five-pointed star."""
-    outer, inner = (
-        regular_polygon(5, r, -math.pi / 2, x, y),
-        regular_polygon(5, r * 0.45, -math.pi / 2 + math.pi / 5, x, y),
-    )
-    return [point for pair in zip(outer, inner, strict=True) for point in pair]

@@ -5,7 +5,7 @@ import random
 
 import pygame
 
-from pigaming_app.scenes.views.race.hud_cards import star, u_turn
+from pigaming_app.scenes.views.race.hud_cards import u_turn
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.scenes.views.race.track import MUD
 from pigaming_app.ui.draw import (
@@ -25,6 +25,7 @@ from pigaming_app.ui.draw import (
     dim,
     mix,
     regular_polygon,
+    star_points,
     text_width,
 )
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, faded, master, painted, trim, turned
@@ -93,7 +94,7 @@ def notice(text: str, color: Color, sign: str = "") -> Sprite:
     box = cut_box(14, 22, width - 28, height - 44, 14)
     ink.solid(box).line(box, dim(color, 0.55), THIN, True)
     if sign == "star":
-        ink.fill(star(62, height / 2, 24), color)
+        ink.fill(star_points(24, 62, height / 2), color)
     elif sign:
         flag(ink, 62, height / 2, 20, color)
     ink.text(text, LABEL, 40 + lead, height / 2, color, "hero")
@@ -103,7 +104,7 @@ def notice(text: str, color: Color, sign: str = "") -> Sprite:
 @cached
 def gold_star() -> Sprite:
     """Star before a best time."""
-    return trim(GlowCanvas(112, 112).set_transform(56, 56).fill(star(0, 0, 28), FOCUS).lit(0.9), 56, 56)
+    return trim(GlowCanvas(112, 112).set_transform(56, 56).fill(star_points(28), FOCUS).lit(0.9), 56, 56)
 
 
 @cached
@@ -116,7 +117,7 @@ def _ghost() -> pygame.Surface:
     ink, color = master(64), mix(FOCUS, WHITE, 0.2)
     ink.dashes(regular_polygon(72, 34), color, 5, 15, 11.7)
     ink.fill([(52, 0), (39, 13), (39, -13)], color)
-    return ink.fill(star(0, 0, 15), color).lit(0.8)
+    return ink.fill(star_points(15), color).lit(0.8)
 
 
 @cached

@@ -21,6 +21,7 @@ from pigaming_app.ui.draw import (
     cut_box,
     dim,
     regular_polygon,
+    star_points,
 )
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
@@ -51,16 +52,7 @@ def state_icon(ink: GlowCanvas, state: int, x: float, y: float, r: float, color:
         for side in (-1, 1):
             ink.line([(x - r * 0.8, y - side * r * 0.8), (x + r * 0.8, y + side * r * 0.8)], color, r * 0.4)
     else:
-        ink.fill(star(x, y, r * 1.2), color)
-
-
-def star(x: float, y: float, r: float) -> Points:
-    """Outline of a five-pointed star."""
-    out = []
-    for i in range(10):
-        a, far = -math.pi / 2 + i * math.pi / 5, r if i % 2 == 0 else r * 0.44
-        out.append((x + far * math.cos(a), y + far * math.sin(a)))
-    return out
+        ink.fill(star_points(r * 1.2, x, y), color)
 
 
 def outline(team: int, x: float, y: float, half: float) -> Points:
@@ -87,7 +79,7 @@ def draw_crate(ink: GlowCanvas, team: int, state: int, x: float, y: float, size:
     if state == DELIVERED:
         ink.fill(shape, color)
         ink.line(shape, color, 5, True)
-        ink.fill(star(x, y, size * 0.34), BLACK)
+        ink.fill(star_points(size * 0.34, x, y), BLACK)
         return
     edge = dim(color, 0.45) if state == DAMAGED else color
     ink.fill(shape, dim(edge, 0.10)).line(shape, edge, 5, True)

@@ -17,6 +17,7 @@ from pigaming_app.ui.draw import (
     dim,
     icon,
     mix,
+    star_points,
     text_width,
 )
 from pigaming_app.ui.draw.sprites import Sprite, master, painted, trim, turned
@@ -38,10 +39,7 @@ def _stars(r: int) -> pygame.Surface:
     ink = master(r + 32)
     for i in range(STARS):
         a = i * math.tau / STARS
-        shape = []
-        for k in range(10):
-            b, size = a + k * math.tau / 10, 14.0 if k % 2 == 0 else 6.0
-            shape.append((r * math.cos(a) + size * math.cos(b), r * math.sin(a) + size * math.sin(b)))
+        shape = star_points(14, r * math.cos(a), r * math.sin(a), a)
         ink.fill(shape, FOCUS).line(shape, mix(FOCUS, WHITE, 0.6), 2, True)
     return ink.lit(1.0)
 

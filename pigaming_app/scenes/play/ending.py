@@ -1,0 +1,105 @@
+"""The end of a match: its last picture, then the break before the next round, or the last hit again and the winner."""
+
+from collections.abc import Callable, Collection
+
+import pygame
+
+from pigaming_app.games.replay import recorded, replayable
+from pigaming_app.games.rounds import Rounds
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import StackOperation, Swap
+from pigaming_app.scenes.play.countdown import popped, show
+from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
+from pigaming_app.scenes.play.round_break import RoundBreak
+from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.results.winner import WinnersMoment
+from pigaming_app.ui.draw import ALARM
+from pigaming_app.ui.input.events import InputEvent
+
+FREEZE_SECONDS = 1.5  # seconds between the last tick and the scene that follows
+PREWARM_MS = 7.0  # ms per frame for preparing it
+
+
+class Ending:
+    """The time from the last tick to the next scene. `make_results` is called once, when the whole match is over."""
+
+    def __init__(
+        self, context: Context, runner: MatchRunner, rounds: Rounds | None, make_results: Callable[[], Results]
+    ) -> None:
+        self.context, self.runner, self.rounds, self.make_results = context, runner, rounds, make_results
+        self.match = runner.match
+        self.age = 0.0  # s since the last tick
+        self.begun = False
+        self.round_break: RoundBreak | None = None
+        self.results: Results | None = None
+        self.moment: WinnersMoment | None = None
+        self.again: SlowMotion | None = None
+        if repeats_last_hit(self.match):
+            runner.last_hit = LastHit()
+
+    def begin(self, assisted: Collection[int]) -> None:
+        """Keep the match for attract mode, and count the round. `assisted`: seats whose results are no records."""
+        self.begun = True
+        if replayable(self.match):
+            self.context.highlights.add(recorded(self.match))
+        self.context.sounds.play("go")
+        if self.rounds:
+            self.rounds.add(self.match.outcome(), assisted)
+            if not self.rounds.done:
+                self.round_break = RoundBreak(self.context.words, self.rounds)
+
+    def handle(self, event: InputEvent) -> None:
+        """Skip the slow motion on a press."""
+        if self.again:
+            self.again.handle(event)
+
+    def hold(self, seconds: float) -> bool:
+        """Hold the last picture for `seconds`; true when it has been shown long enough."""
+        self.age += seconds
+        self.runner.wait(seconds)
+        return self.age >= FREEZE_SECONDS
+
+    def update(self, seconds: float) -> StackOperation:
+        """Show the last hit again, if the rules do so; then swap to the winner's moment."""
+        if self.moment is None:
+            self.results = self.make_results()
+            self.moment = WinnersMoment(self.context, self.results)
+            self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
+        held = self.hold(seconds)
+        ready = self.moment.prewarm(PREWARM_MS)
+        if ready and self.again:
+            ready = self.again.prewarm(PREWARM_MS)
+        if not ready or not held:
+            return None
+        if self.again and not self.again.over:
+            self.again.update(seconds)
+            return None
+        return Swap(self.moment)
+
+    def stop(self, seconds: float) -> StackOperation:
+        """Swap to the results as soon as they are rendered: the match was ended by hand."""
+        self.results = self.results or self.make_results()
+        self.hold(seconds)
+        return Swap(self.results) if self.results.prewarm(PREWARM_MS) else None
+
+    def wait_for_round(self, pause: RoundBreak, seconds: float) -> bool:
+        """Show the last picture, then the standings; true when the next round begins."""
+        if self.hold(seconds):
+            pause.update(seconds)
+        return pause.over
+
+    def draw(self, screen: pygame.Surface, behind: Callable[[], pygame.Surface]) -> bool:
+        """Draw the last hit or the round break; false if it is not its time yet. `behind`: the darkened match."""
+        if self.again and self.again.seconds:
+            self.again.draw(screen)
+            return True
+        if self.round_break and self.age >= FREEZE_SECONDS:
+            self.round_break.draw(screen, behind)
+            return True
+        return False
+
+    def draw_sign(self, screen: pygame.Surface) -> None:
+        """Draw over the last picture that the time is up, or that the goal is reached."""
+        name = "time" if self.match.seconds_left <= 0.0 else "finish"
+        show(screen, popped(self.context.words(f"match.{name}"), ALARM, min(4, int(self.age / 0.04))))
