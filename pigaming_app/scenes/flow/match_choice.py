@@ -4,7 +4,7 @@ import logging
 from functools import lru_cache
 
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.game import Variant
+from pigaming_app.games.game import Game, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
@@ -59,13 +59,22 @@ def fit_choice(variant: Variant, choice: Choice) -> None:
         choice.goal = variant.default_goal
 
 
+def change_rules(game: Game, choice: Choice, name: str) -> None:
+    """Choose a rule set; minutes and goal change to its defaults where these differ from those of the one before."""
+    before, after = game.variants.get(choice.variant, game.default), game.variants[name]
+    choice.variant = name
+    if after.default_minutes != before.default_minutes:
+        choice.minutes = after.default_minutes
+    if after.default_goal != before.default_goal:
+        choice.goal = after.default_goal
+    fit_choice(after, choice)
+
+
 def reset_rules(settings: Settings) -> None:
     """Choose the rule set of kiosks in every game that has it."""
     for game in games().values():
         if KIOSK_RULES in game.variants:
-            choice = settings.choice(game.name)
-            choice.variant = KIOSK_RULES
-            fit_choice(game.variants[KIOSK_RULES], choice)
+            change_rules(game, settings.choice(game.name), KIOSK_RULES)
 
 
 def choice_summary(context: Context, game: str) -> str:

@@ -17,7 +17,8 @@ from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
 
-ROUND, SPEED = Loop(236.0, 300.0, 78.0), 190.0  # px, px/s: the lap in the first picture
+ROUND, SPEED = Loop(236.0, 250.0, 78.0), 190.0  # px, px/s: the lap in the first picture
+RISE = 34  # px by which it is higher than other pictures, above the name of the driving style
 DUEL, FLIGHT = 2.0, 0.42  # seconds: interval between shots; flight of a shot
 SHOT, SHOTS = 0.75, 7  # seconds between shots at the wall; number of shots, of which the last two pass
 POWER = 1.3  # seconds per pick-up
@@ -25,7 +26,7 @@ POWER = 1.3  # seconds per pick-up
 
 def drive(screen: pygame.Surface, x: float, y: float, seconds: float) -> str | None:
     """A robot drives round a stick that shows the matching deflection: a lap in each driving style."""
-    way = seconds * SPEED
+    way, y = seconds * SPEED, y - RISE
     turning = drive_round(screen, 0, ROUND, x, y, way)
     heading = ROUND.at(way)[2]
     _stick().draw(screen, round(x), round(y))

@@ -15,7 +15,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import ROUND_MINUTES, Rounds
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import arena_title, fit_choice, last_choice, load_cached, playable_arenas
+from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, load_cached, playable_arenas
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
@@ -205,10 +205,9 @@ class MatchSetupPage:
         return tuple(self.context.words(f"setup.rounds_{count}") for count in self.game.rounds)
 
     def _change_variant(self, delta: int) -> None:
-        """Step the rule set by `delta`; choices that it does not offer change to its defaults."""
+        """Step the rule set by `delta`; see `change_rules` for minutes and goal."""
         names, now = list(self.game.variants), self.chosen
-        now.variant = names[(names.index(now.variant) + delta) % len(names)]
-        fit_choice(self.variant, now)
+        change_rules(self.game, now, names[(names.index(now.variant) + delta) % len(names)])
         self.seats.change_mode(self.variant.team_mode)
         self.rows = rows(self.game, self.variant)
         self.focus.set_spots([FocusSpot(name, box) for name, box in self.rows.items()])

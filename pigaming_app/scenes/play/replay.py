@@ -89,6 +89,8 @@ class ReplayScene:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the match; in the margins the timeline, the speed and the hints."""
         self.runner.draw(screen)
+        if self.hints_left > 0.0 or not self.playing or self.ended:
+            self.hints.draw(screen)
         words, seconds = self.context.words, self.runner.match.seconds
         if seconds < HINTS_SECONDS or not self.playing:
             self.runner.draw_captions(screen, [None] * len(self.replay.setup.seats))
@@ -100,8 +102,6 @@ class ReplayScene:
             side_note(label, SPEEDS[self.speed]).draw(screen)
         if self.replay.other_engine and seconds < NOTICE:
             caption(words("replay.other_engine"), FOCUS).draw(screen, 960, NOTICE_Y)
-        if self.hints_left > 0.0 or not self.playing or self.ended:
-            self.hints.draw(screen)
 
     def _draw_timeline(self, screen: pygame.Surface) -> None:
         """The line below the arena with the present tick, and a mark for each moment."""

@@ -37,6 +37,9 @@ class SideHints:
         return event
 
     def draw(self, screen: pygame.Surface) -> None:
+        """Draw them in place of signs in the margin."""
+        places = boxes(self.prompts.labels)
+        screen.fill("black", places[0].union(places[-1]))
         column(self.prompts.labels).draw(screen)
 
 

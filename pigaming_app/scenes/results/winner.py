@@ -56,7 +56,8 @@ BARREL, RING = 64.0, 54.0  # px, before scaling: from a robot's centre to its mu
 RAYS, RAY_PARTS, RAY_FLAT = 48, 5, 0.62  # rays, dashes of each, and their height relative to their width
 OUTLINE = 12  # px, black outline of the headline
 POPS, POP = 4, 0.12  # cached sizes of the headline as it appears, and s that it takes
-STAR_R, STAR_PITCH = 44, 120
+STAR_R, STAR_PITCH = 58, 170  # px
+STAR_RISE, STAR_TOP = 96, 112  # px, of the stars above the muzzles, and their least y
 UP = -math.pi / 2
 
 Rings = tuple[tuple[int, float, float, float], ...]  # of each robot: player, x, y, radius
@@ -138,6 +139,7 @@ class WinnersMoment:
         """Draw the falling crown, or the stars of allies, `since` s after the arrival."""
         y = MIDDLE[1] - (BARREL + 14) * self.scale
         if self.stars is not None:
+            y = max(STAR_TOP, y - STAR_RISE)
             for i in range(STARS):
                 left = 1.0 - (since - 0.3 * i) / 0.25
                 lit = i < self.stars and left < 1.0

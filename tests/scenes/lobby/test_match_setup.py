@@ -11,7 +11,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import PAIRS
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow import match_choice
-from pigaming_app.scenes.flow.match_choice import playable_arenas
+from pigaming_app.scenes.flow.match_choice import change_rules, playable_arenas
 from pigaming_app.scenes.lobby import match_setup as setup
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, row_sizes, rows
 from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD, W, short_boxes
@@ -226,3 +226,15 @@ def test_the_sentence_of_every_rule_set_fits_its_row(arcade: Arcade, game: str, 
         sentence = words(f"rules.{game}_{variant.name}")
         _, lines = fit_lines(sentence, W - 2 * PAD, 2, range(sizes.small, SMALLEST, -2))
         assert len(lines) <= 2, sentence
+
+
+def test_other_rules_bring_their_own_length_and_the_same_length_stays() -> None:
+    for game, before, after in (
+        ("race", (10, 4), (10, 5)),
+        ("factory", (5, 4), (3, 0)),
+        ("pitanks", (5, 0), (5, 0)),
+    ):
+        rules = games()[game]
+        choice = Choice(minutes=before[0], variant=next(iter(rules.variants)), goal=before[1])
+        change_rules(rules, choice, "party")
+        assert (choice.variant, choice.minutes, choice.goal) == ("party", *after)
