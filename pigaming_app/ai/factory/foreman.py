@@ -25,7 +25,7 @@ from pigaming_app.sim.world import HZ
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 PLAN = 25  # ticks between two allocations
 SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
-START = 150  # upper limit of the random delay before the first job, ticks: more than any team's advantage on a floor
+START = 150  # upper limit of the random delay before the first job, ticks; with 20, Ice won 70 % in yard
 
 
 @record
@@ -114,7 +114,7 @@ def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int
 
     def fill(mind: ForemanMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
-        mind.resting = int(uniform(mind) * START)  # else the same team would always reach the people first
+        mind.resting = int(uniform(mind) * START)  # staggered starts
         mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
         mind.slip, mind.joint, mind.senses.delay = slip, joint, delay
 

@@ -403,7 +403,7 @@ def test_no_pallet_is_lost_or_doubled_while_drivers_play(floor, brains):
         match.sit(seat, make_brain("factory", brain, seat))
     watch = PartyWatch(match.state)
     assert len(watch.there) == 11
-    while not match.over and match.seconds < 45.0:
+    while not match.over and match.seconds < 60.0:
         match.tick()
         watch.look()
     assert {(RAW, HALF), (HALF, DONE), (DONE, DELIVERED), (DELIVERED, RAW)} <= watch.seen
