@@ -16,6 +16,7 @@ from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import digest, numbers
+from tests.cases import one_in
 
 EVERY_ARENA = [(game, arena) for game in games() for arena in arenas(game)]
 TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
@@ -67,7 +68,7 @@ def test_a_random_match_ends_when_its_time_is_up(game, arena):
     assert all(isfinite(number) for number in numbers(match.state))
 
 
-@pytest.mark.parametrize("game", games())
+@pytest.mark.parametrize("game", one_in(3, games()))  # compiling takes long
 def test_both_bodies_play_the_same_match_to_the_last_bit(game):
     names = arenas(game)
     variants = [*games()[game].variants] * 2
@@ -87,8 +88,9 @@ def test_both_bodies_play_the_same_match_to_the_last_bit(game):
     assert any(any(scores) for scores in plain.scores())
 
 
-@pytest.mark.parametrize("fast", [False, True], ids=["plain", "compiled"])
-@pytest.mark.parametrize("game", games())
+@pytest.mark.parametrize(
+    ("game", "fast"), [*((game, False) for game in games()), *one_in(3, ((game, True) for game in games()))]
+)
 def test_a_match_of_a_batch_is_that_match_alone(game, fast):
     setups = [setup(game, seed=seed, variant=variant) for seed in (3, 4) for variant in games()[game].variants]
     together = Batch(setups, company(game), fast)
@@ -125,7 +127,7 @@ def test_every_number_of_every_view_is_finite(game, arena, teams):
             assert digest(match.state) == before, "looking changes nothing"
 
 
-@pytest.mark.parametrize(("game", "arena"), EVERY_ARENA)
+@pytest.mark.parametrize(("game", "arena"), one_in(2, EVERY_ARENA))
 def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
     import pygame
 

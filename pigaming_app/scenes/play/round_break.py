@@ -1,4 +1,4 @@
-"""Between two rounds: who won the last one, and the standings. During a round: the standings in the left margin."""
+"""Between two rounds: the last winner and the standings. During a round: the standings in the left margin."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -86,7 +86,7 @@ class RoundBreak:
 
 
 def round_title(words: Words, last: Outcome, number: int) -> str:
-    """Who won a round, in one line."""
+    """The winner of a round, in one line."""
     if not last.winners:
         return words("rounds.tied", round=number)
     if len({row.team for row in last.rows}) < len(last.rows):

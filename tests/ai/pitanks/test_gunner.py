@@ -144,7 +144,7 @@ def test_a_knocked_out_robot_neither_fires_nor_counts_as_stuck():
     assert (mind.state, mind.stuck_ticks) == (gunner.HUNT, 0)
 
 
-@pytest.mark.parametrize("arena", one_in(3, arenas("pitanks")))
+@pytest.mark.parametrize("arena", one_in(5, arenas("pitanks")))
 def test_nobody_is_stuck(arena):
     for variant in ("pickups", "party"):
         assert stuck(arena, 1, ("hand3", "hand2", "hand1", "fsm"), variant) == []

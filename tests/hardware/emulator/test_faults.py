@@ -7,6 +7,7 @@ pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
 from pigaming_app.hardware.emulator.faults import FAULTS
+from tests.cases import one_in
 from tests.hardware.emulator.test_emulator import found, newest
 from tests.hardware.emulator.test_radio import FORWARD, broadcast
 
@@ -15,7 +16,7 @@ def numbers(arena):
     return sorted(number for number, _ in found(newest(arena).image))
 
 
-@pytest.mark.parametrize("name", FAULTS)
+@pytest.mark.parametrize("name", one_in(2, FAULTS))
 def test_every_fault_goes_on_and_off(name):
     arena = EmulatedArena(1, refresh=30)
     arena.faults.switch(name, True, 2)

@@ -26,6 +26,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
+from tests.cases import one_in
 from tests.scenes.operated import Operated
 
 LONG = 30.0  # s, timeout of a test
@@ -93,7 +94,7 @@ def test_a_missing_camera_is_replaced_by_a_connected_one(controls: Controls) -> 
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", one_in(2, ["en", "pt"]))
 def test_a_camera_that_fails_to_open_is_reported_and_retried(
     controls: Controls, language: str, caplog: pytest.LogCaptureFixture
 ) -> None:

@@ -82,7 +82,7 @@ def test_one_person_alone_who_is_ready_gets_three_ais_until_a_second_one_joins(a
     arcade.press(Button.FIRE)
     arcade.press(Button.FIRE)
     assert kinds(arcade) == "HAAA"
-    arcade.wait(lobby.COUNTDOWN_ALONE - 0.3, draw=True)
+    arcade.wait(lobby.COUNTDOWN_ALONE - 0.3, fps=10, draw=True)
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(2.0)
     assert kinds(arcade) == "HH.."

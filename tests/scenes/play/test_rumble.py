@@ -14,7 +14,6 @@ from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
 
-COUNTDOWN = 4.0
 QUIET = (0, 0)
 
 
@@ -31,8 +30,9 @@ def played(arcade: Arcade) -> Iterator[tuple[MatchScene, VirtualPad, VirtualPad]
         arcade.frame()
         devices = [Device("pad", one.number), Device("pad", two.number), KEYS[0]]
         match = MatchScene(arcade.context, setup("human human human off", 1.0), devices)
+        match.countdown.seconds_left = 0.05
         arcade.open(match)
-        arcade.wait(COUNTDOWN)
+        arcade.until(lambda: not match.countdown.locked)
         yield match, one, two
 
 

@@ -16,6 +16,7 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
@@ -132,7 +133,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
     for x, y, _ in mat.arena.poses()[:2]:
         for dx, dy in ((0, 0), (25, 25), (-25, 25), (25, -25), (-25, -25)):
             assert arcade.screen.get_at((round(160 + x + dx), round(140 + y + dy)))[:3] == GREY
-    until(arcade, Results, 12.0)
+    until(arcade, WinnersMoment)
 
 
 @pytest.mark.long

@@ -1,4 +1,4 @@
-"""What party adds to the floor: slots and pallets for both teams, rush orders, the fast machine."""
+"""Additions of party to the floor: slots and pallets for both teams, rush orders, the fast machine."""
 
 from collections.abc import Iterator
 from functools import partial

@@ -23,7 +23,7 @@ FINALE, OVERTIME = "finale", "overtime"
 
 
 class Banner:
-    """What stands between the panels in the finale and in overtime."""
+    """The words between the panels in the finale and in overtime."""
 
     def __init__(self, words: Words | None) -> None:
         self.double = words("pitanks.double") if words else ""
