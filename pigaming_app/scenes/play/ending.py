@@ -44,6 +44,7 @@ class Ending:
         if replayable(self.match):
             self.context.highlights.add(recorded(self.match))
         self.context.sounds.play("go")
+        self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
         if self.rounds:
             self.rounds.add(self.match.outcome(), assisted)
             if not self.rounds.done:
@@ -65,17 +66,17 @@ class Ending:
         if self.moment is None:
             self.results = self.make_results()
             self.moment = WinnersMoment(self.context, self.results)
-            self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
+        repeated = self.repeat(seconds)
+        return Swap(self.moment) if self.moment.prewarm(PREWARM_MS) and repeated else None
+
+    def repeat(self, seconds: float) -> bool:
+        """Show the last picture, then the last hit again if the rules do so; true when it has been shown."""
         held = self.hold(seconds)
-        ready = self.moment.prewarm(PREWARM_MS)
-        if ready and self.again:
-            ready = self.again.prewarm(PREWARM_MS)
-        if not ready or not held:
-            return None
-        if self.again and not self.again.over:
+        if self.again is None:
+            return held
+        if self.again.prewarm(PREWARM_MS) and held and not self.again.over:
             self.again.update(seconds)
-            return None
-        return Swap(self.moment)
+        return self.again.over
 
     def stop(self, seconds: float) -> StackOperation:
         """Swap to the results as soon as they are rendered: the match was ended by hand."""
@@ -84,20 +85,20 @@ class Ending:
         return Swap(self.results) if self.results.prewarm(PREWARM_MS) else None
 
     def wait_for_round(self, pause: RoundBreak, seconds: float) -> bool:
-        """Show the last picture, then the standings; true when the next round begins."""
-        if self.hold(seconds):
+        """Show the end of the round, then the standings; true when the next round begins."""
+        if self.repeat(seconds):
             pause.update(seconds)
         return pause.over
 
     def draw(self, screen: pygame.Surface, behind: Callable[[], pygame.Surface]) -> bool:
         """Draw the last hit or the round break; false if it is not its time yet. `behind`: the darkened match."""
-        if self.again and self.again.seconds:
-            self.again.draw(screen)
-            return True
-        if self.round_break and self.age >= FREEZE_SECONDS:
+        if self.round_break and (self.again.over if self.again else self.age >= FREEZE_SECONDS):
             self.round_break.draw(screen, behind)
-            return True
-        return False
+        elif self.again and self.again.seconds:
+            self.again.draw(screen)
+        else:
+            return False
+        return True
 
     def draw_sign(self, screen: pygame.Surface) -> None:
         """Draw over the last picture that the time is up, or that the goal is reached."""

@@ -107,9 +107,10 @@ class MatchScene:
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
-        if self.match.over and self.ending.round_break is None:
+        if self.match.over:
             self.ending.handle(event)
-            return None
+            if self.ending.round_break is None:
+                return None
         if event.button is Button.LOST:
             self.idle_seats.forget(event.device)
         if self.return_seat(event):
