@@ -5,7 +5,7 @@ import pickle
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,26 @@ def _a_home_of_their_own() -> Iterator[None]:
     with tempfile.TemporaryDirectory() as home, pytest.MonkeyPatch.context() as patch:
         patch.setenv("PIGAMING_HOME", home)
         yield
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the English case of a test that also runs in Portuguese `long`: Portuguese texts are the longer ones."""
+    languages = [item for item in items if isinstance(item, pytest.Function) and "language" in _values(item)]
+    both = {_twin(item) for item in languages if _values(item)["language"] == "pt"}
+    for item in languages:
+        if _values(item)["language"] == "en" and _twin(item) in both:
+            item.add_marker(pytest.mark.long)
+
+
+def _values(item: pytest.Function) -> Mapping[str, Any]:
+    """The values of a parametrised case, by argument."""
+    return item.callspec.params if hasattr(item, "callspec") else {}
+
+
+def _twin(item: pytest.Function) -> tuple[str, str]:
+    """Equal for the cases of one test that differ in the language only."""
+    others = {name: value for name, value in _values(item).items() if name != "language"}
+    return item.nodeid.partition("[")[0], repr(sorted(others.items(), key=lambda pair: pair[0]))
 
 
 @pytest.fixture

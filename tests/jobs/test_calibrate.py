@@ -23,6 +23,7 @@ def calibrate(home, *arguments):
     return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
 
 
+@pytest.mark.long
 def test_on_the_emulated_arena_the_wizard_matches_ground_truth(tmp_path):
     ran = calibrate(tmp_path, "--emulate", 5, "--json")
     assert (ran.returncode, ran.stderr) == (0, "")

@@ -34,6 +34,7 @@ def short(fast=False, seed=1, recipe=RECIPES[2], table=None):
     return Training(recipe, seed, fast=fast, table=table, minutes=0.1)
 
 
+@pytest.mark.long
 @compiles
 @pytest.mark.parametrize(
     "recipe",

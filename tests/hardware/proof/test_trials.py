@@ -18,6 +18,7 @@ def trail():
     return FigureEight(testbed.Testbed(5, 30.0))
 
 
+@pytest.mark.long
 def test_robots_are_followed_to_three_millimetres(trail):
     run = follow(trail, 4.0)
     assert run.rmse_mm < TARGETS["pose_rmse_mm"]

@@ -65,6 +65,7 @@ def test_a_piece_of_track_is_laid_over_what_was_seen():
     assert fitted == pytest.approx(seen)
 
 
+@pytest.mark.long
 def test_wheels_lag_and_dead_time_are_found_within_one_hundredth():
     courses = danced(45.0, noise=1.0, train=ODD).courses
     found = identify(courses[0], UNMEASURED)
@@ -87,6 +88,7 @@ def test_what_was_identified_foresees_much_better_what_was_held_out(run):
         assert verdict.before.mm[2] > 60.0
 
 
+@pytest.mark.long
 def test_the_true_model_foresees_a_run_without_noise_and_so_does_what_was_identified_in_it():
     run = danced(30.0)
     course = run.courses[2]

@@ -17,6 +17,7 @@ def run():
     return Recording(MM, {1: danced(24.0, noise=1.0).courses[1]})
 
 
+@pytest.mark.long
 def test_two_pictures_are_drawn(run, tmp_path):
     pytest.importorskip("matplotlib")
     made = draw(run, measure(run), tmp_path / "plots")

@@ -132,6 +132,7 @@ def test_a_person_in_the_light_is_reported_and_a_repeat_succeeds(arcade: Operate
     assert arcade.pictures(ResultPage).finding.good
 
 
+@pytest.mark.long
 def test_a_calibration_that_is_too_bad_cannot_be_saved(
     arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -199,6 +200,7 @@ def test_a_missing_robot_times_out(arcade: Operated, made: CalibrationResult, mo
     assert result.finding.trouble.key == "nobody"
 
 
+@pytest.mark.long
 def test_a_moved_projector_is_detected_by_the_drift_page(arcade: Operated, made: CalibrationResult) -> None:
     concluded(arcade, made)
     arcade.press(Button.FIRE)

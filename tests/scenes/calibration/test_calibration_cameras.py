@@ -202,6 +202,7 @@ class Overhead(Driver):
         return frame is not None, None if frame is None else np.repeat(frame.image[:, :, None], 3, axis=2)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
 def test_a_real_camera_over_the_mat_is_calibrated_and_the_file_is_the_real_one(
     controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -119,6 +119,7 @@ def test_any_press_stops_what_moves(arcade: Arcade, mat: EmulatedSession) -> Non
     assert not page.check.busy
 
 
+@pytest.mark.long
 def test_the_delay_of_the_whole_loop_is_measured(arcade: Arcade) -> None:
     page = arcade.shown(FleetPage)
     page.check.begin()
