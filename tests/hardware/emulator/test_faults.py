@@ -16,7 +16,7 @@ def numbers(arena):
     return sorted(number for number, _ in found(newest(arena).image))
 
 
-@pytest.mark.parametrize("name", one_in(2, FAULTS))
+@pytest.mark.parametrize("name", one_in(4, FAULTS))
 def test_every_fault_goes_on_and_off(name):
     arena = EmulatedArena(1, refresh=30)
     arena.faults.switch(name, True, 2)

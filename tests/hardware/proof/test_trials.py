@@ -33,7 +33,7 @@ def test_a_calibration_is_accepted_and_true(trail):
     assert max(mm for mm, _ in trail.bed.misses()) < 5.0
 
 
-@pytest.mark.parametrize("name", one_in(2, EMERGENCIES))
+@pytest.mark.parametrize("name", one_in(4, EMERGENCIES))
 def test_in_every_emergency_motors_stand_and_it_is_said_why(trail, name):
     run = stop(trail, name)
     assert run.seconds <= 0.3
@@ -62,7 +62,7 @@ def test_how_deep_a_robot_is_in_a_wall():
     assert entered(world, 500.0, 345.0) < 0.0
 
 
-@pytest.mark.parametrize("name", ["garbage", "radio_lossy", "exposure_step"])
+@pytest.mark.parametrize("name", one_in(3, ["garbage", "radio_lossy", "exposure_step"]))
 def test_robots_drive_on_through_what_is_no_fault(name, trail):
     settle(trail)
     trail.bed.arena.faults.switch(name, True)
