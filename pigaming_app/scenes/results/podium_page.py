@@ -29,7 +29,7 @@ from pigaming_app.ui.draw import (
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
+from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.labels import black_out
@@ -60,14 +60,7 @@ class PodiumPage:
 
     def prewarm(self, milliseconds: float) -> bool:
         """Render widgets for at most this many milliseconds; True when all are ready."""
-        if budget.behind:
-            return False
-        with budget.until(clock() + milliseconds / 1000):
-            try:
-                self._finish()
-            except Unfinished:
-                return False
-        return True
+        return finished_within(self._finish, milliseconds)
 
     def sounds(self) -> list[tuple[float, str, int | None]]:
         """Sounds of the reveal: (seconds, name, player)."""

@@ -35,8 +35,7 @@ from pigaming_app.ui.draw import (
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.frame_budget import Unfinished, budget
-from pigaming_app.ui.draw.frame_budget import clock as frame_clock
+from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
 
@@ -82,14 +81,7 @@ class ResultsPage:
 
     def prewarm(self, milliseconds: float) -> bool:
         """Render widgets for at most this many milliseconds; True when all are ready."""
-        if budget.behind:
-            return False
-        with budget.until(frame_clock() + milliseconds / 1000):
-            try:
-                self._finish()
-            except Unfinished:
-                return False
-        return True
+        return finished_within(self._finish, milliseconds)
 
     def sounds(self) -> list[tuple[float, str, int | None]]:
         """Sounds of the reveal: (seconds, name, player)."""

@@ -139,3 +139,15 @@ def resumable(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
                 raise
 
     return run
+
+
+def finished_within(work: Callable[[], None], milliseconds: float) -> bool:
+    """Do resumable work for at most this many milliseconds; true when it is complete."""
+    if budget.behind:
+        return False
+    with budget.until(clock() + milliseconds / 1000):
+        try:
+            work()
+        except Unfinished:
+            return False
+    return True
