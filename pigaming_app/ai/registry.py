@@ -48,10 +48,16 @@ KINDS: dict[str, dict[str, BrainKind]] = {
     },
 }
 
-LEVELS = {"easy": "hand1", "normal": "hand2", "hard": "hand3"}  # the brain behind each level, in every game
-STRENGTHS = tuple(LEVELS)
+LEVELS = {"level1": "hand1", "level2": "hand1", "level3": "hand2", "level4": "hand2", "level5": "hand3"}
+NAMED_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}
+STRENGTHS = tuple(NAMED_LEVELS)
 BRAINS = {
-    game: {**kinds, **{level: kinds[name] for level, name in LEVELS.items()}} for game, kinds in KINDS.items()
+    game: {
+        **kinds,
+        **{level: kinds[name] for level, name in LEVELS.items()},
+        **{name: kinds[LEVELS[level]] for name, level in NAMED_LEVELS.items()},
+    }
+    for game, kinds in KINDS.items()
 }  # by game; brains answer to their own names and to those of their levels
 RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in the order in which it steps through them
     "pitanks": (*STRENGTHS, "q1", "q2", "fsm"),

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.ai.registry import BRAINS, LEVELS, RIVALS, STRENGTHS
+from pigaming_app.ai.registry import BRAINS, LEVELS, NAMED_LEVELS, RIVALS, STRENGTHS
 from pigaming_app.games.registry import games
 from pigaming_app.storage.settings import Settings
 
@@ -11,7 +11,7 @@ from pigaming_app.storage.settings import Settings
 def test_a_level_is_a_name_of_a_brain(game):
     kinds = BRAINS[game]
     assert [kinds[level].name for level in ("easy", "normal", "hard")] == ["hand1", "hand2", "hand3"]
-    assert all(kinds[level] is kinds[LEVELS[level]] for level in STRENGTHS)
+    assert all(kinds[level] is kinds[LEVELS[NAMED_LEVELS[level]]] for level in STRENGTHS)
 
 
 @pytest.mark.parametrize("game", games())
