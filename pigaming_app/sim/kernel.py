@@ -21,7 +21,7 @@ import platformdirs
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-_registered: list[Callable[..., Any]] = []
+_registered: list[tuple[Callable[..., Any], Callable[..., Any], dict[str, str]]] = []  # plain, to compile, options
 
 PACKAGE = Path(__file__).resolve().parent.parent
 COMPILED = ("sim", "games", "ai")  # rooms with kernels
@@ -29,8 +29,27 @@ COMPILED = ("sim", "games", "ai")  # rooms with kernels
 
 def kernel(function: F) -> F:
     """Register a function that must run both plain and compiled. Returns it unchanged."""
-    _registered.append(function)
+    _registered.append((function, function, {}))
     return function
+
+
+def inlined_kernel(function: F) -> F:
+    """Register a small kernel that is compiled into its callers. Returns it unchanged."""
+    _registered.append((function, function, {"inline": "always"}))
+    return function
+
+
+def kernel_with_loops(loops: Callable[..., Any]) -> Callable[[F], F]:
+    """Register a function that runs as written when plain, and as `loops`, with the same arguments, when compiled.
+
+    For array arithmetic, where NumPy is fastest plain and loops are fastest compiled. Both must give the same bits.
+    """
+
+    def register(function: F) -> F:
+        _registered.append((function, loops, {}))
+        return function
+
+    return register
 
 
 def can_compile() -> bool:
@@ -42,12 +61,21 @@ def compiled(loop: F) -> F:
     """Compile an outer loop over NumPy records. Raises ImportError if numba is not installed."""
     numba = _numba()
     while _registered:
-        numba.extending.register_jitable(error_model="numpy")(_registered.pop())
+        _make_callable(numba, *_registered.pop())
     dispatcher: F = numba.njit(nogil=True, error_model="numpy")(loop)
     with contextlib.suppress(RuntimeError):  # no writable folder for the cache
         dispatcher.enable_caching()  # type: ignore[attr-defined]
         _ignore_cache_errors(dispatcher)
     return dispatcher
+
+
+def _make_callable(numba: Any, plain: Callable[..., Any], source: Callable[..., Any], options: dict[str, str]) -> None:
+    """Make calls of `plain` in compiled code calls of the compiled `source`."""
+
+    def choose(*_: Any) -> Callable[..., Any]:
+        return source
+
+    numba.extending.overload(plain, jit_options={"error_model": "numpy"}, strict=False, **options)(choose)
 
 
 def compiled_before(loop: Callable[..., Any]) -> bool:

@@ -1,7 +1,8 @@
 """Game state declared once, usable as plain objects (in the arcade) and as NumPy records (for training).
 
 A record is a class of annotated fields: `float`, `int`, another record, or a list of fixed length,
-`Annotated[list[Robot], 4]`. Lists of small whole numbers may name a narrower type: `Annotated[list[int], 576, "h"]`.
+`Annotated[list[Robot], 4]`. Lists of small whole numbers may name a narrower type: `Annotated[list[int], 576, "h"]`
+or `Annotated[list[float], 64, "f"]` (whole numbers below 2**24, since plain records hold them unrounded).
 
     @record
     class Robot:
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 _CODES = {float: "d", int: "q"}
-_NUMPY = {"d": "<f8", "q": "<i8", "h": "<i2"}
+_NUMPY = {"d": "<f8", "f": "<f4", "q": "<i8", "h": "<i2"}
 _DTYPES: "dict[type, np.dtype[Any]]" = {}
 _LAYOUTS: dict[type, struct.Struct] = {}
 _ADDED: dict[type, tuple[tuple[str, int, int, bytes], ...]] = {}

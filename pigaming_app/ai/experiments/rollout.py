@@ -1,7 +1,7 @@
 """Batches of whole matches with the brains inside the loop, plain or compiled.
 
-A rollout is a closure over a game's rules and the brains of its four seats, so numba compiles it into a single loop
-over NumPy records. The same closure runs uncompiled over plain records.
+A rollout is a closure over a game's rules and the families of brains that it can seat, so numba compiles it into a
+single loop over NumPy records. The same closure runs uncompiled over plain records.
 """
 
 from collections.abc import Callable, Sequence
@@ -10,6 +10,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.experiments.cast import Cast, Family, Think, dispatcher
 from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
@@ -18,39 +19,23 @@ from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import packed, unpack
 from pigaming_app.sim.world import ROBOTS
 
-Loop = Callable[..., None]
-Think = Callable[[Any, int, Any, Any], None]
+Loop = Callable[[Any, Any, Any, int], None]
 
 
-def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think, Think]) -> Loop:
+def make_rollout(judge: Callable[[Any], None], think: Think) -> Loop:
     """A loop over matches that advances each by `ticks` ticks, or to its end.
 
-    `ones` to `fours` hold the minds of seats 0 to 3, one per match; `rows_1` to `rows_4` their weights, rows of one.
+    `minds`: of each match and seat, (n, 4); `weights`: those of the cast.
     """
-    first, second, third, fourth = think
 
-    def rollout(
-        matches: Any,
-        ones: Any,
-        twos: Any,
-        threes: Any,
-        fours: Any,
-        rows_1: Any,
-        rows_2: Any,
-        rows_3: Any,
-        rows_4: Any,
-        ticks: int,
-    ) -> None:
-        weights_1, weights_2, weights_3, weights_4 = rows_1[0], rows_2[0], rows_3[0], rows_4[0]
+    def rollout(matches: Any, minds: Any, weights: Any, ticks: int) -> None:
         for i in range(len(matches)):
-            match, one, two, three, four = matches[i], ones[i], twos[i], threes[i], fours[i]
+            match, seated = matches[i], minds[i]
             for _ in range(ticks):
                 if match.over:
                     break
-                first(match, 0, one, weights_1)
-                second(match, 1, two, weights_2)
-                third(match, 2, three, weights_3)
-                fourth(match, 3, four, weights_4)
+                for seat in range(ROBOTS):
+                    think(match, seat, seated[seat], weights)
                 judge(match)
                 drive(match)
 
@@ -58,39 +43,42 @@ def make_rollout(judge: Callable[[Any], None], think: tuple[Think, Think, Think,
 
 
 @cache
-def plain_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
+def plain_rollout(game: str, families: tuple[Family, ...]) -> Loop:
     """Rollout of a game over plain records, cached."""
-    return make_rollout(games()[game].judge, think)
+    return make_rollout(games()[game].judge, dispatcher(families))
 
 
 @cache
-def compiled_rollout(game: str, think: tuple[Think, Think, Think, Think]) -> Loop:
+def compiled_rollout(game: str, families: tuple[Family, ...]) -> Loop:
     """Rollout of a game over NumPy records, cached. Raises ImportError without numba."""
-    return compiled(make_rollout(games()[game].judge, think))
+    return compiled(make_rollout(games()[game].judge, dispatcher(families)))
 
 
 class Batch:
     """Many matches of one game with the same brains on their seats."""
 
-    def __init__(self, setups: Sequence[Setup], kinds: Sequence[BrainKind | None], fast: bool) -> None:
-        """One match per setup. `kinds`: brains by seat, idle where None or missing. `fast`: compiled; needs numba."""
+    def __init__(
+        self, setups: Sequence[Setup], kinds: Sequence[BrainKind | None], fast: bool, cast: Cast | None = None
+    ) -> None:
+        """One match per setup. `kinds`: brains by seat, idle where None or missing. `fast`: compiled; needs numba.
+
+        `cast`: brains that share the compiled loop, among them `kinds`; None: the brains on the seats.
+        """
         self.fast = fast
         self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
-        minds = [[fresh_mind(kind, setup.seed, seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
-        columns = [list(column) for column in zip(*minds, strict=True)]
+        self.cast = cast or Cast(self.kinds, fast)
         states = initial_states(setups)
         self.matches: Any = packed(states) if fast else states
-        self.minds = [packed(column) for column in columns] if fast else columns
-        self.weights = [kind.weights(fast) for kind in self.kinds]
-        one, two, three, four = (kind.think for kind in self.kinds)
-        think = one, two, three, four
+        self.minds = self.cast.minds(
+            [[(kind, setup.seed * ROBOTS + seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
+        )
         game = setups[0].game
         self.state = games()[game].state
-        self.loop: Loop = compiled_rollout(game, think) if fast else plain_rollout(game, think)
+        self.loop: Loop = (compiled_rollout if fast else plain_rollout)(game, self.cast.families)
 
     def play(self, ticks: int) -> None:
         """Advance every match by `ticks` ticks, or to its end."""
-        self.loop(self.matches, *self.minds, *self.weights, ticks)
+        self.loop(self.matches, self.minds, self.cast.weights, ticks)
 
     def scores(self) -> list[list[int]]:
         """Scores of the seats, by match."""
@@ -105,10 +93,3 @@ class Batch:
     def ended(self) -> list[Any]:
         """All matches as plain records."""
         return [unpack(self.state, row) for row in self.matches] if self.fast else list(self.matches)
-
-
-def fresh_mind(kind: BrainKind, seed: int, seat: int) -> Any:
-    """A reset mind for a seat of the match with this seed."""
-    mind = kind.mind()
-    kind.reset(mind, seed * ROBOTS + seat)
-    return mind

@@ -1,0 +1,57 @@
+"""The face of a game towards a network: inputs from a match, choices to an action.
+
+Inputs are whole numbers from -UNIT to UNIT, carried as floats. All later sums are sums of whole numbers and therefore
+exact, whatever the order of their terms: NumPy, compiled loops and every processor give the same bits.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import floor
+from typing import Any
+
+from pigaming_app.sim.kernel import kernel
+
+UNIT = 256.0  # 1.0 in inputs, activations and weights
+PERIOD = 5  # ticks between decisions: 10 Hz
+
+
+@dataclass(frozen=True)
+class Encoding:
+    """Inputs and outputs of a game's networks. `encode` and `act` are kernels.
+
+    - `encode(match, seat, senses, inputs)` fills `inputs`, which has the length `size`.
+    - `act(match, seat, choices)` sets the seat's action from one choice for each head.
+    """
+
+    game: str
+    groups: tuple[tuple[str, int], ...]  # names and lengths of the groups of inputs, in order
+    heads: tuple[tuple[str, int], ...]  # names and numbers of choices, in order
+    senses: type  # record: parameters of the observation, and memory between decisions; has `delay` and `error`
+    encode: Callable[[Any, int, Any, Any], None]
+    act: Callable[[Any, int, Any], None]
+
+    @property
+    def size(self) -> int:
+        """Number of inputs."""
+        return sum(length for _, length in self.groups)
+
+    @property
+    def outputs(self) -> int:
+        """Number of choices of all heads together."""
+        return sum(choices for _, choices in self.heads)
+
+
+@kernel
+def whole(value: float) -> float:
+    """A value clamped to [-1, 1], in whole units."""
+    if value >= 1.0:
+        return UNIT
+    if value <= -1.0:
+        return -UNIT
+    return floor(value * UNIT + 0.5)
+
+
+@kernel
+def saturating(value: float) -> float:
+    """A smooth bend of any number into (-1, 1): 1/2 at 1."""
+    return value / (1.0 + value) if value >= 0.0 else value / (1.0 - value)

@@ -1,0 +1,300 @@
+"""PiTanks as a network sees it: 120 inputs, and four heads of choices.
+
+Directions are given as cosine and sine relative to the own heading. The other robots are sorted by how much they matter
+now, so that the first of them is nearly always the one to fight. Aiming errors are measured in angular sizes of the
+target, since a degree matters far away and hardly at close range.
+"""
+
+from math import cos, sin, sqrt
+from typing import Any
+
+from pigaming_app.ai.networks.encoding import Encoding, saturating, whole
+from pigaming_app.games.pitanks.scoring import is_finale, is_overtime, lead
+from pigaming_app.games.pitanks.state import MINES, OWN_BULLETS, OWN_MINES
+from pigaming_app.sim.action import set_action
+from pigaming_app.sim.flow_field import Route, update_route
+from pigaming_app.sim.grid import BLOCKED, node_at
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.sweep import is_clear
+from pigaming_app.sim.world import HEIGHT, HZ, ROBOTS, WIDTH
+
+GROUPS = (
+    ("motion", 5),
+    ("gun", 4),
+    ("powers", 6),
+    ("score", 8),
+    ("place", 4),
+    ("way", 5),
+    ("first", 17),
+    ("second", 17),
+    ("third", 17),
+    ("pickup", 3),
+    ("bullets", 15),
+    ("mine", 3),
+    ("room", 12),
+    ("rules", 4),
+)
+MOTION, GUN, POWERS, SCORE, PLACE, WAY, OTHERS, PICKUP, BULLETS, MINE, ROOM, RULES, SIZE = (
+    0, 5, 9, 15, 23, 27, 32, 83, 86, 101, 104, 116, 120
+)  # first input of each group  # fmt: skip
+OTHER = 17  # inputs for each of the others
+HEADS = (("drive", 3), ("turn", 7), ("fire", 2), ("turbo", 2))
+TURNS = (-1.0, -0.36, -0.11, 0.0, 0.11, 0.36, 1.0)  # positions of the stick; a full turn is 17 degrees a decision
+
+HIDDEN = 400.0  # px by which a robot out of sight counts as farther away
+MATE = 5000.0  # px; team mates come last
+SOON = 1.6  # s; bullets that pass later are left out
+PASSING = 130.0  # px; so are those that pass farther away
+STEP, STEPS = 40.0, 8  # px and number of the steps by which it looks for room
+COS30, SIN30 = 0.8660254037844386, 0.5
+MINE_NEAR = 250.0  # px
+
+
+@record
+class PiTanksSenses:
+    """Parameters of the observation, and the route to the nearest opponent."""
+
+    delay: float  # s, age of the poses of others
+    error: float  # rad by which others appear beside where they are
+    clears: int  # bit j: robot j is in the line of fire
+    route: Route
+
+
+@kernel
+def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
+    """Fill in the inputs of one seat."""
+    for i in range(SIZE):
+        inputs[i] = 0.0
+    me = match.robots[seat]
+    ahead_x, ahead_y = cos(me.heading), sin(me.heading)
+    encode_self(match, seat, inputs)
+    inputs[PLACE] = whole(2.0 * me.x / WIDTH - 1.0)
+    inputs[PLACE + 1] = whole(2.0 * me.y / HEIGHT - 1.0)
+    inputs[PLACE + 2], inputs[PLACE + 3] = whole(ahead_x), whole(ahead_y)
+    encode_others(match, seat, senses, ahead_x, ahead_y, inputs)
+    encode_bullets(match, seat, senses.delay, ahead_x, ahead_y, inputs)
+    if match.rules.pickups:
+        encode_things(match, seat, ahead_x, ahead_y, inputs)
+    encode_room(match, me, ahead_x, ahead_y, inputs)
+
+
+@kernel
+def encode_self(match: Any, seat: int, inputs: Any) -> None:
+    """The own robot, the score and the rules."""
+    me, tank, rules = match.robots[seat], match.tanks[seat], match.rules
+    inputs[MOTION] = whole(me.linear / 400.0)
+    inputs[MOTION + 1] = whole(me.angular / rules.turn_rate)
+    inputs[MOTION + 2], inputs[MOTION + 3] = whole(me.turbo), whole(me.boosting)
+    inputs[MOTION + 4] = whole(tank.knocked_out / (rules.knockout + 1.0))
+    alive = 0
+    for i in range(seat * OWN_BULLETS, (seat + 1) * OWN_BULLETS):
+        alive += match.bullets[i].alive
+    inputs[GUN], inputs[GUN + 1] = whole(tank.cooldown / rules.cooldown), whole(0.0 if tank.cooldown else 1.0)
+    inputs[GUN + 2], inputs[GUN + 3] = whole(tank.protected / 37.0), whole(alive / rules.bullets_alive)
+    for power in range(6):
+        if tank.powers[power]:
+            inputs[POWERS + power] = whole(tank.powers[power] / rules.power_life)
+    ahead = lead(match, seat)
+    inputs[SCORE], inputs[SCORE + 1] = whole(saturating(0.5 * ahead)), whole(saturating(0.1 * ahead))
+    inputs[SCORE + 2] = whole((rules.ticks - match.tick) / (120.0 * HZ))
+    inputs[SCORE + 3] = whole(1.0 if is_finale(match) else 0.0)
+    inputs[SCORE + 4] = whole(1.0 if is_overtime(match) else 0.0)
+    inputs[SCORE + 5] = whole(tank.camped / (rules.camping + 1.0) if rules.camping else 0.0)
+    inputs[SCORE + 6], inputs[SCORE + 7] = whole(tank.lit), whole(tank.bounty)
+    inputs[RULES] = whole(rules.protection / 37.0)
+    inputs[RULES + 1] = whole(rules.penalty)
+    inputs[RULES + 2] = whole(1.0 if rules.knockout else 0.0)
+    inputs[RULES + 3] = whole(rules.pickups)
+
+
+@kernel
+def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+    """The other robots, the most pressing first, and the way to the nearest opponent."""
+    me, radius = match.robots[seat], match.rules.bullet_radius
+    senses.clears = 0
+    target, target2 = -1, 1e18
+    for i in range(1, ROBOTS):
+        j = (seat + i) % ROBOTS
+        robot = match.robots[j]
+        if not robot.present:
+            continue
+        if is_clear(match, me.x, me.y, robot.x, robot.y, radius):
+            senses.clears |= 1 << j
+        dx, dy = robot.x - me.x, robot.y - me.y
+        distance2 = dx * dx + dy * dy
+        if robot.team != me.team and distance2 < target2:
+            target, target2 = j, distance2
+    told = 0
+    for place in range(ROBOTS - 1):
+        best, least = -1, 1e18
+        for i in range(1, ROBOTS):
+            j = (seat + i) % ROBOTS
+            robot = match.robots[j]
+            if robot.present and not (told >> j) & 1:
+                dx, dy = robot.x - me.x, robot.y - me.y
+                cost = sqrt(dx * dx + dy * dy)
+                if not (senses.clears >> j) & 1:
+                    cost += HIDDEN
+                if robot.team == me.team:
+                    cost += MATE
+                if cost < least:
+                    best, least = j, cost
+        if best < 0:
+            break
+        told |= 1 << best
+        encode_other(match, seat, best, senses, ahead_x, ahead_y, OTHERS + OTHER * place, inputs)
+    if target < 0:
+        return
+    route = senses.route
+    route.active, route.goal_x, route.goal_y = 1, match.robots[target].x, match.robots[target].y
+    update_route(match, route, me.x, me.y)
+    dx, dy = route.waypoint_x - me.x, route.waypoint_y - me.y
+    distance = sqrt(dx * dx + dy * dy) + 1e-9
+    inputs[WAY] = whole((ahead_x * dx + ahead_y * dy) / distance)
+    inputs[WAY + 1] = whole((ahead_x * dy - ahead_y * dx) / distance)
+    inputs[WAY + 2], inputs[WAY + 3] = whole(route.straight), whole(distance / 400.0)
+    inputs[WAY + 4] = whole(sqrt(target2) / 1600.0)
+
+
+@kernel
+def encode_other(
+    match: Any, seat: int, j: int, senses: Any, ahead_x: float, ahead_y: float, k: int, inputs: Any
+) -> None:
+    """Robot j, from input k on."""
+    me, robot, tank = match.robots[seat], match.robots[j], match.tanks[j]
+    heading = robot.heading - senses.delay * robot.angular
+    towards_x, towards_y = cos(heading), sin(heading)
+    vx, vy = robot.linear * towards_x, robot.linear * towards_y
+    true_x, true_y = robot.x - me.x - senses.delay * vx, robot.y - me.y - senses.delay * vy
+    dx, dy = true_x - senses.error * true_y, true_y + senses.error * true_x
+    distance = sqrt(dx * dx + dy * dy) + 1e-9
+    reach = RADIUS + match.rules.bullet_radius
+    size = reach / (distance + reach)
+    flight = distance / match.rules.bullet_speed + senses.delay
+    aim_x, aim_y = dx + flight * vx, dy + flight * vy
+    aim = sqrt(aim_x * aim_x + aim_y * aim_y) + 1e-9
+    aim_cos, aim_sin = (ahead_x * aim_x + ahead_y * aim_y) / aim, (ahead_x * aim_y - ahead_y * aim_x) / aim
+    facing_cos = -(towards_x * dx + towards_y * dy) / distance
+    facing_sin = (towards_x * dy - towards_y * dx) / distance
+    inputs[k], inputs[k + 1] = whole(1.0), whole(1.0 if robot.team == me.team else 0.0)
+    inputs[k + 2], inputs[k + 3] = whole(distance / 800.0 - 1.0), whole(size)
+    inputs[k + 4] = whole((ahead_x * dx + ahead_y * dy) / distance)
+    inputs[k + 5] = whole((ahead_x * dy - ahead_y * dx) / distance)
+    inputs[k + 6], inputs[k + 7] = whole(in_sizes(aim_cos, aim_sin, size)), whole(aim_sin)
+    inputs[k + 8], inputs[k + 9] = whole(facing_cos), whole(facing_sin)
+    inputs[k + 10] = whole(in_sizes(facing_cos, facing_sin, size))
+    inputs[k + 11] = whole((senses.clears >> j) & 1)
+    inputs[k + 12], inputs[k + 13] = whole(tank.protected / 37.0), whole(1.0 if tank.knocked_out else 0.0)
+    inputs[k + 14] = whole((ahead_x * vx + ahead_y * vy) / 400.0)
+    inputs[k + 15] = whole((ahead_x * vy - ahead_y * vx) / 400.0)
+    inputs[k + 16] = whole(0.5 * (tank.lit + tank.bounty))
+
+
+@kernel
+def in_sizes(along: float, across: float, size: float) -> float:
+    """An angle in thirds of an angular size, from its cosine and sine; beyond a quarter turn the nearer limit."""
+    if along > 0.0:
+        return across / (3.0 * size)
+    return 1.0 if across > 0.0 else -1.0
+
+
+@kernel
+def encode_bullets(match: Any, seat: int, delay: float, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+    """The three bullets of opponents that pass soonest."""
+    me, speed = match.robots[seat], match.rules.bullet_speed
+    first, second, third = -1, -1, -1
+    first_in, second_in, third_in = SOON, SOON, SOON
+    for owner in range(ROBOTS):
+        if not match.robots[owner].present or match.robots[owner].team == me.team:
+            continue
+        for i in range(owner * OWN_BULLETS, (owner + 1) * OWN_BULLETS):
+            bullet = match.bullets[i]
+            if not bullet.alive:
+                continue
+            px, py = me.x - bullet.x, me.y - bullet.y
+            time = (px * bullet.vx + py * bullet.vy) / (speed * speed)
+            if time <= 0.0 or time >= third_in:
+                continue
+            side = (bullet.vx * py - bullet.vy * px) / speed
+            if side <= -PASSING or side >= PASSING:
+                continue
+            if time < first_in:
+                third, third_in, second, second_in, first, first_in = second, second_in, first, first_in, i, time
+            elif time < second_in:
+                third, third_in, second, second_in = second, second_in, i, time
+            else:
+                third, third_in = i, time
+    if first >= 0:
+        encode_bullet(match, me, first, first_in + delay, ahead_x, ahead_y, BULLETS, inputs)
+    if second >= 0:
+        encode_bullet(match, me, second, second_in + delay, ahead_x, ahead_y, BULLETS + 5, inputs)
+    if third >= 0:
+        encode_bullet(match, me, third, third_in + delay, ahead_x, ahead_y, BULLETS + 10, inputs)
+
+
+@kernel
+def encode_bullet(
+    match: Any, me: Any, i: int, seconds: float, ahead_x: float, ahead_y: float, k: int, inputs: Any
+) -> None:
+    """Bullet i, which passes in some seconds, from input k on."""
+    bullet, speed = match.bullets[i], match.rules.bullet_speed
+    side = (bullet.vx * (me.y - bullet.y) - bullet.vy * (me.x - bullet.x)) / speed
+    inputs[k], inputs[k + 1] = whole(1.0), whole(1.0 / (1.0 + 3.0 * seconds))
+    inputs[k + 2] = whole(side / 60.0)
+    inputs[k + 3] = whole(-(ahead_x * bullet.vx + ahead_y * bullet.vy) / speed)
+    inputs[k + 4] = whole(-(ahead_x * bullet.vy - ahead_y * bullet.vx) / speed)
+
+
+@kernel
+def encode_things(match: Any, seat: int, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+    """The nearest pick-up and the nearest mine of an opponent."""
+    me = match.robots[seat]
+    to_x, to_y, nearest2 = 0.0, 0.0, 1e18
+    for pickup in match.pickups:
+        dx, dy = pickup.x - me.x, pickup.y - me.y
+        if pickup.alive and dx * dx + dy * dy < nearest2:
+            to_x, to_y, nearest2 = dx, dy, dx * dx + dy * dy
+    if nearest2 < 1e18:
+        distance = sqrt(nearest2) + 1e-9
+        inputs[PICKUP] = whole((ahead_x * to_x + ahead_y * to_y) / distance)
+        inputs[PICKUP + 1] = whole((ahead_x * to_y - ahead_y * to_x) / distance)
+        inputs[PICKUP + 2] = whole(300.0 / (300.0 + distance))
+    nearest2 = MINE_NEAR * MINE_NEAR
+    for i in range(MINES):
+        mine = match.mines[i]
+        if mine.alive and match.robots[i // OWN_MINES].team != me.team:
+            dx, dy = mine.x - me.x, mine.y - me.y
+            if dx * dx + dy * dy < nearest2:
+                to_x, to_y, nearest2 = dx, dy, dx * dx + dy * dy
+    if nearest2 < MINE_NEAR * MINE_NEAR:
+        distance = sqrt(nearest2) + 1e-9
+        inputs[MINE] = whole((ahead_x * to_x + ahead_y * to_y) / distance)
+        inputs[MINE + 1] = whole((ahead_x * to_y - ahead_y * to_x) / distance)
+        inputs[MINE + 2] = whole(1.0 - distance / MINE_NEAR)
+
+
+@kernel
+def encode_room(match: Any, me: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+    """The room to drive in twelve directions, 30 degrees apart, clockwise from ahead."""
+    x, y = STEP * ahead_x, STEP * ahead_y
+    for ray in range(12):
+        free, to_x, to_y = 0, me.x, me.y
+        while free < STEPS:
+            to_x += x
+            to_y += y
+            if match.grid[node_at(to_x, to_y)] & BLOCKED:
+                break
+            free += 1
+        inputs[ROOM + ray] = whole(free / (0.5 * STEPS) - 1.0)
+        x, y = COS30 * x - SIN30 * y, SIN30 * x + COS30 * y
+
+
+@kernel
+def act(match: Any, seat: int, choices: Any) -> None:
+    """Stick and buttons from the choices of the four heads."""
+    set_action(match.actions[seat], choices[0] - 1.0, TURNS[choices[1]], choices[2], choices[3])
+
+
+ENCODING = Encoding("pitanks", GROUPS, HEADS, PiTanksSenses, encode, act)

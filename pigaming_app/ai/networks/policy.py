@@ -1,0 +1,217 @@
+"""Networks as brains: two hidden layers of 64 units, in whole numbers.
+
+Weights, inputs and activations are whole numbers in units of 1/256, so that sums are exact. What remains is arithmetic
+on single numbers, which IEEE 754 rounds alike everywhere: plain and compiled play agree to the last bit on every
+platform. The squashing function is Padé's approximation of tanh. A choice is drawn with a probability proportional to
+exp(sharpness * logit), where exp is (1 + x/64)**64.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from math import floor
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.networks.encoding import PERIOD, UNIT, Encoding
+from pigaming_app.sim.kernel import kernel, kernel_with_loops
+from pigaming_app.sim.record import dtype, record
+from pigaming_app.sim.rng import bell, seeded, uniform
+from pigaming_app.sim.world import HZ
+
+if TYPE_CHECKING:
+    from pigaming_app.ai.networks.layers import Layers
+
+HIDDEN = 64  # units of each hidden layer
+LOGIT = 1.0 / (UNIT * UNIT)  # 1 in sums
+DRAWN_FOR = HZ // 2  # ticks for which an aiming error lasts
+
+
+@dataclass(frozen=True)
+class Handicap:
+    """What makes a network weaker than it is. The default leaves it as strong as it can be."""
+
+    delay: float = 0.0  # s, age of the poses of others
+    error: float = 0.0  # rad, standard deviation of the bearing of others, redrawn every half second
+    sharpness: float = 1.0  # factor of the logits: below 1 it chooses less surely
+
+
+@cache
+def weights_record(size: int, outputs: int) -> type:
+    """The record of a compiled network's parameters."""
+    hints = {
+        "first": Annotated[list[float], size * HIDDEN, "f"],
+        "first_bias": Annotated[list[float], HIDDEN, "f"],
+        "second": Annotated[list[float], HIDDEN * HIDDEN, "f"],
+        "second_bias": Annotated[list[float], HIDDEN, "f"],
+        "last": Annotated[list[float], HIDDEN * outputs, "f"],
+        "last_bias": Annotated[list[float], outputs, "f"],
+    }
+    return record(type("NetworkWeights", (), {"__annotations__": hints, "__module__": __name__}))
+
+
+@cache
+def mind_record(encoding: Encoding) -> type:
+    """The record of a network's memory. Inputs, logits and choices are those of the last decision."""
+    hints = {
+        "senses": encoding.senses,
+        "wait": int,  # ticks until the next decision
+        "random": int,
+        "error": float,  # see Handicap
+        "sharpness": float,
+        "error_left": int,  # ticks until the aiming error is redrawn
+        "inputs": Annotated[list[float], encoding.size, "f"],
+        "hidden": Annotated[list[float], 2 * HIDDEN, "f"],  # scratch space of compiled code
+        "logits": Annotated[list[float], encoding.outputs, "f"],
+        "choices": Annotated[list[int], len(encoding.heads)],
+    }
+    return record(type("NetworkMind", (), {"__annotations__": hints, "__module__": __name__}))
+
+
+def _forward_loops(mind: Any, weights: Any) -> None:
+    """`forward` in compiled code: no sum over a row, so that the inner loops are vectorised as they stand."""
+    inputs, hidden, logits = mind.inputs, mind.hidden, mind.logits
+    size, outputs = len(inputs), len(logits)
+    for unit in range(HIDDEN):
+        hidden[unit] = weights.first_bias[unit]
+        hidden[HIDDEN + unit] = weights.second_bias[unit]
+    for unit in range(outputs):
+        logits[unit] = weights.last_bias[unit]
+    for i in range(size):
+        value = inputs[i]
+        if value != 0.0:
+            for unit in range(HIDDEN):
+                hidden[unit] += value * weights.first[i * HIDDEN + unit]
+    for unit in range(HIDDEN):
+        hidden[unit] = squash(hidden[unit])
+    for i in range(HIDDEN):
+        value = hidden[i]
+        for unit in range(HIDDEN):
+            hidden[HIDDEN + unit] += value * weights.second[i * HIDDEN + unit]
+    for unit in range(HIDDEN, 2 * HIDDEN):
+        hidden[unit] = squash(hidden[unit])
+    for i in range(HIDDEN):
+        value = hidden[HIDDEN + i]
+        for unit in range(outputs):
+            logits[unit] += value * weights.last[i * outputs + unit]
+
+
+@kernel
+def squash(total: float) -> float:
+    """A sum, bent by Padé's tanh x (27 + x^2) / (27 + 9 x^2) into whole units; here y = x / 3."""
+    y = total * (LOGIT / 3.0)
+    if y > 1.0:
+        y = 1.0
+    elif y < -1.0:
+        y = -1.0
+    square = y * y
+    return floor((square + 3.0) * y / (square * (3.0 / UNIT) + 1.0 / UNIT) + 0.5)
+
+
+@kernel_with_loops(_forward_loops)
+def forward(mind: Any, weights: Any) -> None:
+    """Fill in the logits from the inputs."""
+    mind.logits[:] = weights.logits(mind.inputs)
+
+
+@kernel
+def odds(logit: float, best: float, sharpness: float) -> float:
+    """exp(sharpness * (logit - best)), approximately, by arithmetic alone; logits as sums."""
+    x = 1.0 + sharpness * (logit - best) * LOGIT / 64.0
+    if x <= 0.0:
+        return 0.0
+    for _ in range(6):
+        x *= x
+    return x
+
+
+@kernel
+def draw(mind: Any, first: int, count: int) -> int:
+    """A choice of the head whose logits begin at `first`."""
+    best = mind.logits[first]
+    for i in range(1, count):
+        if mind.logits[first + i] > best:
+            best = mind.logits[first + i]
+    total = 0.0
+    for i in range(count):
+        total += odds(mind.logits[first + i], best, mind.sharpness)
+    left = uniform(mind) * total
+    for i in range(count):
+        left -= odds(mind.logits[first + i], best, mind.sharpness)
+        if left < 0.0:
+            return i
+    return count - 1
+
+
+@kernel
+def misjudge(mind: Any) -> None:
+    """Redraw the aiming error when its time is over."""
+    mind.error_left -= PERIOD
+    if mind.error_left <= 0:
+        mind.error_left = DRAWN_FOR
+        mind.senses.error = 2.0 * mind.error * bell(mind)
+
+
+@cache
+def make_think(encoding: Encoding) -> Callable[[Any, int, Any, Any], None]:
+    """The decision function of a game's networks."""
+    encode, act = encoding.encode, encoding.act
+    counts = tuple(choices for _, choices in encoding.heads)
+    heads = len(counts)
+
+    def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+        mind.wait -= 1
+        if mind.wait > 0:
+            return
+        mind.wait = PERIOD
+        if mind.error:
+            misjudge(mind)
+        encode(match, seat, mind.senses, mind.inputs)
+        forward(mind, weights)
+        first = 0
+        for head in range(heads):
+            mind.choices[head] = draw(mind, first, counts[head])
+            first += counts[head]
+        act(match, seat, mind.choices)
+
+    return kernel(think)
+
+
+class Policy:
+    """A network as the `weights` of a brain."""
+
+    def __init__(self, layers: "Layers") -> None:
+        self.layers = layers
+        self._row: Any = None
+
+    def __call__(self, fast: bool) -> Any:
+        """A row of one: the matrices, or (`fast`) a NumPy record of them."""
+        if not fast:
+            return [self.layers]
+        if self._row is None:
+            self._row = packed_layers(self.layers)
+        return self._row
+
+
+def packed_layers(layers: "Layers") -> Any:
+    """A row of one NumPy record with the parameters of a network."""
+    import numpy as np
+
+    size, outputs = len(layers.matrices[0]), layers.matrices[2].shape[1]
+    row = np.zeros(1, dtype(weights_record(size, outputs)))
+    for name, matrix, bias in zip(("first", "second", "last"), layers.matrices, layers.biases, strict=True):
+        row[name][0], row[f"{name}_bias"][0] = matrix.ravel(), bias
+    return row
+
+
+def network_brain(
+    name: str, encoding: Encoding, weights: Callable[[bool], Any], handicap: Handicap = Handicap()
+) -> BrainKind:
+    """A brain that plays by a network."""
+
+    def reset(mind: Any, seed: int) -> None:
+        mind.random, mind.sharpness, mind.error = seeded(seed), handicap.sharpness, handicap.error
+        mind.senses.delay = handicap.delay
+        mind.wait = 1 + int(uniform(mind) * PERIOD)
+
+    return BrainKind(name, mind_record(encoding), make_think(encoding), reset, weights)
