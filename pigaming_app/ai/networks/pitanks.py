@@ -18,7 +18,7 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import HEIGHT, HZ, ROBOTS, WIDTH
+from pigaming_app.sim.world import CELL, HEIGHT, HZ, ROBOTS, WIDTH
 
 GROUPS = (
     ("motion", 5),
@@ -155,7 +155,11 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
     inputs[WAY] = whole((ahead_x * dx + ahead_y * dy) / distance)
     inputs[WAY + 1] = whole((ahead_x * dy - ahead_y * dx) / distance)
     inputs[WAY + 2], inputs[WAY + 3] = whole(route.straight), whole(distance / 400.0)
-    inputs[WAY + 4] = whole(sqrt(target2) / 1600.0)
+    length = sqrt(target2)
+    if not route.straight:
+        steps = route.reach[node_at(me.x, me.y)]
+        length = CELL * steps if steps else 2.0 * length
+    inputs[WAY + 4] = whole(length / 1600.0 - 1.0)
 
 
 @kernel
