@@ -41,6 +41,9 @@ class Hyper:
         return self.entropy + (self.last_entropy - self.entropy) * share
 
 
+STANDARD = Hyper()
+
+
 class Network:
     """A network with two hidden layers, Padé's tanh, and Adam (arXiv:1412.6980).
 
@@ -185,11 +188,13 @@ class Learner:
         """
         orders = [self.random.permutation(len(data[0])) for _ in range(self.hyper.epochs)]
         estimating = threads.submit(self._estimate, data[0], data[4], orders, share)
-        entropy = self._improve(*data[:4], orders, share)
+        entropy = self._improve(data, orders, share)
         estimating.result()
         return entropy
 
-    def _improve(self, inputs: Any, choices: Any, before: Any, gains: Any, orders: list[Any], share: float) -> float:
+    def _improve(self, data: Sequence[Any], orders: list[Any], share: float) -> float:
+        """Improve the policy; returns its mean entropy."""
+        inputs, choices, before, gains, _ = data
         hyper, found = self.hyper, 0.0
         for order in orders:
             for first in range(0, len(order), hyper.minibatch):
@@ -209,6 +214,7 @@ class Learner:
         return found
 
     def _estimate(self, inputs: Any, returns: Any, orders: list[Any], share: float) -> None:
+        """Improve the value function."""
         for order in orders:
             for first in range(0, len(order), self.hyper.minibatch):
                 rows = order[first : first + self.hyper.minibatch]

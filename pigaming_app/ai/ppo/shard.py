@@ -24,7 +24,7 @@ from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled, kernel
 from pigaming_app.sim.record import packed
 from pigaming_app.sim.rng import MASK, uniform
-from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.sim.world import ROBOTS
 
 NOBODY, LEARNING = -1, -2  # families of a seat that no brain of the cast plays
 STARTS = 4  # prepared starts of every kind of match; all else that is random in it is drawn anew
@@ -257,9 +257,7 @@ class Shard:
         if key not in self._starts:
             rules = games()[task.game].variants[variant]
             teams = line_up.teams or rules.teams
-            one, two, three, four = (
-                Seat("off" if seat >= key[-1] else LEARNER, teams[seat]) for seat in range(ROBOTS)
-            )
+            one, two, three, four = (Seat("off" if seat >= key[-1] else LEARNER, teams[seat]) for seat in range(ROBOTS))
             setup = Setup(task.game, arena, (one, two, three, four), minutes, number, variant, rules.default_goal)
             self._starts[key] = new_matches([setup])
         return self._starts[key]

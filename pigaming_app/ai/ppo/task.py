@@ -10,7 +10,7 @@ LEARNER, POOL, OFF = "learner", "pool", "off"  # on a seat: the network in train
 
 
 class LineUp(NamedTuple):
-    """Who plays a kind of match, by seat, and in which teams. In every match the players move on by a random number of seats."""
+    """Who plays a kind of match, by seat, and in which teams; the players are moved on by a random number of seats."""
 
     share: int  # of the matches, relative to the other line-ups
     seats: tuple[str, ...]  # LEARNER, POOL, OFF or the name of a brain

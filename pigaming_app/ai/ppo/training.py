@@ -13,7 +13,7 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.learner import Hyper, Learner, advantages
+from pigaming_app.ai.ppo.learner import STANDARD, Hyper, Learner, advantages
 from pigaming_app.ai.ppo.shard import Experience, Shard
 from pigaming_app.ai.ppo.task import LineUp, Task
 
@@ -26,7 +26,7 @@ Gather = Callable[[Sequence[Any], Any, int], list[Experience]]  # policy, pool, 
 class Training:
     """A network in training."""
 
-    def __init__(self, task: Task, seed: int, updates: int, hyper: Hyper = Hyper()) -> None:
+    def __init__(self, task: Task, seed: int, updates: int, hyper: Hyper = STANDARD) -> None:
         """`updates`: of the whole training, over which hyper-parameters change. Raises ImportError without numba."""
         self.task, self.seed, self.planned, self.hyper = task, seed, updates, hyper
         sequence = np.random.SeedSequence(abs(seed))
