@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai.networks.encoding import UNIT
-from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHER, OTHERS, WAY
+from pigaming_app.ai.networks.pitanks import ENCODING, GUN, HABITS, OTHER, OTHERS, WAY
 from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.sim.kernel import kernel
@@ -16,7 +16,9 @@ from pigaming_app.sim.kernel import kernel
 POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
 CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of the training on
 SHAPING, SHAPED = 0.5, 0.6  # weight of the potential at the begin, and the share of the training in which it fades out
-SHOT, BLIND = 0.002, 0.05  # cost of a shot, and of one with nobody in the line of fire
+BLIND = 0.05  # cost of a shot with nobody in the line of fire
+THRIFTY, MOST_THRIFT = 0.4, 0.33  # share of matches in which a shot has a cost, and the highest
+LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
 WIN = 2.0  # reward of a win; a tie costs half of it
 PAIRS = (0, 1, 0, 1)
 
@@ -50,9 +52,16 @@ def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
         gains[..., POINTS]
         - care * gains[..., TAKEN]
         + shaping * gains[..., POTENTIAL]
-        - SHOT * gains[..., SHOTS]
+        - inputs[..., HABITS] / 3.0 * gains[..., SHOTS]
         - BLIND * (fired & blind)
     ).astype(np.float32)
+
+
+def habits(random: Any) -> dict[str, float]:
+    """How sparing of shots a network is in a match, and how late it sees others."""
+    thrift = random.random() * MOST_THRIFT if random.random() < THRIFTY else 0.0
+    delay = random.random() * LATEST if random.random() < LATE else 0.0
+    return {"thrift": thrift, "delay": delay}
 
 
 def duel(share: int, rival: str) -> LineUp:
@@ -82,5 +91,6 @@ TASK = Task(
     gauge=gauge,
     result=result,
     reward=reward,
+    habits=habits,
     rivals=("hand3", "q2", "classic"),
 )

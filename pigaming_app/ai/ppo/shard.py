@@ -241,6 +241,9 @@ class Shard:
             if name != OFF:
                 family = self._number if name == LEARNER else int(self.minds["family"][i, seat])
                 self.minds[f"mind{family}"]["random"][i, seat] = random.integers(MASK + 1)
+            if name in (LEARNER, POOL):
+                for field, value in self.task.habits(random).items():
+                    self.minds[f"mind{self._number}"]["senses"][field][i, seat] = value
 
     def _count_streams(self) -> None:
         """Number the learners' seats."""

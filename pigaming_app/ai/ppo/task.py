@@ -1,6 +1,6 @@
 """A task: a game as PPO learns it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -36,6 +36,7 @@ class Task:
     result: Callable[[Any, int], float]  # reward of the end of a match
     reward: Callable[[Any, Any, Any, float], Any]  # reward(gains (..., gauges), inputs, choices, share of training)
     rivals: tuple[str, ...]  # brains against which win rates are measured
+    habits: Callable[[Any], Mapping[str, float]]  # habits(generator): fields of a network's senses, for a whole match
     cut: float = 0.0  # probability that a match is replaced by a fresh one after each update
 
     @property
