@@ -149,7 +149,11 @@ def print_summary(found: Sequence[Row], summaries: dict[int, Summary]) -> None:
             f"of {len(found)} seeds; {100 * one.never:.1f} % of them never win (95 %: {100 * low:.1f} to "
             f"{100 * high:.1f}); {100 * one.reproduced:.1f} % are as published"
         )
-    print("\nreward 1 against reward 2: ahead in {ahead}, level in {level}, behind in {behind} seeds".format(**duels(found)))
+    print(
+        "\nreward 1 against reward 2: ahead in {ahead}, level in {level}, behind in {behind} seeds".format(
+            **duels(found)
+        )
+    )
 
 
 def duels(found: Sequence[Row]) -> dict[str, int]:
