@@ -34,9 +34,10 @@ def test_the_command_prints_every_seed_and_the_verdict(monkeypatch, capsys):
     printed = capsys.readouterr().out
     assert "percentile 50.0 of 2 seeds; 0.0 % of them never win" in printed
     assert "100.0 % of them never win" in printed
-    assert "ahead in 2, level in 0, behind in 0 seeds" in printed
+    assert "by wins against classic: ahead in 2, level in 0, behind in 0" in printed
+    assert "head to head: ahead in 2, level in 0, behind in 0 of 2 seeds" in printed
     monkeypatch.setattr("sys.argv", [*words, "--json"])
     assert reproduce_table.main() == 0
     told = json.loads(capsys.readouterr().out)
-    assert set(told) == {"set", "published", "summary", "duels", "seeds"}
+    assert set(told) == {"set", "published", "summary", "verdict", "seeds"}
     assert told["seeds"][1] == {"seed": 26, "one": [32, 68, 0], "two": [0, 100, 0], "duel": [75, 1, 24]}

@@ -4,8 +4,8 @@ RECIPES[1] and RECIPES[2] are the original's two reward tables. Every choice tha
 here, with our choice as default; the Lab edits the same fields. In two of them our default is not the paper's reading:
 
 - `in_sight`: its rewards are functions of two states and an action, and a state holds directions only, so its "line of
-  sight" is the direction of the opponent with the closest wall elsewhere: 0. Ours is 1, a free line between the robots,
-  or shots into any wall but the closest would be rewarded.
+  sight" is the direction of the opponent with the closest wall elsewhere: 0. Ours is 1, a free line between the robots
+  as well, so that shots into the other walls earn nothing.
 - `exposure`: its opponent "was not behind but gets behind": 0. Ours is 1: a wall that stops covering the robot's back
   counts, too, so that each spell of danger costs once, however it begins.
 
@@ -58,8 +58,8 @@ class Recipe:
     behind: float = -1.0  # exposed: the opponent behind, and the closest wall in another direction
     behind_from: int = 4  # first and last sector that count as behind; the thesis: "between 4 and 12", so 4 and 12,
     behind_to: int = 12  # or 5 and 11
-    exposure: int = 1  # `behind` when the robot was 1: not exposed before; 0, the thesis: not having it behind before
-    behind_always: int = 0  # 0, the thesis's agent 1: only at that moment; 1, agent 2: at every decision in exposure
+    exposure: int = 1  # `behind` where exposure begins: 1: however; 0, the thesis: as the opponent gets behind
+    behind_always: int = 0  # 0, the thesis's agent 1: only then; 1, agent 2: at every decision in exposure
     still: float = 0.0  # no linear command
     gamma: float = 0.6  # discount per decision
     ceiling: int = 100_000  # experiences, of both robots, over which the temperature falls
