@@ -36,6 +36,9 @@ class Handicap:
     sharpness: float = 1.0  # factor of the logits: below 1 it chooses less surely
 
 
+NO_HANDICAP = Handicap()
+
+
 @cache
 def weights_record(size: int, outputs: int) -> type:
     """The record of a compiled network's parameters."""
@@ -205,7 +208,7 @@ def packed_layers(layers: "Layers") -> Any:
 
 
 def network_brain(
-    name: str, encoding: Encoding, weights: Callable[[bool], Any], handicap: Handicap = Handicap()
+    name: str, encoding: Encoding, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
 ) -> BrainKind:
     """A brain that plays by a network."""
 
