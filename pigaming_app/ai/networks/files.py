@@ -4,8 +4,8 @@ Weights and biases are int16 in units of 1/256. The head holds what the training
 the hash of the engine, and a handicap: a level is a network with a handicap.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cache
 from itertools import pairwise
 from math import isfinite
@@ -16,6 +16,7 @@ from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, unpack, ve
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, Handicap, Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.ai.networks.thoughts import make_explain
 from pigaming_app.games.engine_hash import engine_hash
 
 FORMAT = "pigaming-network-1"
@@ -94,7 +95,15 @@ def decode(raw: bytes, name: str) -> TrainedNetwork:
 
 def brain_of(trained: TrainedNetwork) -> BrainKind:
     """The brain that plays by a network, with its handicap."""
-    return network_brain(trained.name, ENCODINGS[trained.game], policy_of(trained), trained.handicap)
+    return explained_brain(trained.name, trained.game, policy_of(trained), trained.handicap)
+
+
+def explained_brain(
+    name: str, game: str, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
+) -> BrainKind:
+    """A brain by a network of a game, with its explanation."""
+    encoding = ENCODINGS[game]
+    return replace(network_brain(name, encoding, weights, handicap), explain=make_explain(encoding))
 
 
 def policy_of(trained: TrainedNetwork) -> Policy:
@@ -118,7 +127,7 @@ def shipped_brain(name: str, game: str, file: str, handicap: Handicap = NO_HANDI
     def policy() -> Policy:
         return policy_of(shipped(file))
 
-    return network_brain(name, ENCODINGS[game], lambda fast: policy()(fast), handicap)
+    return explained_brain(name, game, lambda fast: policy()(fast), handicap)
 
 
 def _trained(head: Mapping[str, Any], arrays: Mapping[str, Any]) -> TrainedNetwork:
