@@ -51,7 +51,7 @@ def read_brain(game: str, path: str) -> BrainKind:
 def _read(game: str, path: str) -> BrainKind:
     file = Path(path)
     if file.suffix.lower() == ONNX:
-        return onnx_files.decode(read(file, onnx_files.MAX_BYTES), file.name, game)
+        return onnx_files.read_model(file, game)
     raw = read(file, table_files.MAX_BYTES)
     parts = names(raw)
     if parts == network_files.PARTS.keys():

@@ -6,9 +6,10 @@ or one output a head, (1, choices), in the order of the heads.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
-from pigaming_app.ai.brain.archive import BrainFileError
+from pigaming_app.ai.brain.archive import BrainFileError, read
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import UNIT, Encoding
 from pigaming_app.ai.networks.policy import network_brain
@@ -60,21 +61,23 @@ class OnnxPolicy:
         return [self.logits(row) for row in rows]
 
 
-def decode(raw: bytes, name: str, game: str) -> BrainKind:
-    """The brain of a model that plays a game. Raises BrainFileError, whose message begins with the name."""
+def read_model(path: Path, game: str) -> BrainKind:
+    """The brain of a model that plays a game. Raises BrainFileError, whose message begins with the file's name."""
+    name = path.name
+    read(path, MAX_BYTES)
     try:
         encoding = ENCODINGS.get(game)
         if encoding is None:
             raise BrainFileError(f"networks play {', '.join(ENCODINGS)}, not {game}")
-        row = [OnnxPolicy(encoding, _session(raw))]
+        row = [OnnxPolicy(encoding, _session(path))]
     except BrainFileError as error:
         raise BrainFileError(f"{name}: {error}") from None
     kind = network_brain(name, encoding, lambda fast: row)
     return replace(kind, explain=make_explain(encoding), plain=True)
 
 
-def _session(raw: bytes) -> Any:
-    """A model in memory, on one thread. Raises BrainFileError."""
+def _session(path: Path) -> Any:
+    """A model on one thread; its weights may lie in a file beside it. Raises BrainFileError."""
     try:
         import onnxruntime
     except ImportError:
@@ -84,7 +87,7 @@ def _session(raw: bytes) -> Any:
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     options.log_severity_level = SILENT
     try:
-        return onnxruntime.InferenceSession(raw, options, providers=["CPUExecutionProvider"])
+        return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
     except Exception:  # onnxruntime raises many kinds of exceptions for damaged files
         raise BrainFileError("not an ONNX model, or damaged, or of a newer version than onnxruntime") from None
 
