@@ -31,6 +31,11 @@ class Screenshot:
         self.view.watch(self.match.state)
         self.view.draw(self.screen, self.match.state, 1.0, DT)
 
+    def pixels(self) -> bytes:
+        """The current state of the match: rows of pixels from the top, three bytes each, red, green, blue."""
+        self.view.draw(self.screen, self.match.state, 1.0, 0.0)
+        return pygame.image.tobytes(self.screen, "RGB")
+
     def picture(self, path: Path) -> None:
         """Save the current state of the match as a PNG file. Raises NotSaved."""
         self.view.draw(self.screen, self.match.state, 1.0, 0.0)
