@@ -50,6 +50,7 @@ class RaceSenses:
 
     delay: float  # s, age of the poses of others
     error: float  # rad by which others appear beside where they are
+    thrift: float  # as in PiTanks; there are no shots here
     aside: float  # px right of the middle of the course
     past: float  # px past the next line; negative: before it
     return_x: float  # waypoint on the way back before that line
