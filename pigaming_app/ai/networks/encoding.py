@@ -26,7 +26,7 @@ class Encoding:
     game: str
     groups: tuple[tuple[str, int], ...]  # names and lengths of the groups of inputs, in order
     heads: tuple[tuple[str, int], ...]  # names and numbers of choices, in order
-    senses: type  # record: parameters of the observation, and memory between decisions; has `delay` and `error`
+    senses: type  # record: parameters of the observation, and memory between decisions; has `delay`, `error`, `thrift`
     encode: Callable[[Any, int, Any, Any], None]
     act: Callable[[Any, int, Any], None]
 

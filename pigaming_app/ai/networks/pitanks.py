@@ -1,4 +1,4 @@
-"""PiTanks as a network sees it: 120 inputs, and four heads of choices.
+"""PiTanks as a network sees it: 122 inputs, and four heads of choices.
 
 Directions are given as cosine and sine relative to the own heading. The other robots are sorted by how much they matter
 now, so that the first of them is nearly always the one to fight. Aiming errors are measured in angular sizes of the
@@ -18,7 +18,7 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import HEIGHT, HZ, ROBOTS, WIDTH
+from pigaming_app.sim.world import CELL, HEIGHT, HZ, ROBOTS, WIDTH
 
 GROUPS = (
     ("motion", 5),
@@ -35,9 +35,10 @@ GROUPS = (
     ("mine", 3),
     ("room", 12),
     ("rules", 4),
+    ("habits", 2),
 )
-MOTION, GUN, POWERS, SCORE, PLACE, WAY, OTHERS, PICKUP, BULLETS, MINE, ROOM, RULES, SIZE = (
-    0, 5, 9, 15, 23, 27, 32, 83, 86, 101, 104, 116, 120
+MOTION, GUN, POWERS, SCORE, PLACE, WAY, OTHERS, PICKUP, BULLETS, MINE, ROOM, RULES, HABITS, SIZE = (
+    0, 5, 9, 15, 23, 27, 32, 83, 86, 101, 104, 116, 120, 122
 )  # first input of each group  # fmt: skip
 OTHER = 17  # inputs for each of the others
 HEADS = (("drive", 3), ("turn", 7), ("fire", 2), ("turbo", 2))
@@ -58,6 +59,7 @@ class PiTanksSenses:
 
     delay: float  # s, age of the poses of others
     error: float  # rad by which others appear beside where they are
+    thrift: float  # cost of a shot, in points, that it has in mind
     clears: int  # bit j: robot j is in the line of fire
     route: Route
 
@@ -70,6 +72,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
     me = match.robots[seat]
     ahead_x, ahead_y = cos(me.heading), sin(me.heading)
     encode_self(match, seat, inputs)
+    inputs[HABITS], inputs[HABITS + 1] = whole(3.0 * senses.thrift), whole(2.0 * senses.delay)
     inputs[PLACE] = whole(2.0 * me.x / WIDTH - 1.0)
     inputs[PLACE + 1] = whole(2.0 * me.y / HEIGHT - 1.0)
     inputs[PLACE + 2], inputs[PLACE + 3] = whole(ahead_x), whole(ahead_y)
@@ -155,7 +158,11 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
     inputs[WAY] = whole((ahead_x * dx + ahead_y * dy) / distance)
     inputs[WAY + 1] = whole((ahead_x * dy - ahead_y * dx) / distance)
     inputs[WAY + 2], inputs[WAY + 3] = whole(route.straight), whole(distance / 400.0)
-    inputs[WAY + 4] = whole(sqrt(target2) / 1600.0)
+    length = sqrt(target2)
+    if not route.straight:
+        steps = route.reach[node_at(me.x, me.y)]
+        length = CELL * steps if steps else 2.0 * length
+    inputs[WAY + 4] = whole(length / 1600.0 - 1.0)
 
 
 @kernel

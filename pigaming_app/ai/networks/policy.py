@@ -34,6 +34,7 @@ class Handicap:
     delay: float = 0.0  # s, age of the poses of others
     error: float = 0.0  # rad, standard deviation of the bearing of others, redrawn every half second
     sharpness: float = 1.0  # factor of the logits: below 1 it chooses less surely
+    thrift: float = 0.0  # cost of a shot that it has in mind, in points
 
 
 @cache
@@ -211,7 +212,7 @@ def network_brain(
 
     def reset(mind: Any, seed: int) -> None:
         mind.random, mind.sharpness, mind.error = seeded(seed), handicap.sharpness, handicap.error
-        mind.senses.delay = handicap.delay
+        mind.senses.delay, mind.senses.thrift = handicap.delay, handicap.thrift
         mind.wait = 1 + int(uniform(mind) * PERIOD)
 
     return BrainKind(name, mind_record(encoding), make_think(encoding), reset, weights)

@@ -1,0 +1,223 @@
+"""Proximal policy optimisation (Schulman et al., arXiv:1707.06347, 2017) in NumPy, with generalised advantages
+(arXiv:1506.02438). Policy and value function are separate networks with two hidden layers each.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pigaming_app.ai.networks.policy import HIDDEN
+
+F = np.float32
+SLOPE, SMOOTHNESS, TINY = F(0.1), F(0.001), F(1e-5)  # Adam: 1 - beta1, 1 - beta2, epsilon
+
+
+@dataclass(frozen=True)
+class Hyper:
+    """Hyper-parameters. Those that change in the course of a training are given for its begin and its end."""
+
+    matches: int = 256
+    decisions: int = 60  # of every stream between two updates
+    epochs: int = 2
+    minibatch: int = 2048
+    rate: float = 1e-3
+    last_rate: float = 1e-4
+    entropy: float = 0.01
+    last_entropy: float = 0.0015
+    clip: float = 0.2
+    discount: float = 0.99  # gamma
+    trace: float = 0.95  # lambda
+    steepest: float = 0.5  # limit of the gradient's norm
+
+    def rate_at(self, share: float) -> float:
+        """The learning rate after a share of the training."""
+        return self.rate + (self.last_rate - self.rate) * share
+
+    def entropy_at(self, share: float) -> float:
+        """The weight of the entropy after a share of the training."""
+        return self.entropy + (self.last_entropy - self.entropy) * share
+
+
+STANDARD = Hyper()
+
+
+class Network:
+    """A network with two hidden layers, Padé's tanh, and Adam (arXiv:1412.6980).
+
+    `weights`: three float32 matrices (inputs + 1, units); the last row holds the biases.
+    """
+
+    def __init__(self, inputs: int, outputs: int, gain: float, random: np.random.Generator) -> None:
+        """Orthogonal weights; `gain`: of the last layer."""
+        sizes = ((inputs, HIDDEN, 1.4), (HIDDEN, HIDDEN, 1.4), (HIDDEN, outputs, gain))
+        self.weights = [_orthogonal(*size, random) for size in sizes]
+        self.means = [np.zeros_like(matrix) for matrix in self.weights]
+        self.squares = [np.zeros_like(matrix) for matrix in self.weights]
+        self.steps = 0
+        self._trail: list[tuple[Any, Any]] = []
+
+    def forward(self, x: Any) -> Any:
+        """The outputs (n, outputs) for inputs (n, inputs)."""
+        self._trail = []
+        for matrix in self.weights[:-1]:
+            y = x @ matrix[:-1]
+            y += matrix[-1]
+            y *= F(1 / 3)
+            np.clip(y, F(-1), F(1), out=y)
+            square = y * y
+            below = F(3) * square
+            below += F(1)
+            self._trail.append((x, (square, below)))
+            x = y
+            x *= square + F(3)
+            x /= below
+        self._trail.append((x, None))
+        outputs = x @ self.weights[-1][:-1]
+        outputs += self.weights[-1][-1]
+        return outputs
+
+    def gradient(self, slopes: Any) -> list[Any]:
+        """The gradient of a loss by the weights, from its derivative by the outputs of the last `forward`."""
+        gradients: list[Any] = []
+        for matrix, (x, bend) in zip(reversed(self.weights), reversed(self._trail), strict=True):
+            if bend is not None:
+                square, below = bend  # dx/dy / 3 = ((1 - y^2) / (1 + 3 y^2))^2, 0 where y was clipped to 1
+                square -= F(1)
+                square /= below
+                square *= square
+                slopes *= square
+            gradients.append(np.vstack([x.T @ slopes, slopes.sum(0)]))
+            if len(gradients) < len(self.weights):
+                slopes = slopes @ matrix[:-1].T
+        return gradients[::-1]
+
+    def descend(self, gradients: Sequence[Any], rate: float, steepest: float) -> None:
+        """One step of Adam."""
+        norm = float(np.sqrt(sum(float((gradient * gradient).sum()) for gradient in gradients)))
+        scale = F(min(1.0, steepest / (norm + 1e-8)))
+        self.steps += 1
+        step = F(rate * np.sqrt(1.0 - 0.999**self.steps) / (1.0 - 0.9**self.steps))
+        for matrix, gradient, mean, square in zip(self.weights, gradients, self.means, self.squares, strict=True):
+            gradient *= scale
+            mean += SLOPE * (gradient - mean)
+            square += SMOOTHNESS * (gradient * gradient - square)
+            matrix -= step * mean / (np.sqrt(square) + TINY)
+
+    def state(self) -> list[Any]:
+        """Weights and moments, for `restore`."""
+        return [*self.weights, *self.means, *self.squares, np.array(self.steps)]
+
+    def restore(self, state: Sequence[Any]) -> None:
+        """Continue from the result of `state`."""
+        count = len(self.weights)
+        self.weights, self.means, self.squares = (
+            [np.array(one) for one in state[k * count : (k + 1) * count]] for k in range(3)
+        )
+        self.steps = int(state[-1])
+
+
+def _orthogonal(inputs: int, outputs: int, gain: float, random: np.random.Generator) -> Any:
+    square = np.linalg.qr(random.normal(size=(max(inputs, outputs), min(inputs, outputs))))[0]
+    matrix = gain * (square if inputs >= outputs else square.T)
+    return np.vstack([matrix, np.zeros((1, outputs))]).astype(F)
+
+
+def advantages(rewards: Any, values: Any, valid: Any, over: Any, discount: float, trace: float) -> Any:
+    """Generalised advantages (T, S) of `rewards` (T, S); `values` (T + 1, S).
+
+    A match that is `over` (S,) has no value after its last valid decision.
+    """
+    decisions = len(rewards)
+    result, ahead = np.zeros_like(rewards), np.zeros_like(rewards[0])
+    last = valid.sum(0) - 1
+    for t in range(decisions - 1, -1, -1):
+        goes_on = np.where(over & (last == t), F(0), F(1))
+        surprise = rewards[t] + F(discount) * goes_on * values[t + 1] - values[t]
+        ahead = np.where(valid[t], surprise + F(discount * trace) * goes_on * ahead, F(0))
+        result[t] = ahead
+    return result
+
+
+def policy_slopes(
+    logits: Any, counts: Sequence[int], choices: Any, before: Any, gains: Any, clip: float, entropy: float
+) -> tuple[Any, float]:
+    """Derivative of the clipped objective less the entropy's share by the logits (n, outputs), and mean entropy.
+
+    `before`: (n,) log odds of the choices when they were made; `gains`: (n,) advantages.
+    """
+    rows, first, total = np.arange(len(logits)), 0, np.zeros(len(logits), F)
+    odds, logs = np.empty_like(logits), np.empty_like(logits)
+    for head, count in enumerate(counts):
+        part = logits[:, first : first + count]
+        part = part - part.max(1, keepdims=True)
+        powers = np.exp(part)
+        sums = powers.sum(1, keepdims=True)
+        odds[:, first : first + count] = powers / sums
+        logs[:, first : first + count] = part - np.log(sums)
+        total += logs[rows, first + choices[:, head]]
+        first += count
+    ratio = np.exp(total - before)
+    clipped = ((gains > 0) & (ratio > 1 + clip)) | ((gains < 0) & (ratio < 1 - clip))
+    pull = np.where(clipped, F(0), -gains * ratio / F(len(logits))).astype(F)[:, None]
+    slopes, first, mean = -pull * odds, 0, 0.0
+    for head, count in enumerate(counts):
+        slopes[rows, first + choices[:, head]] += pull[:, 0]
+        part, log = odds[:, first : first + count], logs[:, first : first + count]
+        disorder = -(part * log).sum(1, keepdims=True)
+        mean += float(disorder.mean())
+        slopes[:, first : first + count] += F(entropy / len(logits)) * part * (log + disorder)
+        first += count
+    return slopes, mean
+
+
+class Learner:
+    """Policy and value function, and their updates."""
+
+    def __init__(self, inputs: int, counts: Sequence[int], hyper: Hyper, random: np.random.Generator) -> None:
+        self.counts, self.hyper, self.random = tuple(counts), hyper, random
+        self.policy = Network(inputs, sum(counts), 0.01, random)
+        self.value = Network(inputs, 1, 1.0, random)
+
+    def update(self, data: Sequence[Any], share: float, threads: Executor) -> float:
+        """Improve both networks on a set of decisions; returns the mean entropy of the policy.
+
+        `data`: inputs (n, inputs), choices (n, heads), log odds (n,), advantages (n,), returns (n,).
+        """
+        orders = [self.random.permutation(len(data[0])) for _ in range(self.hyper.epochs)]
+        estimating = threads.submit(self._estimate, data[0], data[4], orders, share)
+        entropy = self._improve(data, orders, share)
+        estimating.result()
+        return entropy
+
+    def _improve(self, data: Sequence[Any], orders: list[Any], share: float) -> float:
+        """Improve the policy; returns its mean entropy."""
+        inputs, choices, before, gains, _ = data
+        hyper, found = self.hyper, 0.0
+        for order in orders:
+            for first in range(0, len(order), hyper.minibatch):
+                rows = order[first : first + hyper.minibatch]
+                gain = gains[rows]
+                gain = (gain - gain.mean()) / (gain.std() + F(1e-8))
+                slopes, found = policy_slopes(
+                    self.policy.forward(inputs[rows]),
+                    self.counts,
+                    choices[rows],
+                    before[rows],
+                    gain,
+                    hyper.clip,
+                    hyper.entropy_at(share),
+                )
+                self.policy.descend(self.policy.gradient(slopes), hyper.rate_at(share), hyper.steepest)
+        return found
+
+    def _estimate(self, inputs: Any, returns: Any, orders: list[Any], share: float) -> None:
+        """Improve the value function."""
+        for order in orders:
+            for first in range(0, len(order), self.hyper.minibatch):
+                rows = order[first : first + self.hyper.minibatch]
+                errors = self.value.forward(inputs[rows])[:, 0] - returns[rows]
+                slopes = (errors / F(len(rows)))[:, None]
+                self.value.descend(self.value.gradient(slopes), self.hyper.rate_at(share), self.hyper.steepest)

@@ -1,0 +1,96 @@
+"""PiTanks as PPO learns it: duels, free-for-alls and pairs under every rule set, on five arenas.
+
+Hits count as points; hits taken count little at first, so that the network learns to fight before it learns to hide.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.ai.networks.pitanks import ENCODING, GUN, HABITS, OTHER, OTHERS, WAY
+from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
+from pigaming_app.games.pitanks.scoring import lead
+from pigaming_app.sim.kernel import kernel
+
+POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
+CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of the training on
+SHAPING, SHAPED = 0.5, 0.6  # weight of the potential at the begin, and the share of the training in which it fades out
+BLIND = 0.05  # cost of a shot with nobody in the line of fire
+THRIFTY, MOST_THRIFT = 0.4, 0.33  # share of matches in which a shot has a cost, and the highest
+LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
+WIN = 2.0  # reward of a win; a tie costs half of it
+PAIRS = (0, 1, 0, 1)
+
+
+@kernel
+def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
+    """Points made, hits taken, shots, and how well the first of the others can be fought."""
+    tank = match.tanks[seat]
+    gauges[POINTS] = match.robots[seat].score + match.rules.penalty * tank.taken
+    gauges[TAKEN], gauges[SHOTS] = tank.taken, tank.shots
+    clear, towards, length = inputs[OTHERS + 11] / UNIT, inputs[OTHERS + 4] / UNIT, inputs[WAY + 4] / UNIT
+    gauges[POTENTIAL] = clear * (0.5 * towards + 0.3) - 0.8 * length
+
+
+@kernel
+def result(match: Any, seat: int) -> float:
+    """Reward of the end of a match."""
+    ahead = lead(match, seat)
+    return WIN if ahead > 0 else -WIN if ahead < 0 else -0.5 * WIN
+
+
+def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
+    """Rewards (T, S) of the decisions."""
+    care = min(FULL_CARE, CARE + (FULL_CARE - CARE) * share / 0.5)
+    shaping = SHAPING * max(0.0, 1.0 - share / SHAPED)
+    blind = np.ones(gains.shape[:2], bool)
+    for k in range(OTHERS, OTHERS + 3 * OTHER, OTHER):  # an opponent in the line of fire
+        blind &= (inputs[..., k + 11] <= 0) | (inputs[..., k + 1] > 0)
+    fired = (choices[..., 2] == 1) & (inputs[..., GUN] < 0.15)
+    return (
+        gains[..., POINTS]
+        - care * gains[..., TAKEN]
+        + shaping * gains[..., POTENTIAL]
+        - inputs[..., HABITS] / 3.0 * gains[..., SHOTS]
+        - BLIND * (fired & blind)
+    ).astype(np.float32)
+
+
+def habits(random: Any) -> dict[str, float]:
+    """How sparing of shots a network is in a match, and how late it sees others."""
+    thrift = random.random() * MOST_THRIFT if random.random() < THRIFTY else 0.0
+    delay = random.random() * LATEST if random.random() < LATE else 0.0
+    return {"thrift": thrift, "delay": delay}
+
+
+def duel(share: int, rival: str) -> LineUp:
+    """The learner against one rival."""
+    return LineUp(share, (LEARNER, rival, OFF, OFF))
+
+
+TASK = Task(
+    encoding=ENCODING,
+    arenas=("classic", "courtyard", "islands", "labyrinth", "labyrinth", "trenches"),
+    variants=("pickups", "pickups", "party", "plain", "classic", "original"),
+    minutes=(2.0,),
+    line_ups=(
+        duel(4, "hand3"),
+        duel(1, "hand2"),
+        duel(2, "classic"),
+        duel(1, "idle"),
+        duel(1, "q1"),
+        duel(1, "q2"),
+        duel(3, LEARNER),
+        duel(2, POOL),
+        LineUp(1, (LEARNER, "hand3", "hand3", "hand3")),
+        LineUp(1, (LEARNER, LEARNER, POOL, "hand3")),
+        LineUp(1, (LEARNER, "hand3", LEARNER, "hand3"), PAIRS),
+    ),
+    gauges=("points", "taken", "shots", "potential"),
+    gauge=gauge,
+    result=result,
+    reward=reward,
+    habits=habits,
+    rivals=("hand3", "q2", "classic"),
+)

@@ -1,0 +1,297 @@
+"""Matches in which a network gathers experience, played by one compiled loop.
+
+The matches of a training are divided into shards with random generators of their own. What a shard plays depends only
+on its state and on the policy, so shards may be played in any order, in threads, processes or on other machines.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from math import exp, log
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from pigaming_app.ai.experiments.cast import Cast, dispatcher, family_of
+from pigaming_app.ai.networks.encoding import PERIOD, UNIT
+from pigaming_app.ai.networks.layers import Layers
+from pigaming_app.ai.networks.policy import HIDDEN, Policy, network_brain
+from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
+from pigaming_app.ai.registry import BRAINS
+from pigaming_app.games.batch import matches as new_matches
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
+from pigaming_app.sim.contact import drive
+from pigaming_app.sim.kernel import compiled, kernel
+from pigaming_app.sim.record import packed
+from pigaming_app.sim.rng import MASK, uniform
+from pigaming_app.sim.world import ROBOTS
+
+NOBODY, LEARNING = -1, -2  # families of a seat that no brain of the cast plays
+STARTS = 4  # prepared starts of every kind of match; all else that is random in it is drawn anew
+MINDS = 8  # prepared minds of every brain
+
+
+class Experience(NamedTuple):
+    """What a shard has played: T decisions in S streams. A stream is a seat with the learner."""
+
+    inputs: Any  # (T + 1, S, inputs) float32; the last row is the situation after the last decision
+    choices: Any  # (T, S, heads) int64
+    log_odds: Any  # (T, S) float32, logarithm of the probability of the choices
+    gauges: Any  # (T + 1, S, gauges) float32
+    valid: Any  # (T, S) bool; False after the end of a match
+    over: Any  # (S,) bool; the match has ended
+    results: Any  # (S,) float32, reward of its end
+
+
+@kernel
+def bend(values: Any, first: int, count: int) -> None:
+    """Padé's tanh in single precision."""
+    for i in range(first, first + count):
+        y = values[i] * np.float32(1.0 / 3.0)
+        y = min(max(y, np.float32(-1.0)), np.float32(1.0))
+        square = y * y
+        values[i] = y * (square + np.float32(3.0)) / (np.float32(3.0) * square + np.float32(1.0))
+
+
+@kernel
+def multiply(x: Any, first: int, count: int, matrix: Any, out: Any, to: int, units: int) -> None:
+    """out[to:to + units] = x[first:first + count] @ matrix[:-1] + matrix[-1], without sums over rows."""
+    for unit in range(units):
+        out[to + unit] = matrix[count, unit]
+    for i in range(count):
+        value = x[first + i]
+        if value != 0.0:
+            for unit in range(units):
+                out[to + unit] += value * matrix[i, unit]
+
+
+@kernel
+def sample(logits: Any, first: int, count: int, mind: Any) -> tuple[int, float]:
+    """A choice of one head and the logarithm of its probability."""
+    best = logits[first]
+    for i in range(1, count):
+        if logits[first + i] > best:
+            best = logits[first + i]
+    total = 0.0
+    for i in range(count):
+        total += exp(logits[first + i] - best)
+    left, choice = uniform(mind) * total, count - 1
+    for i in range(count):
+        left -= exp(logits[first + i] - best)
+        if left < 0.0:
+            choice = i
+            break
+    return choice, logits[first + choice] - best - log(total)
+
+
+def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable[..., None]:
+    """A loop in which the learners of all matches decide and the others think.
+
+    `field`: that of the networks' minds in a seat's mind.
+    """
+    judge, encode, act = games()[task.game].judge, task.encoding.encode, task.encoding.act
+    gauge, result = task.gauge, task.result
+    size, outputs = task.encoding.size, task.encoding.outputs
+    counts = tuple(choices for _, choices in task.encoding.heads)
+    heads = len(counts)
+
+    def collect(
+        matches: Any,
+        minds: Any,
+        weights: Any,
+        streams: Any,
+        first_layer: Any,
+        second_layer: Any,
+        last_layer: Any,
+        inputs: Any,
+        choices: Any,
+        log_odds: Any,
+        gauges: Any,
+        valid: Any,
+        over: Any,
+        results: Any,
+    ) -> None:
+        hidden, logits = np.zeros(2 * HIDDEN, np.float32), np.zeros(outputs, np.float32)
+        decisions = len(choices)
+        for i in range(len(matches)):
+            match, seated = matches[i], minds[i]
+            for t in range(decisions + 1):
+                for seat in range(ROBOTS):
+                    s = streams[i, seat]
+                    if s < 0 or (match.over and t > 0 and not valid[t - 1, s]):
+                        continue
+                    mind, x = getattr(seated[seat], field), inputs[t, s]
+                    encode(match, seat, mind.senses, x)
+                    gauge(match, seat, x, gauges[t, s])
+                    for k in range(size):
+                        x[k] *= np.float32(1.0 / UNIT)
+                    if match.over:
+                        over[s], results[s] = True, result(match, seat)
+                        continue
+                    if t == decisions:
+                        continue
+                    multiply(x, 0, size, first_layer, hidden, 0, HIDDEN)
+                    bend(hidden, 0, HIDDEN)
+                    multiply(hidden, 0, HIDDEN, second_layer, hidden, HIDDEN, HIDDEN)
+                    bend(hidden, HIDDEN, HIDDEN)
+                    multiply(hidden, HIDDEN, HIDDEN, last_layer, logits, 0, outputs)
+                    first = 0
+                    for head in range(heads):
+                        choice, odds = sample(logits, first, counts[head], mind)
+                        choices[t, s, head] = choice
+                        log_odds[t, s] += odds
+                        first += counts[head]
+                    valid[t, s] = True
+                    act(match, seat, choices[t, s])
+                if t < decisions:
+                    for _ in range(PERIOD):
+                        if match.over:
+                            break
+                        for seat in range(ROBOTS):
+                            if streams[i, seat] < 0:
+                                think(match, seat, seated[seat], weights)
+                        judge(match)
+                        drive(match)
+
+    return collect
+
+
+@cache
+def compiled_collect(task: Task, families: Any, field: str) -> Callable[..., None]:
+    """The compiled loop of a task, cached. Raises ImportError without numba."""
+    return compiled(make_collect(task, dispatcher(families), field))
+
+
+class Shard:
+    """Some matches of a training, with their random generator."""
+
+    def __init__(self, task: Task, line_ups: Sequence[LineUp], seed: int) -> None:
+        """One match for each of `line_ups`. Raises ArenaError; ImportError without numba."""
+        self.task, self.line_ups = task, tuple(line_ups)
+        self.random = np.random.default_rng(seed)
+        self.cast, self.network = cast_of(task)
+        self._number = self.cast.families.index(family_of(self.network))
+        self._starts: dict[Any, Any] = {}
+        self._minds = {name: self._prepared(name) for name in brains_of(task)}
+        count = len(self.line_ups)
+        self.matches: Any = np.repeat(self._start(self.line_ups[0]), count)
+        self.minds: Any = np.zeros((count, ROBOTS), self._nobody.dtype)
+        self.streams: Any = np.full((count, ROBOTS), -1)
+        for i in range(count):
+            self._begin(i, pool=1)
+            ticks = int(self.matches["rules"]["ticks"][i])
+            self.matches["tick"][i] = self.random.integers(max(1, ticks))  # so that not all end at the same time
+        self._count_streams()
+
+    def collect(self, policy: Sequence[Any], pool: Any, decisions: int) -> Experience:
+        """Play `decisions` decisions and begin the matches that have ended anew.
+
+        `policy`: three float32 matrices whose last rows are the biases. `pool`: earlier copies as a row of weights.
+        """
+        streams, size = self.width, self.task.encoding.size
+        experience = Experience(
+            np.zeros((decisions + 1, streams, size), np.float32),
+            np.zeros((decisions, streams, len(self.task.encoding.heads)), np.int64),
+            np.zeros((decisions, streams), np.float32),
+            np.zeros((decisions + 1, streams, len(self.task.gauges)), np.float32),
+            np.zeros((decisions, streams), np.bool_),
+            np.zeros(streams, np.bool_),
+            np.zeros(streams, np.float32),
+        )
+        weights = tuple(pool if k == self._number else row for k, row in enumerate(self.cast.weights))
+        loop = compiled_collect(self.task, self.cast.families, f"mind{self._number}")
+        loop(self.matches, self.minds, weights, self.streams, *policy, *experience)
+        ended = self.matches["over"] > 0
+        if self.task.cut:
+            ended |= self.random.random(len(ended)) < self.task.cut
+        for i in np.flatnonzero(ended):
+            self._begin(int(i), len(pool))
+        self._count_streams()
+        return experience
+
+    @property
+    def width(self) -> int:
+        """Number of streams."""
+        return int((self.streams >= 0).sum())
+
+    def state(self) -> dict[str, Any]:
+        """Everything that changes, for `restore`."""
+        random = self.random.bit_generator.state
+        return {"matches": self.matches.copy(), "minds": self.minds.copy(), "random": random}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Continue from the result of `state`."""
+        self.matches, self.minds = state["matches"].copy(), state["minds"].copy()
+        self.random.bit_generator.state = state["random"]
+        self._count_streams()
+
+    def _begin(self, i: int, pool: int) -> None:
+        """Begin match i of its line-up anew."""
+        line_up, random = self.line_ups[i], self.random
+        self.matches[i] = self._start(line_up)[0]
+        self.matches["random"][i] = random.integers(MASK + 1)
+        taken = [name for name in line_up.seats if name != OFF]
+        shift = int(random.integers(len(taken)))
+        for seat in range(ROBOTS):
+            name = taken[(seat + shift) % len(taken)] if seat < len(taken) else OFF
+            prepared = self._minds[name]
+            self.minds[i, seat] = prepared[random.integers(len(prepared))]
+            if name == POOL:
+                self.minds["row"][i, seat] = random.integers(pool)
+            if name != OFF:
+                family = self._number if name == LEARNER else int(self.minds["family"][i, seat])
+                self.minds[f"mind{family}"]["random"][i, seat] = random.integers(MASK + 1)
+            if name in (LEARNER, POOL):
+                for field, value in self.task.habits(random).items():
+                    self.minds[f"mind{self._number}"]["senses"][field][i, seat] = value
+
+    def _count_streams(self) -> None:
+        """Number the learners' seats."""
+        learning = self.minds["family"] == LEARNING
+        self.streams = np.where(learning, np.cumsum(learning).reshape(learning.shape) - 1, -1)
+
+    def _start(self, line_up: LineUp) -> Any:
+        """A prepared start of a match of this kind: a row of one."""
+        task, random = self.task, self.random
+        variants = line_up.variants or task.variants
+        variant, arena = (str(random.choice(names)) for names in (variants, task.arenas))
+        minutes, number = float(random.choice(task.minutes)), int(random.integers(STARTS))
+        key = variant, arena, minutes, number, line_up.teams, sum(name != OFF for name in line_up.seats)
+        if key not in self._starts:
+            rules = games()[task.game].variants[variant]
+            teams = line_up.teams or rules.teams
+            one, two, three, four = (Seat("off" if seat >= key[-1] else LEARNER, teams[seat]) for seat in range(ROBOTS))
+            setup = Setup(task.game, arena, (one, two, three, four), minutes, number, variant, rules.default_goal)
+            self._starts[key] = new_matches([setup])
+        return self._starts[key]
+
+    def _prepared(self, name: str) -> Any:
+        """Fresh minds of a brain (n,)."""
+        kind = self.network if name in (LEARNER, POOL) else BRAINS[self.task.game].get(name)
+        minds = [self.cast.mind() if kind is None else self.cast.mind_of(kind, seed) for seed in range(MINDS)]
+        for mind in minds:
+            if kind is None:
+                mind.family = NOBODY
+            elif name == LEARNER:
+                mind.family = LEARNING
+        return packed(minds)
+
+    @property
+    def _nobody(self) -> Any:
+        return self._minds[OFF]
+
+
+def brains_of(task: Task) -> list[str]:
+    """The names on the seats of a task's line-ups, sorted."""
+    return sorted({name for line_up in task.line_ups for name in line_up.seats} | {OFF, POOL, LEARNER})
+
+
+@cache
+def cast_of(task: Task) -> tuple[Cast, Any]:
+    """The cast of a task's matches, and its network, whose weights are replaced by those of the pool."""
+    sizes = ((task.encoding.size, HIDDEN), (HIDDEN, HIDDEN), (HIDDEN, task.encoding.outputs))
+    empty = Layers([np.zeros(size) for size in sizes], [np.zeros(units) for _, units in sizes])
+    network = network_brain("network", task.encoding, Policy(empty))
+    known = BRAINS[task.game]
+    rivals = {known[name] for name in (*brains_of(task), *task.rivals) if name in known}
+    return Cast([network, *sorted(rivals, key=lambda kind: kind.name)], fast=True), network

@@ -1,0 +1,44 @@
+"""A task: a game as PPO learns it."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from pigaming_app.ai.networks.encoding import Encoding
+
+LEARNER, POOL, OFF = "learner", "pool", "off"  # on a seat: the network in training, an earlier copy of it, nobody
+
+
+class LineUp(NamedTuple):
+    """Who plays a kind of match, by seat, and in which teams; the players are moved on by a random number of seats."""
+
+    share: int  # of the matches, relative to the other line-ups
+    seats: tuple[str, ...]  # LEARNER, POOL, OFF or the name of a brain
+    teams: tuple[int, ...] | None = None  # None: those of the variant
+    variants: tuple[str, ...] = ()  # empty: those of the task
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """What is played, what is rewarded, and against whom progress is measured.
+
+    Gauges are running totals of a seat, such as hits; a decision is rewarded by what they gain until the next one.
+    `gauge(match, seat, inputs, gauges)` and `result(match, seat)` are kernels.
+    """
+
+    encoding: Encoding
+    arenas: tuple[str, ...]
+    variants: tuple[str, ...]  # drawn at random; those named more often are played more often
+    minutes: tuple[float, ...]
+    line_ups: Sequence[LineUp]
+    gauges: tuple[str, ...]
+    gauge: Callable[[Any, int, Any, Any], None]
+    result: Callable[[Any, int], float]  # reward of the end of a match
+    reward: Callable[[Any, Any, Any, float], Any]  # reward(gains (..., gauges), inputs, choices, share of training)
+    rivals: tuple[str, ...]  # brains against which win rates are measured
+    habits: Callable[[Any], Mapping[str, float]]  # habits(generator): fields of a network's senses, for a whole match
+    cut: float = 0.0  # probability that a match is replaced by a fresh one after each update
+
+    @property
+    def game(self) -> str:
+        return self.encoding.game
