@@ -31,6 +31,7 @@ class Matches:
         self.cast = Cast(task.opponents, task.fast)
         self.loop: Loop = loop_of(task.game, self.cast.families, task.continuous, task.fast)
         self.start_of = np.zeros(count, np.int64)  # number of the match that each plays
+        self.episodes = np.zeros(count, np.int64)  # that each has begun
         self._streams = np.zeros(count, np.uint64)
         self._pool: dict[int, Any] = {}  # prepared matches: state, and minds of the four seats
         shape = (count, task.learners)
@@ -54,6 +55,7 @@ class Matches:
         """Begin the next episode of the matches selected by a mask (count,)."""
         chosen = np.flatnonzero(which)
         self._streams[chosen] += STRIDE
+        self.episodes[chosen] += 1
         self.start_of[chosen] = mixed(self._streams[chosen]) % np.uint64(self.task.starts)
         for i, start in zip(chosen.tolist(), self.start_of[chosen].tolist(), strict=True):
             state, minds = self._prepared(start)

@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pigaming_app.games.match import Match
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import OptionError
+from pigaming_app.sim.world import DT
 
 WIDTH, HEIGHT = 1920, 1080
 
@@ -27,33 +29,32 @@ class Camera:
     def __init__(self, matches: Matches, i: int) -> None:
         self.matches, self.i = matches, i
         self._shot: Screenshot | None = None
-        self._tick = 0
+        self._episode = 0  # that the shot shows
+        self._drawn = 0  # tick of the last picture
 
     def watch(self) -> None:
         """Take note of the decision just played, so that its shots and tracks appear."""
-        if self._shot:
-            self._update(self._shot)
-            self._shot.watch()
+        if self._shot and self._episode == self.matches.episodes[self.i]:
+            self._shot.match.state = self.matches.state(self.i)
+            self._shot.view.watch(self._shot.match.state)
 
     def picture(self) -> Any:
         """The present picture, (1080, 1920, 3) uint8."""
-        number = int(self.matches.start_of[self.i])
-        if self._shot is None or self._shot.match.setup.seed != number or self.matches.state(self.i).tick < self._tick:
-            self._shot = self._new_shot(number)
-        self._update(self._shot)
-        return np.frombuffer(bytearray(self._shot.pixels()), np.uint8).reshape(HEIGHT, WIDTH, 3)
+        if self._shot is None or self._episode != self.matches.episodes[self.i]:
+            self._shot = self._new_shot()
+            self._shot.match.state = self.matches.state(self.i)
+            self._episode, self._drawn = self.matches.episodes[self.i], self._shot.match.state.tick
+        tick = self._shot.match.state.tick
+        seconds, self._drawn = (tick - self._drawn) * DT, tick
+        return np.frombuffer(bytearray(self._shot.pixels(seconds)), np.uint8).reshape(HEIGHT, WIDTH, 3)
 
     def close(self) -> None:
+        """Forget the picture."""
         self._shot = None
 
-    def _update(self, shot: "Screenshot") -> None:
-        shot.match.state = self.matches.state(self.i)
-        self._tick = shot.match.state.tick
-
-    def _new_shot(self, number: int) -> "Screenshot":
+    def _new_shot(self) -> "Screenshot":
         os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
         os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
-        from pigaming_app.games.match import Match
         from pigaming_app.scenes.views.screenshot import Screenshot
 
-        return Screenshot(Match(self.matches.task.setup_of(number)))
+        return Screenshot(Match(self.matches.task.setup_of(int(self.matches.start_of[self.i]))))

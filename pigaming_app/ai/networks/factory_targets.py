@@ -44,6 +44,7 @@ class FactorySenses:
 
     delay: float  # s, age of the poses of others
     error: float  # rad by which others appear beside where they are
+    thrift: float  # as in PiTanks; there are no shots here
     slots: Annotated[list[int], CHOSEN]  # the targets, -1: none
     costs: Annotated[list[float], CHOSEN]  # px
     route: Route
