@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.qlearning import table_files as tables
+from pigaming_app.ai.brain.archive import check_sum
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games import arenas, replay
@@ -220,7 +220,7 @@ def test_a_bomb_of_ticks_is_refused(tmp_path):
 
 def forged_table(head, q, n, check=True):
     packed = BytesIO()
-    known = {**head, "check": tables._check(head, q, n)} if check and isinstance(head, dict) else head
+    known = {**head, "check": check_sum(head, {"q": q, "n": n})} if check and isinstance(head, dict) else head
     np.savez_compressed(packed, head=np.array(json.dumps(known)), q=q, n=n)
     return packed.getvalue()
 
