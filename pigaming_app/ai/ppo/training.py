@@ -151,7 +151,7 @@ def in_threads(training: Training, threads: Executor) -> Gather:
 
 def whole_layers(weights: Sequence[Any]) -> Layers:
     """Matrices whose last rows are the biases, rounded to whole units. Raises Diverged."""
-    rounded = [np.clip(np.rint(matrix * UNIT), -LARGEST, LARGEST) for matrix in weights]
+    rounded = [np.clip(np.rint(matrix * UNIT), -LARGEST, LARGEST) + 0.0 for matrix in weights]  # no -0.0
     layers = Layers([matrix[:-1] for matrix in rounded], [matrix[-1] for matrix in rounded])
     if not layers.largest_sum() < EXACT:  # nor NaN
         raise Diverged("the training has diverged: its weights are too large")

@@ -4,8 +4,6 @@ Ctrl-C ends the training after the current update and saves the result; the same
 bit for bit with --updates. The checkpoint for that lies beside the network.
 """
 
-import os
-import sys
 from argparse import ArgumentParser, Namespace
 
 from pigaming_app.jobs.terminal.options import decimal, game_option, integer, shared
@@ -13,7 +11,6 @@ from pigaming_app.jobs.terminal.refusal import require
 from pigaming_app.jobs.train.outputs import check_outputs, output_options
 
 DEFAULT_MINUTES = 10.0
-BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 
 
 def options(parser: ArgumentParser) -> None:
@@ -36,17 +33,6 @@ def run(arguments: Namespace) -> int:
     check_outputs(arguments, "network", beside=[checkpoint])
     if arguments.updates is None and arguments.minutes is None:
         arguments.minutes = DEFAULT_MINUTES
-    one_thread_each()
     from pigaming_app.jobs.train.ppo_training import train_and_save
 
     return train_and_save(arguments, checkpoint)
-
-
-def one_thread_each() -> None:
-    """Restrict NumPy's matrix products to the thread that calls them: policy, value function and shards have their own.
-
-    NumPy's libraries read these variables when they are loaded, so this module does not import NumPy. It only matters
-    for speed.
-    """
-    if "numpy" not in sys.modules:
-        os.environ.update(dict.fromkeys(BLAS_THREADS, "1"))
