@@ -13,6 +13,7 @@ from gymnasium.vector import AutoresetMode
 
 import pigaming_app.gym
 from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.games.arenas import arenas
 from pigaming_app.gym import ENVIRONMENTS, OptionError, parallel_env
 from pigaming_app.gym.rewards import TALLIES
 
@@ -45,7 +46,7 @@ def test_the_checkers_of_the_libraries_pass(name, game):
 
 @pytest.mark.parametrize(("name", "game"), GAMES)
 def test_a_vector_plays_the_episodes_of_single_environments(name, game):
-    options = {**SHORT, "opponents": ("level1",), "arena": "all"}
+    options = {**SHORT, "opponents": ("level1",), "arena": arenas(game)[:2]}
     many, one = gymnasium.make_vec(name, num_envs=3, **options), gymnasium.make(name, **options)
     assert many.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
     many.action_space.seed(1)
