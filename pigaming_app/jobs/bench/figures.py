@@ -21,6 +21,7 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.jobs.bench import environments
 from pigaming_app.jobs.bench.memory import measure as measure_memory
 from pigaming_app.jobs.bench.walk import measure as measure_screens
 from pigaming_app.sim.kernel import can_compile
@@ -50,6 +51,7 @@ def measure(game: str, variant: str) -> dict[str, Any]:
         "plain_us_per_tick": 1e6 * plain,
         "compiled_us_per_tick": None if single is None else 1e6 * single,
         "compiled_ticks_per_second": both,
+        "environments": environments.measure(game),
         "real_time_factor_plain": 1.0 / (HZ * plain),
         "real_time_factor_compiled": None if single is None else 1.0 / (HZ * single),
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
