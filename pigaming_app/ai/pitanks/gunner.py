@@ -9,7 +9,7 @@ does: it aims at where the target is and not where it will be, slows down to aim
 dodges nothing.
 """
 
-from math import cos, sin
+from math import cos, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
@@ -48,6 +48,7 @@ SNATCH = 150.0  # px; it fetches these even in a fight, and in the finale
 INVULNERABLE = 20  # ticks of protection left above which a shot is wasted
 HIDDEN = 400.0  # px by which an opponent out of sight counts as farther away than it is
 WAITING = 4.0  # px for each tick for which it cannot be hit
+ROUNDING = 1e-6  # px
 EXPOSED = 300.0  # px by which a lit opponent counts as nearer, and for each point of bounty
 
 WATCH, SWING_ASIDE, AIM = range(3)  # parts of a fight
@@ -194,8 +195,12 @@ def choose_target(match: Any, seat: int, mind: Any) -> None:
         seen = match.robots[j]
         if not seen.present or seen.team == robot.team:
             continue
+        dx, dy, tank = seen.x - robot.x, seen.y - robot.y, match.tanks[j]
+        nearest = sqrt(dx * dx + dy * dy) - delay * abs(seen.linear) - ROUNDING  # at most the distance observed
+        if i != mind.target and price(nearest, tank) > least:
+            continue
         other_vx, other_vy = locate_other(robot, seen, delay, other)
-        cost, bonus = price(other.distance, match.tanks[j]), mind.loyalty if i == mind.target else 0.0
+        cost, bonus = price(other.distance, tank), mind.loyalty if i == mind.target else 0.0
         if not is_better(cost - bonus, i, least, best):
             continue
         other.clear = is_clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
