@@ -188,10 +188,10 @@ def in_wall(world: Any, x: float, y: float) -> int:
 
 
 @kernel
-def limit_step(world: Any, robot: Any, from_x: float, from_y: float, shifted: int) -> None:
+def limit_step(world: Any, robot: Any, from_x: float, from_y: float, shifted: int = 1) -> None:
     """Limit a robot's step from (from_x, from_y) to SHOVE px, and undo it if it ends in a wall.
 
-    A robot that contact has not `shifted` is in no wall.
+    One that contact has not `shifted` ends in none.
     """
     dx, dy = robot.x - from_x, robot.y - from_y
     way2 = dx * dx + dy * dy
