@@ -226,10 +226,10 @@ class NumpyBatch:
             hit |= (dx * dx + dy * dy < (RADIUS + BULLET_RADIUS) ** 2) & (self.owner != k)
         hit |= self.step_x**2 + self.step_y**2 == 0.0  # not yet fired
         match, i = np.nonzero(hit)
-        k = self.owner[i]
-        along, across = self.cos[match, k], self.sin[match, k]
-        self.bullet_x[match, i], self.step_x[match, i] = self.x[match, k] + MUZZLE * along, BULLET_SPEED * DT * along
-        self.bullet_y[match, i], self.step_y[match, i] = self.y[match, k] + MUZZLE * across, BULLET_SPEED * DT * across
+        own = match, self.owner[i]
+        along, across = self.cos[own], self.sin[own]
+        self.bullet_x[match, i], self.step_x[match, i] = self.x[own] + MUZZLE * along, BULLET_SPEED * DT * along
+        self.bullet_y[match, i], self.step_y[match, i] = self.y[own] + MUZZLE * across, BULLET_SPEED * DT * across
 
     def _from_walls(self, x: Any, y: Any) -> tuple[Any, Any, Any]:
         """Vectors (gap_x, gap_y) and distances from every wall's centre line to points, px."""
