@@ -21,11 +21,12 @@ GAME, ARENA = "pitanks", "classic"
 SPEED, TURN_RATE = 260.0, 3.0  # px/s, rad/s
 BULLET_SPEED, BULLET_RADIUS, MUZZLE = 560.0, 6.0, 64.0  # px/s, px, px
 HOLD = 25  # ticks between changes of the sticks
-RELOAD = 12  # ticks between shots of a robot: about ten bullets are in flight
+RELOAD = 9  # ticks between shots of a robot: about ten bullets are in flight
 WARM_UP = 100  # ticks before the first measurement
 ROUNDS = 10
 MATCHES, BULLETS = 1024, 10  # of the NumPy batch, and in each of its matches
-CORNERS = ((0.0, 0.0), (WIDTH, 0.0), (WIDTH, HEIGHT), (0.0, HEIGHT))
+EDGE = 20.0  # px, half the thickness of the outer walls: thinner ones let bullets through
+CORNERS = ((-EDGE, -EDGE), (WIDTH + EDGE, -EDGE), (WIDTH + EDGE, HEIGHT + EDGE), (-EDGE, HEIGHT + EDGE))
 
 
 class Yardstick(Protocol):
@@ -73,7 +74,7 @@ class PymunkScene:
 
         self.pymunk, self.random, self.tick = pymunk, Random(1), 0
         self.space = pymunk.Space()
-        edges = [(*a, *b, 0.0) for a, b in zip(CORNERS, CORNERS[1:] + CORNERS[:1], strict=True)]
+        edges = [(*a, *b, EDGE) for a, b in zip(CORNERS, CORNERS[1:] + CORNERS[:1], strict=True)]
         arena = load(GAME, ARENA)
         for ax, ay, bx, by, half in [*edges, *((w.ax, w.ay, w.bx, w.by, w.half) for w in arena.walls)]:
             self.space.add(pymunk.Segment(self.space.static_body, (ax, ay), (bx, by), half))
