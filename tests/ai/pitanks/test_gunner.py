@@ -1,6 +1,7 @@
 """The hand-written opponents of PiTanks: they attack whatever the score, their strengths are ordered, none is stuck."""
 
 from math import hypot
+from random import Random
 
 import pytest
 
@@ -10,6 +11,7 @@ from pigaming_app.ai.registry import STRENGTHS, make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.pitanks.observation import Observation, observe
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from tests.ai.pitanks.stuck import stuck
@@ -91,6 +93,34 @@ def test_it_leaves_a_target_that_cannot_be_hit_but_novices_stay_with_theirs():
         match.state.tanks[1].protected = 75
         gunner.choose_target(match.state, 0, mind)
         assert mind.target + 1 == seat
+
+
+def test_what_it_leaves_out_changes_neither_its_target_nor_what_it_observes_of_it():
+    """The target of the full observation, by the same price, in many random situations."""
+    match, luck = begun(("hand2", "idle", "idle", "idle"), "party", "classic"), Random(3)
+    mind, tanks, whole = match.brains[0].mind, match.state.tanks, Observation()
+    targets = set()
+    for _ in range(400):
+        for robot in match.state.robots:
+            robot.x, robot.y, robot.heading = luck.uniform(40, 1560), luck.uniform(40, 860), luck.uniform(0, 6.28)
+            robot.linear = luck.uniform(-300, 300)
+        match.state.robots[3].team = luck.choice([0, 3])
+        tanks[2].lit, tanks[1].protected = luck.choice([0, 0, 1]), luck.choice([0, 60])
+        last, mind.state = mind.target, gunner.FIGHT
+        observe(match.state, 0, mind.senses, whole)
+        costs = [
+            gunner.price(other.distance, tanks[1 + i])
+            + (0.0 if other.clear else gunner.HIDDEN)
+            - (mind.loyalty if i == last else 0.0)
+            for i, other in enumerate(whole.others)
+            if not other.mate
+        ]
+        gunner.choose_target(match.state, 0, mind)
+        assert mind.target == costs.index(min(costs))
+        targets.add(mind.target)
+        for name in ("x", "y", "distance", "bearing", "aim", "clear", "protected", "lit", "bounty"):
+            assert getattr(mind.obs.others[mind.target], name) == getattr(whole.others[mind.target], name)
+    assert targets == {0, 1, 2}
 
 
 def test_in_the_finale_it_shoots_more_often_and_leaves_pick_ups_alone():
