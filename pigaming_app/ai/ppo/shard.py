@@ -276,7 +276,7 @@ class Shard:
         """A prepared start of a match of this kind: a row of one."""
         task, random = self.task, self.random
         variants = line_up.variants or task.variants
-        variant, arena = (str(random.choice(names)) for names in (variants, task.arenas))
+        variant, arena = (str(random.choice(names)) for names in (variants, line_up.arenas or task.arenas))
         minutes, number = float(random.choice(task.minutes)), int(random.integers(STARTS))
         key = variant, arena, minutes, number, line_up.teams, sum(name != OFF for name in line_up.seats)
         if key not in self._starts:
