@@ -1,7 +1,7 @@
 """A task: a game as PPO learns it."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from pigaming_app.ai.networks.encoding import Encoding
@@ -43,3 +43,7 @@ class Task:
     @property
     def game(self) -> str:
         return self.encoding.game
+
+    def against(self, rival: str) -> "Task":
+        """The same task with duels against one brain only: what it takes to beat that one."""
+        return replace(self, line_ups=(LineUp(1, (LEARNER, rival, OFF, OFF)),), rivals=(rival,))

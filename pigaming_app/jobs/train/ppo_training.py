@@ -18,8 +18,10 @@ from pigaming_app.ai.ppo.learner import STANDARD
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
+from pigaming_app.ai.ppo.task import Task
 from pigaming_app.ai.ppo.training import SHARDS, Diverged, Training, columns, in_threads
 from pigaming_app.ai.ppo.win_rates import Score
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
@@ -58,12 +60,21 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
     try:
         hyper = changed(STANDARD, arguments.set)
-        training = Training(TASKS[arguments.game], arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
+        training = Training(_task(arguments), arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}") from None
     if arguments.resume:
         restore(training, beside)
     return training
+
+
+def _task(arguments: Namespace) -> Task:
+    """The game as it is to be learned. Raises ChoiceError."""
+    task = TASKS[arguments.game]
+    if arguments.against is None:
+        return task
+    find_brain(arguments.game, arguments.against)
+    return task.against(arguments.against)
 
 
 def _train(training: Training, threads: Executor, save: Callable[[], None], stopped: list[int]) -> None:
