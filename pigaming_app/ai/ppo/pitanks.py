@@ -15,8 +15,8 @@ from pigaming_app.sim.kernel import kernel
 
 POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
 CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of the training on
-SHAPING, SHAPED = 0.5, 0.2  # weight of the potential, at the begin and at the end of the training
-FAR = 6.0  # by which 1600 px more on the way to an opponent out of sight lower the potential
+SHAPING, SHAPED = 0.5, 0.3  # weight of the potential, at the begin and at the end of the training
+FAR = 10.0  # by which 1600 px more on the way to an opponent out of sight lower the potential
 BLIND = 0.05  # cost of a shot with nobody in the line of fire
 THRIFTY, MOST_THRIFT = 0.4, 0.33  # share of matches in which a shot has a cost, and the highest
 LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
@@ -34,7 +34,7 @@ def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
     if inputs[OTHERS + 11] > 0.0:
         gauges[POTENTIAL] = 0.5 * inputs[OTHERS + 4] / UNIT + 0.3
     else:
-        gauges[POTENTIAL] = -0.5 * FAR * (inputs[WAY + 4] / UNIT + 1.0)
+        gauges[POTENTIAL] = -0.5 * FAR * (inputs[WAY + 7] / UNIT + 1.0)
 
 
 @kernel
