@@ -23,6 +23,7 @@ is the game's `Encoding` (see ai/networks) in [-1, 1]; an action is a choice for
 - render_mode: "rgb_array" draws with the game's own pictures, 1920 x 1080.
 """
 
+from itertools import accumulate
 from typing import Any
 
 try:
@@ -33,10 +34,11 @@ except ImportError as error:
         f"pigaming_app.gym needs {error.name}: pip install 'pigaming-app[gym]'", name=error.name
     ) from None
 
+from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.gym.options import OptionError
 from pigaming_app.gym.parallel import MatchEnv
 
-__all__ = ["ENVIRONMENTS", "OptionError", "parallel_env"]
+__all__ = ["ENVIRONMENTS", "OptionError", "groups", "parallel_env"]
 
 ENVIRONMENTS = {"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v0": "factory"}  # names of the games
 
@@ -44,6 +46,14 @@ ENVIRONMENTS = {"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v
 def parallel_env(game: str, **options: Any) -> MatchEnv:
     """A match as a PettingZoo ParallelEnv. Raises OptionError."""
     return MatchEnv(game, **options)
+
+
+def groups(game: str) -> dict[str, slice]:
+    """The parts of a game's observation by name. Raises OptionError."""
+    if game not in ENCODINGS:
+        raise OptionError(f"no game '{game}'; there are {', '.join(ENCODINGS)}")
+    ends = accumulate(length for _, length in ENCODINGS[game].groups)
+    return {name: slice(end - length, end) for (name, length), end in zip(ENCODINGS[game].groups, ends, strict=True)}
 
 
 for _name, _game in ENVIRONMENTS.items():
