@@ -37,6 +37,9 @@ class Handicap:
     thrift: float = 0.0  # cost of a shot that it has in mind, in points
 
 
+NO_HANDICAP = Handicap()
+
+
 @cache
 def weights_record(size: int, outputs: int) -> type:
     """The record of a compiled network's parameters."""
@@ -62,7 +65,7 @@ def mind_record(encoding: Encoding) -> type:
         "sharpness": float,
         "error_left": int,  # ticks until the aiming error is redrawn
         "inputs": Annotated[list[float], encoding.size, "f"],
-        "hidden": Annotated[list[float], 2 * HIDDEN, "f"],  # scratch space of compiled code
+        "hidden": Annotated[list[float], 2 * HIDDEN, "f"],  # scratch space of compiled code, else 0
         "logits": Annotated[list[float], encoding.outputs, "f"],
         "choices": Annotated[list[int], len(encoding.heads)],
     }
@@ -95,6 +98,8 @@ def _forward_loops(mind: Any, weights: Any) -> None:
         value = hidden[HIDDEN + i]
         for unit in range(outputs):
             logits[unit] += value * weights.last[i * outputs + unit]
+    for unit in range(2 * HIDDEN):
+        hidden[unit] = 0.0
 
 
 @kernel
@@ -206,7 +211,7 @@ def packed_layers(layers: "Layers") -> Any:
 
 
 def network_brain(
-    name: str, encoding: Encoding, weights: Callable[[bool], Any], handicap: Handicap = Handicap()
+    name: str, encoding: Encoding, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
 ) -> BrainKind:
     """A brain that plays by a network."""
 

@@ -16,6 +16,7 @@ class LineUp(NamedTuple):
     seats: tuple[str, ...]  # LEARNER, POOL, OFF or the name of a brain
     teams: tuple[int, ...] | None = None  # None: those of the variant
     variants: tuple[str, ...] = ()  # empty: those of the task
+    arenas: tuple[str, ...] = ()  # empty: those of the task
 
 
 @dataclass(frozen=True, eq=False)
