@@ -3,7 +3,8 @@
     pip install "pigaming-app[gym,train]" torch
     python3 examples/ppo_torch.py --env PiTanks-v0 --minutes 5 --opponents level3
 
-It prints the share of matches won lately; --out FILE keeps the agent. RobotRace-v0 and RobotFactory-v0 learn likewise.
+It prints the share of matches won lately. RobotRace-v0 and RobotFactory-v0 learn likewise. With `pip install onnx`,
+--out agent.onnx writes a player for the arcade: python3 main.py play pitanks --seats human,agent.onnx
 """
 
 import argparse
@@ -24,7 +25,7 @@ DISCOUNT, TRACE, CLIP, ENTROPY, STEEPEST, RATE = 0.99, 0.95, 0.2, 0.01, 0.5, 1e-
 
 
 class Agent(nn.Module):
-    """A policy with one categorical distribution for each head, and a value function."""
+    """A policy with a distribution for each head, and a value function."""
 
     def __init__(self, inputs: int, choices: list[int]) -> None:
         super().__init__()
@@ -86,10 +87,10 @@ def train(env: str, opponents: list[str], minutes: float, num_envs: int, seed: i
             results.extend(infos["win"][infos["_win"]] if infos else ())
         values = agent.value(seen).squeeze(-1).detach()
         gains = advantages(rewards, values, ends)
-        returns, mean, spread = gains + values[:-1], gains.mean(), gains.std() + 1e-8
+        scaled, returns = (gains - gains.mean()) / (gains.std() + 1e-8), gains + values[:-1]
         chosen = played.flatten().nonzero().squeeze(-1)
         decisions += len(chosen)
-        flat = [x.flatten(0, 1) for x in (seen[:-1], actions, odds, (gains - mean) / spread, returns)]
+        flat = [x.flatten(0, 1) for x in (seen[:-1], actions, odds, scaled, returns)]
         for _ in range(EPOCHS):
             for rows in chosen[torch.randperm(len(chosen))].split(MINIBATCH):
                 inputs, action, old, gain, target = (x[rows] for x in flat)
@@ -116,4 +117,4 @@ if __name__ == "__main__":
     out = words.pop("out")
     agent = train(**words)
     if out:
-        torch.save(agent.state_dict(), out)
+        torch.onnx.export(agent.policy, (torch.zeros(1, agent.policy[0].in_features),), out, dynamo=False)
