@@ -8,7 +8,7 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import ALLIES, Setup
 from pigaming_app.games.registry import games
@@ -20,6 +20,7 @@ from pigaming_app.sim.world import HZ, ROBOTS
 
 OPPONENT = "level3"  # unless others are named
 STARTS = 128  # different matches that an environment plays, unless another number is named
+INSTALL = "pip install 'pigaming-app[train]'"
 LEARNER = "human"  # in a setup: a seat without a brain
 
 
@@ -86,31 +87,26 @@ def task_of(
     number("starts", starts, least=1)
     if learners + len(names) > ROBOTS:
         raise OptionError(f"{learners} agents and {len(names)} opponents, but there are {ROBOTS} seats")
-    kinds = tuple(brain_of(game, name) for name in names)
     if minutes is not None:
         number("minutes", minutes, (int, float))
     if goal is not None:
         number("goal", goal)
     for team in teams or ():
         number("teams", team)
-    if compiled and not can_compile():
-        raise OptionError("compiled: numba is not installed: pip install 'pigaming-app[train]'")
     found = arenas_of(game, arena)
     players = [LEARNER] * learners + list(names)
     try:
+        kinds = tuple(find_brain(game, name) for name in names)
         setup = make_setup(game, players, found[0], minutes, 0, variant, teams, names, goal)
     except ChoiceError as error:
         raise OptionError(str(error).removeprefix("--")) from None
     weights = weights_of(game, rewards)
-    fast = can_compile() if compiled is None else bool(compiled)
+    may_compile = can_compile() and not any(kind.plain for kind in kinds)
+    if compiled and not may_compile:
+        reason = "an opponent runs only uncompiled" if can_compile() else "numba is missing: " + INSTALL
+        raise OptionError(f"compiled: {reason}")
+    fast = may_compile if compiled is None else bool(compiled)
     return Task(setup, found, learners, kinds, ticks, bool(continuous), weights, starts, fast)
-
-
-def brain_of(game: str, name: str) -> BrainKind:
-    """The brain of a game with a name. Raises OptionError."""
-    if name not in BRAINS[game]:
-        raise OptionError(f"no opponent '{name}'; there are {', '.join(BRAINS[game])}")
-    return BRAINS[game][name]
 
 
 def arenas_of(game: str, arena: str | Sequence[str] | None) -> tuple[str, ...]:

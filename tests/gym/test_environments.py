@@ -138,7 +138,8 @@ def test_pictures_are_drawn_by_the_view_of_the_game(name, game):
     [
         ({"game": "chess"}, "no game 'chess'; there are pitanks, factory, race"),
         ({"speed": 2}, "no option 'speed'"),
-        ({"opponents": ("stockfish",)}, "no opponent 'stockfish'; there are idle, "),
+        ({"opponents": ("stockfish",)}, "no brain 'stockfish'; there are idle, "),
+        ({"opponents": ("lost.npz",)}, "lost.npz: "),
         ({"opponents": 3}, "opponents: names are needed, not 3"),
         ({"agents": 3, "opponents": ("level1", "level1")}, "3 agents and 2 opponents, but there are 4 seats"),
         ({"agents": 0}, "agents: a whole number from 1 is needed, not 0"),
