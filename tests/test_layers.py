@@ -21,14 +21,23 @@ MAY = {
     "ai": {"sim", "games"},
     "ui": {"storage"},
     "scenes": {"sim", "storage", "ui", "games", "hardware", "ai"},
-    "gym": {"sim", "storage", "ui", "games", "hardware", "ai", "scenes"},  # to come: faces for learning libraries
+    "gym": {"sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
     "events": {"games", "ai", "storage"},  # to come: tournaments
     "jobs": {"boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
     "cli": {"jobs"},
 }
 MODULES, FLOORS = 15, 7  # at most: in a folder, between the rooms
-ONLY_IN = {"pygame": {"ui", "scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
-DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite", "cv2", "serial", "matplotlib"}
+ONLY_IN = {
+    "pygame": {"ui", "scenes"},
+    "cv2": {"hardware"},
+    "serial": {"hardware"},
+    "onnxruntime": {"ai"},
+    "gymnasium": {"gym"},
+    "pettingzoo": {"gym"},
+    "torch": set(),
+}
+DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
+DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo"}
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 

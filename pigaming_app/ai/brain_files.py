@@ -10,9 +10,11 @@ from pathlib import Path, PureWindowsPath
 from pigaming_app.ai.brain.archive import BrainFileError, names, read
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks import files as network_files
+from pigaming_app.ai.networks import onnx_files
 from pigaming_app.ai.qlearning import table_files
 
-SUFFIXES = (".npz", ".onnx")
+ONNX = ".onnx"
+SUFFIXES = (".npz", ONNX)
 SHOWN = 16  # characters of a file's name on screens
 TABLE_GAME = "pitanks"  # the only game that has tables
 
@@ -48,6 +50,8 @@ def read_brain(game: str, path: str) -> BrainKind:
 @cache
 def _read(game: str, path: str) -> BrainKind:
     file = Path(path)
+    if file.suffix.lower() == ONNX:
+        return onnx_files.read_model(file, game)
     raw = read(file, table_files.MAX_BYTES)
     parts = names(raw)
     if parts == network_files.PARTS.keys():

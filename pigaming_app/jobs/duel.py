@@ -9,7 +9,7 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal
-from pigaming_app.jobs.terminal.refusal import refused
+from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 
 
@@ -22,6 +22,7 @@ def options(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Play the duel and print its result. Raises Refusal."""
+    require_for_brains((arguments.left, arguments.right))
     with refused(ChoiceError, ArenaError):
         result = _play(arguments)
     if arguments.json:

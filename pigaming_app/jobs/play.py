@@ -32,7 +32,7 @@ from pigaming_app.jobs.terminal.options import (
     path,
     shared,
 )
-from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, require_for_brains
 from pigaming_app.scenes.files import save_replay
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
@@ -82,6 +82,7 @@ def _play(arguments: Namespace) -> int:
     wanted = goal(arguments)
     chosen = mat_settings(arguments)
     seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
+    require_for_brains(seats)
     names = known_brains(arguments.game, seats)
     rounds = _rounds(arguments)
     arena, seed, variant = arguments.arena, arguments.seed, arguments.variant

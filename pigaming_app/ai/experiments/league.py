@@ -167,12 +167,14 @@ def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None)
     ticks = round((setups[0].minutes * 60 + variant.overtime) * HZ)
     if fast is None:
         fast = can_compile() and matches * ticks > MIN_COMPILED_MATCHES
+    kinds = {name: find_brain(game, name) for name in (left, right)}
+    fast = fast and not any(kind.plain for kind in kinds.values())
     began = perf_counter()
     if allies:
         halves = [(setups, [name] * ROBOTS) for name in (left, right)]
     else:
         halves = [*_both_ways(setups, _line_up(variant, left, right))]
-    batches = [Batch(half, [find_brain(game, name) for name in order], fast) for half, order in halves]
+    batches = [Batch(half, [kinds[name] for name in order], fast) for half, order in halves]
     for batch in batches:
         batch.play(ticks)
     seconds = perf_counter() - began

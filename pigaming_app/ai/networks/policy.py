@@ -65,7 +65,7 @@ def mind_record(encoding: Encoding) -> type:
         "sharpness": float,
         "error_left": int,  # ticks until the aiming error is redrawn
         "inputs": Annotated[list[float], encoding.size, "f"],
-        "hidden": Annotated[list[float], 2 * HIDDEN, "f"],  # scratch space of compiled code
+        "hidden": Annotated[list[float], 2 * HIDDEN, "f"],  # scratch space of compiled code, else 0
         "logits": Annotated[list[float], encoding.outputs, "f"],
         "choices": Annotated[list[int], len(encoding.heads)],
     }
@@ -98,6 +98,8 @@ def _forward_loops(mind: Any, weights: Any) -> None:
         value = hidden[HIDDEN + i]
         for unit in range(outputs):
             logits[unit] += value * weights.last[i * outputs + unit]
+    for unit in range(2 * HIDDEN):
+        hidden[unit] = 0.0
 
 
 @kernel

@@ -1,6 +1,6 @@
 """Refusals of jobs: a request that cannot be carried out ends in one line and exit code 2."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 
@@ -10,6 +10,7 @@ from pigaming_app.ui.i18n import english
 
 EXTRAS = {  # a module, and the package's name
     "hardware": ("cv2", "OpenCV"),
+    "onnx": ("onnxruntime", "onnxruntime"),
     "plots": ("matplotlib", "matplotlib"),
     "ray": ("ray", "Ray"),
     "train": ("numba", "numba"),
@@ -40,6 +41,12 @@ def require(extra: str) -> None:
     module, name = EXTRAS[extra]
     if find_spec(module) is None:
         raise Refusal(f"{name} is missing (extra `{extra}`): {remedy(extra)}")
+
+
+def require_for_brains(names: Iterable[str]) -> None:
+    """Raises Refusal where a brain is an ONNX model and the extra that runs it is not installed."""
+    if any(name.lower().endswith(".onnx") for name in names):
+        require("onnx")
 
 
 def remedy(extra: str) -> str:

@@ -44,20 +44,6 @@ def check_outputs(arguments: Namespace, noun: str, beside: Sequence[Path] = ()) 
         require("plots")
 
 
-def changes(texts: Sequence[str], kinds: dict[str, Any]) -> dict[str, Any]:
-    """The values of `--set`, by name; `kinds`: the possible names and their types. Raises Refusal."""
-    found: dict[str, Any] = {}
-    for text in texts:
-        name, equals, value = text.partition("=")
-        if name not in kinds or not equals:
-            raise Refusal(f"--set: {text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
-        try:
-            found[name] = kinds[name](value)
-        except ValueError:
-            raise Refusal(f"--set: {text!r}; {value!r} is not such a number") from None
-    return found
-
-
 def csv_of(columns: Sequence[str], rows: Iterable[Sequence[Any]]) -> bytes:
     """A table as a CSV file."""
     text = StringIO(newline="")

@@ -5,17 +5,16 @@ import os
 from argparse import Namespace
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import fields, replace
 from functools import partial
 from pathlib import Path
 from time import monotonic
-from typing import Any
 
 from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.checkpoint import encode, restore
-from pigaming_app.ai.ppo.learner import STANDARD, Hyper
+from pigaming_app.ai.ppo.learner import STANDARD
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
@@ -24,7 +23,7 @@ from pigaming_app.ai.ppo.win_rates import Score
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
-from pigaming_app.jobs.train.outputs import changes, csv_of, png_of, two_plots
+from pigaming_app.jobs.train.outputs import csv_of, png_of, two_plots
 from pigaming_app.jobs.train.progress import bar, end_line, interrupts, note, show
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
 
@@ -57,10 +56,8 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     require_one_of("game", arguments.game, list(games()))
     if arguments.game not in TASKS:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
-    kinds: dict[str, Any] = {field.name: field.type for field in fields(Hyper)}
-    wanted = changes(arguments.set, kinds)
     try:
-        hyper = replace(STANDARD, **wanted)
+        hyper = changed(STANDARD, arguments.set)
         training = Training(TASKS[arguments.game], arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}") from None

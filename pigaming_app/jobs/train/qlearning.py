@@ -5,11 +5,11 @@
 
 import json
 from argparse import ArgumentParser, Namespace
-from dataclasses import fields, replace
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from pigaming_app.ai.experiments import training
+from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
@@ -17,7 +17,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.options import decimal, game_option, integer, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
-from pigaming_app.jobs.train.outputs import changes, check_outputs, csv_of, output_options, png_of, two_plots
+from pigaming_app.jobs.train.outputs import check_outputs, csv_of, output_options, png_of, two_plots
 from pigaming_app.jobs.train.progress import bar, end_line, interrupts, note, show
 from pigaming_app.scenes.files import load_table, save_table
 from pigaming_app.sim.arena import ArenaError
@@ -96,9 +96,8 @@ def _check(arguments: Namespace) -> None:
 
 def _recipe(arguments: Namespace) -> Recipe:
     """The recipe with the changes of --set. Raises Refusal."""
-    kinds: dict[str, Any] = {field.name: field.type for field in fields(Recipe)}
     try:
-        return replace(RECIPES[arguments.reward], **changes(arguments.set, kinds))
+        return changed(RECIPES[arguments.reward], arguments.set)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}") from None
 
