@@ -24,8 +24,8 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.experiments.knobs import changed
 from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.experiments.training import Training, contest
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.ai.registry import BRAINS

@@ -64,7 +64,7 @@ class Training:
         """Gather experience and learn from it."""
         began, share = perf_counter(), min(1.0, self.share)
         experiences = gather(self.learner.policy.weights, self.pool, self.hyper.decisions)
-        data = [self._digested(experience, share) for experience in experiences]
+        data = threads.map(lambda experience: self._digested(experience, share), experiences)
         joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
         self.entropy = self.learner.update(joined, share, threads)
         self.updates += 1
@@ -89,7 +89,7 @@ class Training:
         rewards = np.where(valid, self.task.reward(gains, inputs[:-1], choices, share), np.float32(0))
         last = np.maximum(valid.sum(0) - 1, 0)
         rewards[last, np.arange(len(last))] += np.where(over, results, np.float32(0))
-        values = self.learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[:, 0].reshape(inputs.shape[:2])
+        values = self.learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[0].reshape(inputs.shape[:2])
         gained = advantages(rewards, values, valid, over, self.hyper.discount, self.hyper.trace)
         returns = gained + values[:-1]
         return inputs[:-1][valid], choices[valid], log_odds[valid], gained[valid], returns[valid]

@@ -10,8 +10,8 @@ from pigaming_app.ui.i18n import english
 
 EXTRAS = {  # a module, and the package's name
     "hardware": ("cv2", "OpenCV"),
-    "plots": ("matplotlib", "matplotlib"),
     "onnx": ("onnxruntime", "onnxruntime"),
+    "plots": ("matplotlib", "matplotlib"),
     "ray": ("ray", "Ray"),
     "train": ("numba", "numba"),
     "bench": ("pymunk", "pymunk"),

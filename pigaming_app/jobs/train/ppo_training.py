@@ -10,8 +10,8 @@ from pathlib import Path
 from time import monotonic
 
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.experiments.knobs import changed
 from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.checkpoint import encode, restore
 from pigaming_app.ai.ppo.learner import STANDARD

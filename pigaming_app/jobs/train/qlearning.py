@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import NamedTuple
 
 from pigaming_app.ai.experiments import training
-from pigaming_app.ai.experiments.knobs import changed
+from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena

@@ -1,15 +1,15 @@
-"""Hyper-parameters changed by texts such as rate=0.001."""
+"""Changes of hyper-parameters from the command line."""
 
 from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
-Knobs = TypeVar("Knobs", bound=Any)
+T = TypeVar("T")
 
 
-def changed(knobs: Knobs, settings: Iterable[str]) -> Knobs:
-    """A frozen dataclass of numbers with changes of the form NAME=NUMBER. Raises ValueError."""
-    kinds: dict[str, Any] = {field.name: type(getattr(knobs, field.name)) for field in fields(knobs)}
+def changed(recipe: T, settings: Iterable[str]) -> T:
+    """A dataclass of numbers with changes of the form NAME=NUMBER. Raises ValueError."""
+    kinds: dict[str, Any] = {field.name: field.type for field in fields(recipe)}  # type: ignore[arg-type]
     changes: dict[str, Any] = {}
     for text in settings:
         name, equals, value = text.partition("=")
@@ -19,4 +19,4 @@ def changed(knobs: Knobs, settings: Iterable[str]) -> Knobs:
             changes[name] = kinds[name](value)
         except ValueError:
             raise ValueError(f"{text!r}; {value!r} is not such a number") from None
-    return replace(knobs, **changes)
+    return replace(recipe, **changes)  # type: ignore[type-var]
