@@ -40,7 +40,7 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
     rules, arenas = games()[task.game], [*dict.fromkeys(task.arenas)]
     variants = [rules.variants[name] for name in dict.fromkeys(task.variants)]
     cast, player = cast_of(task)
-    kinds = player, BRAINS[task.game][rival]
+    kinds, number = (player, BRAINS[task.game][rival]), cast.families.index(family_of(player))
     setups, seated = [], []
     for i in range(matches):
         lap, stop = divmod(i // 2, len(arenas))
@@ -51,9 +51,9 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
             Setup(task.game, arena, (one, two, three, four), minutes, seed, variant.name, variant.default_goal)
         )
         minds = [cast.mind_of(kinds[k ^ i % 2], seed * ROBOTS + k) for k in range(2)]
+        getattr(minds[i % 2], f"mind{number}").sharpness = task.sharpness
         seated.append([*minds, nobody(cast), nobody(cast)])
     states = new_matches(setups)
-    number = cast.families.index(family_of(player))
     weights = tuple(network if k == number else row for k, row in enumerate(cast.weights))
     longest = max(round((task.minutes[0] * 60 + variant.overtime) * HZ) for variant in variants)
     nothing = empty_experience(task, 0, -(-longest // PERIOD))
