@@ -12,7 +12,7 @@ from pigaming_app.ai.networks.encoding import Encoding, saturating, whole
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime, lead
 from pigaming_app.games.pitanks.state import MINES, OWN_BULLETS, OWN_MINES
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.flow_field import Route, update_route
+from pigaming_app.sim.flow_field import Route, free_node, update_route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -160,7 +160,7 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
     inputs[WAY + 2], inputs[WAY + 3] = whole(route.straight), whole(distance / 400.0)
     length = sqrt(target2)
     if not route.straight:
-        steps = route.reach[node_at(me.x, me.y)]
+        steps = route.reach[free_node(match, me.x, me.y)]
         length = CELL * steps if steps else 2.0 * length
     inputs[WAY + 4] = whole(length / 1600.0 - 1.0)
 

@@ -1,7 +1,7 @@
 """A task: a game as PPO learns it."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from pigaming_app.ai.networks.encoding import Encoding
@@ -17,6 +17,7 @@ class LineUp(NamedTuple):
     seats: tuple[str, ...]  # LEARNER, POOL, OFF or the name of a brain
     teams: tuple[int, ...] | None = None  # None: those of the variant
     variants: tuple[str, ...] = ()  # empty: those of the task
+    arenas: tuple[str, ...] = ()  # empty: those of the task
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,3 +46,7 @@ class Task:
     @property
     def game(self) -> str:
         return self.encoding.game
+
+    def against(self, rival: str) -> "Task":
+        """The same task with duels against one brain only: what it takes to beat that one."""
+        return replace(self, line_ups=(LineUp(1, (LEARNER, rival, OFF, OFF)),), rivals=(rival,))

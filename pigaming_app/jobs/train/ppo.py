@@ -22,6 +22,7 @@ def options(parser: ArgumentParser) -> None:
     length.add_argument(
         "--minutes", type=decimal(0.01, 10_000.0), metavar="NUMBER", help=f"length; default {DEFAULT_MINUTES:g}"
     )
+    parser.add_argument("--against", metavar="AI", help="learn duels against this one alone, to exploit it")
     shared(parser, "--seed", "--json")
     output_options(parser, "network")
 

@@ -17,8 +17,10 @@ from pigaming_app.ai.ppo.checkpoint import encode, restore
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
+from pigaming_app.ai.ppo.task import Task
 from pigaming_app.ai.ppo.training import SHARDS, Diverged, Training, columns, in_threads
 from pigaming_app.ai.ppo.win_rates import Score
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
@@ -56,7 +58,7 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     if arguments.game not in TASKS:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
     try:
-        task = TASKS[arguments.game]
+        task = _task(arguments)
         hyper = changed(task.hyper, arguments.set)
         training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
     except ValueError as wrong:
@@ -64,6 +66,15 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     if arguments.resume:
         restore(training, beside)
     return training
+
+
+def _task(arguments: Namespace) -> Task:
+    """The game as it is to be learned. Raises ChoiceError."""
+    task = TASKS[arguments.game]
+    if arguments.against is None:
+        return task
+    find_brain(arguments.game, arguments.against)
+    return task.against(arguments.against)
 
 
 def _train(training: Training, threads: Executor, save: Callable[[], None], stopped: list[int]) -> None:
