@@ -5,6 +5,7 @@ from typing import Any
 
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import Curve, TrainedNetwork
+from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.ai.ppo.task import LineUp, Task
 from pigaming_app.ai.ppo.training import Training, columns
 
@@ -23,6 +24,7 @@ def trained_network(training: Training, name: str) -> TrainedNetwork:
         seed=training.seed,
         updates=training.updates,
         decisions=training.decisions,
+        handicap=Handicap(sharpness=training.task.sharpness),
         curve=Curve(columns(training.task), tuple(points[:: -(-len(points) // POINTS) or 1])),
     )
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from pigaming_app.ai.networks.encoding import Encoding
+from pigaming_app.ai.ppo.learner import STANDARD, Hyper
 
 LEARNER, POOL, OFF = "learner", "pool", "off"  # on a seat: the network in training, an earlier copy of it, nobody
 
@@ -39,6 +40,8 @@ class Task:
     rivals: tuple[str, ...]  # brains against which win rates are measured
     habits: Callable[[Any], Mapping[str, float]]  # habits(generator): fields of a network's senses, for a whole match
     cut: float = 0.0  # probability that a match is replaced by a fresh one after each update
+    hyper: Hyper = STANDARD
+    sharpness: float = 1.0  # of the trained network as a brain; see Handicap
 
     @property
     def game(self) -> str:

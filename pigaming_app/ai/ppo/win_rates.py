@@ -40,7 +40,7 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
     rules, arenas = games()[task.game], [*dict.fromkeys(task.arenas)]
     variants = [rules.variants[name] for name in dict.fromkeys(task.variants)]
     cast, player = cast_of(task)
-    kinds = player, find_brain(task.game, rival)
+    kinds, number = (player, find_brain(task.game, rival)), cast.families.index(family_of(player))
     setups, seated = [], []
     for i in range(matches):
         lap, stop = divmod(i // 2, len(arenas))
@@ -51,9 +51,9 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
             Setup(task.game, arena, (one, two, three, four), minutes, seed, variant.name, variant.default_goal)
         )
         minds = [cast.mind_of(kinds[k ^ i % 2], seed * ROBOTS + k) for k in range(2)]
+        getattr(minds[i % 2], f"mind{number}").sharpness = task.sharpness
         seated.append([*minds, nobody(cast), nobody(cast)])
     states = new_matches(setups)
-    number = cast.families.index(family_of(player))
     networks = cast.weights[number].copy()
     networks[cast.mind_of(player, 0).row] = network[0]
     weights = tuple(networks if k == number else row for k, row in enumerate(cast.weights))

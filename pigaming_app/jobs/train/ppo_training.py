@@ -14,7 +14,6 @@ from pigaming_app.ai.experiments.league import wilson
 from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.checkpoint import encode, restore
-from pigaming_app.ai.ppo.learner import STANDARD
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
@@ -59,8 +58,9 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     if arguments.game not in TASKS:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
     try:
-        hyper = changed(STANDARD, arguments.set)
-        training = Training(_task(arguments), arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
+        task = _task(arguments)
+        hyper = changed(task.hyper, arguments.set)
+        training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}") from None
     if arguments.resume:
