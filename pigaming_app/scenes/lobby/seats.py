@@ -23,7 +23,7 @@ class SeatState:
     kind: str = EMPTY
     device: Device | None = None
     ready: bool = False
-    strength: str = "normal"
+    strength: str = "level3"
     team: int = 0
     real: bool = False
     filled: bool = False
@@ -37,7 +37,7 @@ class Seats:
     `mat`: a mat for real robots is available.
     """
 
-    strength: str = "normal"
+    strength: str = "level3"
     teams: bool = False
     team_mode: str = FREE
     rivals: tuple[str, ...] = STRENGTHS

@@ -45,7 +45,7 @@ LEAD_SECONDS = 0.8  # seconds before the countdown, to look round
 RESUME_STEP = 0.5  # seconds per number after an interruption
 HALT_AFTER = 60.0  # seconds without any input until the match is halted
 NOTICE_SECONDS = 3.0  # seconds for which a notice is shown
-SUBSTITUTE_BRAIN = "normal"  # the brain that takes over for a person
+SUBSTITUTE_BRAIN = "level3"  # the brain that takes over for a person
 
 
 class MatchScene:

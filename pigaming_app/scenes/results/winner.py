@@ -40,7 +40,7 @@ from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
-from pigaming_app.ui.draw.theme import CAPITALS
+from pigaming_app.ui.draw.theme import CAPITALS, line_image
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import blit_sprite
 
@@ -236,7 +236,7 @@ def big_robot(player: int, scale: float) -> Steps[Sprite]:
 @resumable
 def title(text: str, size: int, color: Color) -> Steps[Sprite]:
     """The headline centred on (0, 0), with a black outline against the confetti behind it."""
-    edge = font("hero", size).render(text, True, BLACK)
+    edge = line_image(text, "hero", size, BLACK)
     w, h = edge.get_width() + 96, round(1.5 * size) + 64
     out = pygame.Surface((w, h), pygame.SRCALPHA)
     top = h / 2 - font("hero", size).get_ascent() + CAPITALS * size / 2
