@@ -105,7 +105,7 @@ def whole(arena: str, when: str, seats: tuple[tuple[int, str, int | None, bool],
         x = PLAYERS_X + SLOT * i
         badge(layer.glow, seat, x + 28, y + 4, 24)
         if level := level_of(brain):
-            layer.canvas.crisp.text(f"{level}{LIT}", 32, x + 78, y + 22, MIST, "head", "c")
+            layer.canvas.crisp.text(f"{level}{LIT}", 28, x + 75, y + 22, MIST, "head", "c")
         else:
             icon(layer.glow, "pad" if brain == "human" else "ai", x + 76, y + 20, 13, MIST, 3)
         if won:
