@@ -232,7 +232,7 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     assert isinstance(match.match.brains[1], BrainPlayer)
     back, device = plug(arcade, pads)
     assert match.devices[1] is None
-    assert match.runner.view.players[:2] == ["human", "normal"], "the view marks the AI"
+    assert match.runner.view.players[:2] == ["human", "level3"], "the view marks the AI"
     back.tap("a")
     arcade.frame(draw=True)
     assert arcade.shown(MatchScene) is match, "no pause"
