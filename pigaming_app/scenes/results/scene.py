@@ -24,6 +24,7 @@ from pigaming_app.scenes.results.initials import Initials, qualifying
 from pigaming_app.scenes.results.podium_page import PodiumPage
 from pigaming_app.scenes.results.rematch_vote import RematchVote
 from pigaming_app.scenes.results.view import ResultsPage
+from pigaming_app.storage.scores import Score
 from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
@@ -81,24 +82,34 @@ class Results:
         rounds: Rounds | None = None,
     ) -> None:
         self.context, self.setup, self.rematch, self.game_choice = context, setup, rematch, game_choice
-        self.recording = recording
+        self.outcome, self.recording = outcome, recording
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
         self.ballot = RematchVote(context, seats, humans, devices)
-        absent = [seat for seat in humans if devices[seat] is None]
+        self.absent: Sequence[int] = [seat for seat in humans if devices[seat] is None]
         self.page: Page = (
-            PodiumPage(context, outcome, setup, finished, absent, rounds)
+            PodiumPage(context, outcome, setup, finished, self.absent, rounds)
             if rounds
-            else ResultsPage(context, outcome, setup, finished, absent)
+            else ResultsPage(context, outcome, setup, finished, self.absent)
         )
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
         self.claims = qualifying(context, outcome, setup, own) if finished or rounds else []
-        self.initials = Initials(context, setup, self.claims)
+        self.initials = Initials(context, self.claims, self._tables)
         self.sounds = self.page.sounds()
         self.age = self.idle = self.message_left = 0.0
         self.message: Caption | None = None
         self.access = Access(context, lambda: self.ballot.devices)
         self.leaving, self.joining = HoldTimers(context.controls, LEAVE), HoldTimers(context.controls, TAKE_SECONDS)
+
+    @property
+    def humans(self) -> Sequence[int]:
+        """Seats of people."""
+        return self.ballot.humans
+
+    @property
+    def devices(self) -> Sequence[Device | None]:
+        """Device of each seat."""
+        return self.ballot.devices
 
     @property
     def prompts(self) -> ButtonPrompts:
@@ -190,6 +201,10 @@ class Results:
         elif event.device not in self.ballot.devices and self.ballot.takeable:
             self.joining.begin(event)
             self._say(caption(self.context.words("match.hold"), sign="ai"))
+
+    def _tables(self, fresh: Sequence[Score]) -> Scene | None:
+        """The tables with new rows, if there are any."""
+        return HighScores(self.context, contest(self.setup, self.initials.claims[0].seat), fresh) if fresh else None
 
     def _save(self, recording: Replay) -> None:
         """Save the replay, once; after a failure again on request."""

@@ -310,9 +310,9 @@ def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, r
     arcade.open(scene)
     arcade.until(lambda: scene.match.state.tick > 100)
     scene.match.state.robots[0].score = 9
-    arcade.until(lambda: scene.ending.results is not None)
-    assert scene.ending.results
-    assert len(scene.ending.results.claims) == records
+    arcade.until(lambda: scene.ending.next is not None)
+    assert scene.ending.next
+    assert len(scene.ending.next.claims) == records
 
 
 def race(arcade: Arcade) -> MatchScene:

@@ -96,9 +96,9 @@ def test_allies_get_stars_instead_of_a_crown(arcade: Arcade, stars: int, sound: 
 
 def test_it_takes_three_seconds_and_leaves_the_results_ready(arcade: Arcade) -> None:
     scene = moment(arcade, "human human hard human", WON)
-    waited = arcade.until(lambda: arcade.stack.top is scene.results)
+    waited = arcade.until(lambda: arcade.stack.top is scene.then)
     assert waited == pytest.approx(LENGTH, abs=0.1)
-    assert scene.results.prewarm(0.0)
+    assert scene.then.prewarm(0.0)
 
 
 def test_players_skip_it_after_a_second_and_free_devices_do_not(arcade: Arcade) -> None:
@@ -111,7 +111,7 @@ def test_players_skip_it_after_a_second_and_free_devices_do_not(arcade: Arcade) 
     arcade.press(Button.X)
     assert arcade.stack.top is scene
     arcade.press(Button.FIRE)
-    assert arcade.stack.top is scene.results
+    assert arcade.stack.top is scene.then
     arcade.shown(Results)
 
 
@@ -119,7 +119,7 @@ def test_the_mouse_skips_it_too(arcade: Arcade) -> None:
     scene = moment(arcade, "human easy hard easy", WON)
     arcade.wait(SKIP + 0.1)
     arcade.click(960, 500)
-    assert arcade.stack.top is scene.results
+    assert arcade.stack.top is scene.then
 
 
 def test_without_flashes_there_is_confetti_and_no_burst(arcade: Arcade) -> None:
