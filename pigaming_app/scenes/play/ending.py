@@ -12,6 +12,7 @@ from pigaming_app.scenes.play.countdown import popped, show
 from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
 from pigaming_app.scenes.play.round_break import RoundBreak
 from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.winner import AfterMatch, WinnersMoment
 from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.input.events import InputEvent
@@ -24,7 +25,11 @@ class Ending:
     """The time from the last tick to the next scene. `make_next` is called once, when the whole match is over."""
 
     def __init__(
-        self, context: Context, runner: MatchRunner, rounds: Rounds | None, make_next: Callable[[], AfterMatch]
+        self,
+        context: Context,
+        runner: MatchRunner,
+        rounds: Rounds | None,
+        make_next: Callable[[], tuple[EndedMatch, AfterMatch]],
     ) -> None:
         self.context, self.runner, self.rounds, self.make_next = context, runner, rounds, make_next
         self.match = runner.match
@@ -63,8 +68,8 @@ class Ending:
     def update(self, seconds: float) -> StackOperation:
         """Show the last hit again, if the rules do so; then swap to the winner's moment."""
         if self.moment is None:
-            self.next = self.make_next()
-            self.moment = WinnersMoment(self.context, self.next)
+            ended, self.next = self.make_next()
+            self.moment = WinnersMoment(self.context, ended, self.next)
         repeated = self.repeat(seconds)
         return Swap(self.moment) if self.moment.prewarm(PREWARM_MS) and repeated else None
 
@@ -79,7 +84,7 @@ class Ending:
 
     def stop(self, seconds: float) -> StackOperation:
         """Swap to the next scene as soon as it is rendered: the match was ended by hand."""
-        self.next = self.next or self.make_next()
+        self.next = self.next or self.make_next()[1]
         self.hold(seconds)
         return Swap(self.next) if self.next.prewarm(PREWARM_MS) else None
 

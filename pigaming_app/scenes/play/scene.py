@@ -30,6 +30,7 @@ from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.round_break import draw_margin
 from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.scene import Results, SceneFactory
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.views.rumble import Rumble
@@ -388,9 +389,13 @@ class MatchScene:
             scene.idle_seats.claims |= self.idle_seats.claims
         return Swap(scene)
 
-    def _next(self) -> AfterMatch:
-        """The scene after the match, or after the rounds played."""
-        return self.after(self) if self.after else self._results()
+    def _next(self) -> tuple[EndedMatch, AfterMatch]:
+        """The match, or the rounds played, and the scene that follows."""
+        if self.after is None:
+            results = self._results()
+            return results.ended, results
+        absent = [seat for seat in self.humans if self.devices[seat] is None]
+        return EndedMatch(self.setup, self.match.outcome(), self.humans, absent, self.devices), self.after(self)
 
     def _results(self) -> Results:
         rounds = self.rounds if self.rounds and self.rounds.outcomes else None

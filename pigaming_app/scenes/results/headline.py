@@ -1,6 +1,7 @@
 """One-line headline of the results: the winning person, AI or team, or a draw."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from pigaming_app.ai.registry import RIVALS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
@@ -9,6 +10,18 @@ from pigaming_app.scenes.flow.brain_names import lit_stars
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.ui.draw import FOCUS, ICE, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Device
+
+
+@dataclass(frozen=True)
+class EndedMatch:
+    """A match and how it ended. `absent`: seats of people replaced by an AI; `devices`: of each seat."""
+
+    setup: Setup
+    outcome: Outcome
+    humans: Sequence[int]
+    absent: Sequence[int]
+    devices: Sequence[Device | None]
 
 
 def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int] = ()) -> str:

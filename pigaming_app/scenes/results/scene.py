@@ -18,6 +18,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
+from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.initials import Initials, qualifying
@@ -82,15 +83,16 @@ class Results:
         rounds: Rounds | None = None,
     ) -> None:
         self.context, self.setup, self.rematch, self.game_choice = context, setup, rematch, game_choice
-        self.outcome, self.recording = outcome, recording
+        self.recording = recording
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
         self.ballot = RematchVote(context, seats, humans, devices)
-        self.absent: Sequence[int] = [seat for seat in humans if devices[seat] is None]
+        absent = [seat for seat in humans if devices[seat] is None]
+        self.ended = EndedMatch(setup, outcome, humans, absent, devices)
         self.page: Page = (
-            PodiumPage(context, outcome, setup, finished, self.absent, rounds)
+            PodiumPage(context, outcome, setup, finished, absent, rounds)
             if rounds
-            else ResultsPage(context, outcome, setup, finished, self.absent)
+            else ResultsPage(context, outcome, setup, finished, absent)
         )
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
         self.claims = qualifying(context, outcome, setup, own) if finished or rounds else []
@@ -100,16 +102,6 @@ class Results:
         self.message: Caption | None = None
         self.access = Access(context, lambda: self.ballot.devices)
         self.leaving, self.joining = HoldTimers(context.controls, LEAVE), HoldTimers(context.controls, TAKE_SECONDS)
-
-    @property
-    def humans(self) -> Sequence[int]:
-        """Seats of people."""
-        return self.ballot.humans
-
-    @property
-    def devices(self) -> Sequence[Device | None]:
-        """Device of each seat."""
-        return self.ballot.devices
 
     @property
     def prompts(self) -> ButtonPrompts:

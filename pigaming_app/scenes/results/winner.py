@@ -5,18 +5,18 @@ allies get their stars. Any player may skip it after a second.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Protocol
 
 import pygame
 
-from pigaming_app.games.game import Outcome, Setup
+from pigaming_app.games.game import Outcome
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
-from pigaming_app.scenes.results.headline import headline, winning_color
+from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.results.stars import STARS, star
 from pigaming_app.scenes.views.sprites.effects import SPARK_SIZES, SPARK_TURNS, sparks
 from pigaming_app.scenes.views.sprites.factory import TEAMS
@@ -41,7 +41,7 @@ from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.draw.theme import CAPITALS, line_image
-from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import blit_sprite
 
 LENGTH, SKIP = 3.0, 1.0  # s, and s after which it may be skipped
@@ -64,30 +64,18 @@ Rings = tuple[tuple[int, float, float, float], ...]  # of each robot: player, x,
 
 
 class AfterMatch(Scene, Protocol):
-    """The scene after a match, and what the moment before it shows."""
-
-    setup: Setup
-    outcome: Outcome
-    absent: Sequence[int]  # seats of people replaced by an AI
-
-    @property
-    def humans(self) -> Sequence[int]:
-        """Seats of people."""
-
-    @property
-    def devices(self) -> Sequence[Device | None]:
-        """Device of each seat."""
+    """A scene that follows a match."""
 
     def prewarm(self, milliseconds: float) -> bool:
         """Prewarm the scene for at most this many milliseconds; True when complete."""
 
 
 class WinnersMoment:
-    """The moment before the scene `then`."""
+    """The moment after the match `ended`, before the scene `then`."""
 
-    def __init__(self, context: Context, then: AfterMatch) -> None:
-        self.context, self.then = context, then
-        self.outcome, self.setup = then.outcome, then.setup
+    def __init__(self, context: Context, ended: EndedMatch, then: AfterMatch) -> None:
+        self.context, self.ended, self.then = context, ended, then
+        self.outcome, self.setup = ended.outcome, ended.setup
         stars = self.outcome.rows[0].stats.get("stars")
         self.stars = None if stars is None else round(stars)  # of allies
         self.seats = celebrated(self.outcome)
@@ -95,7 +83,7 @@ class WinnersMoment:
         half = (len(self.seats) - 1) / 2
         self.places = [(MIDDLE[0] + pitch * (i - half), MIDDLE[1]) for i in range(len(self.seats))]
         self.color = winning_color(self.outcome, self.setup)
-        self.name = headline(context.words, self.outcome, self.setup, then.absent)
+        self.name = headline(context.words, self.outcome, self.setup, ended.absent)
         self.size = fit_size(self.name, HERO * 3 // 4, 1640, "hero")
         self.celebration = Celebration(self.setup.game, self.seats, self._colors())
         cheerful = self.stars != 0
@@ -103,7 +91,7 @@ class WinnersMoment:
         self.bursts = [*BURSTS] if cheerful and context.settings.flashes != "off" else []
         self.age = 0.0
         self.queue = PrewarmQueue(self._jobs())
-        self.access = Access(context, lambda: then.devices)
+        self.access = Access(context, lambda: ended.devices)
         hints = [(Button.FIRE, "results.hint_skip")]
         self.prompts = context.prompts(hints, PROMPT_Y, device=lambda: self.access.hint_device)
 
@@ -179,7 +167,7 @@ class WinnersMoment:
 
     def _sound(self) -> str:
         """The sound of a victory, of a tie, or of people who have lost to AIs or to the clock."""
-        people, winners = set(self.then.humans), set(self.outcome.winners)
+        people, winners = set(self.ended.humans), set(self.outcome.winners)
         if self.stars is None and not winners:
             return "tie"
         return "lose" if self.stars == 0 or (people and not people & winners) else "fanfare"

@@ -31,7 +31,7 @@ def moment(arcade: Arcade, brains: str, ended: Outcome, teams: tuple[int, ...] =
     devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
     again = MatchScene(arcade.context, match, devices).rematch
     results = Results(arcade.context, ended, match, devices, again, game_choice=game_choice)
-    scene = WinnersMoment(arcade.context, results)
+    scene = WinnersMoment(arcade.context, results.ended, results)
     arcade.open(scene)
     return scene
 
@@ -48,7 +48,8 @@ WON = outcome({0: 12, 1: -3, 2: 7, 3: 5}, (0,))
 @pytest.mark.parametrize("name", list(ENDINGS))
 def test_every_ending_has_its_moment_within_the_picture(controls: Controls, name: str, language: str) -> None:
     arcade = Arcade(controls, language)
-    scene = WinnersMoment(arcade.context, ENDINGS[name].results(arcade))
+    results = ENDINGS[name].results(arcade)
+    scene = WinnersMoment(arcade.context, results.ended, results)
     arcade.open(scene)
     arcade.wait(LENGTH - 0.4, fps=10, draw=True)
     assert title(scene.name, scene.size, scene.color).image.get_width() <= 1920 - 2 * 96
