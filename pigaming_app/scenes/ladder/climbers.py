@@ -9,7 +9,7 @@ from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.storage.scores import Score, ScoreTable
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, text_width
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, text_width
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -20,7 +20,7 @@ GAMES = (*FORMATS, ALL)
 SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans in days
 STAY = 20.0  # s without input
 INPUT_LOCKOUT = 0.4  # s during which input is ignored
-LINE_Y, MEASURE_Y, ARROW = 234, 924, 20  # px
+LINE_Y, ARROW = 234, 20  # px
 CLOSING = Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK
 
 
@@ -69,14 +69,13 @@ class Climbers:
         """Draw the tables only."""
         words, table = self.context.words, table_of(self.game)
         screen.blit(backdrop(), (0, 0))
-        heading(words("ladder.climbers")).draw(screen)
+        heading(words("ladder.climbers"), words("ladder.measure")).draw(screen)
         name = words(f"ladder.{ALL}" if self.game == ALL else f"games.{self.game}")
         text(name, LABEL, ICE, "head").draw(screen, 960, LINE_Y)
         for column, (title, days) in zip((0, 6), SPANS.items(), strict=True):
             rows = [self._row(row) for row in self.context.scores.best(table, days)]
             board = Board(words(title), rows, words("best.first"), words("ladder.lost_column"))
             board.draw(screen, *span(column, 6), self.turned)
-        text(words("ladder.measure"), BODY, MIST).draw(screen, 960, MEASURE_Y)
 
     def _row(self, row: Score) -> BoardRow:
         level, lost = stars_and_losses(row.score)

@@ -50,7 +50,7 @@ class LadderPage:
         self.age, self.message_left = 0.0, 0.0 if saved else MESSAGE_SECONDS
         self.going = False  # a match is wanted, but not loaded yet
         self.access = Access(context, lambda: [self.climber.device])
-        self.focus = Focus(self._spots())
+        self.focus = Focus(self.spots())
         hints = [(Button.FIRE, "ladder.hint_ok"), (Button.BACK, "ladder.hint_later")]
         self.prompts = context.prompts(hints, device=lambda: self.access.hint_device)
         self.queue = PrewarmQueue(self._jobs())
@@ -123,9 +123,8 @@ class LadderPage:
         else:
             self.prompts.draw(screen)
 
-    # ---- inside
-
-    def _spots(self) -> list[FocusSpot]:
+    def spots(self) -> list[FocusSpot]:
+        """The items that are possible now."""
         names = [PLAY]
         if self.climb.offers_easier:
             names.append(EASIER)
@@ -133,6 +132,8 @@ class LadderPage:
             names += [STOP] if self.said else [ANEW, STOP]
         boxes = (pygame.Rect(X, ITEMS_Y + ITEM_PITCH * i, W, ITEM_H) for i in range(len(names)))
         return [FocusSpot(name, box) for name, box in zip(names, boxes, strict=True)]
+
+    # ---- inside
 
     def _shown(self) -> Climb:
         """The climb as drawn: while weaker robots are selected, with them."""
@@ -156,7 +157,7 @@ class LadderPage:
         elif item == EASIER:
             self._change(self.climb.made_easier(), "easier_done")
             return None
-        else:
+        elif self.climb.offers_easier:
             self._change(self.climb.kept_hard(), self.said)
         self.going = True
         return self._begin()
@@ -166,7 +167,7 @@ class LadderPage:
         self.climber, self.said = replace(self.climber, climb=climb), said
         if not self.climber.save():
             self.message_left = MESSAGE_SECONDS
-        self.focus.set_spots(self._spots())
+        self.focus.set_spots(self.spots())
         self.focus.move_to(PLAY)
 
     def _begin(self) -> StackOperation:

@@ -15,13 +15,14 @@ from pigaming_app.scenes.ladder.rungs_view import UP
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.initials import Initials, Qualification, places
 from pigaming_app.scenes.results.stars import star
+from pigaming_app.scenes.results.winner import title
 from pigaming_app.scenes.views.sprites.robot import seat_robot
 from pigaming_app.storage.scores import Score
 from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, LINE, MIST, PLAYERS, STEEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text, word
+from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import blit_sprite
 
@@ -79,7 +80,7 @@ class Summit:
             lit = i < climb.beaten and self.age >= STAR_EVERY * (i + 1)
             star(lit, STAR_R).draw(screen, 960 + STAR_PITCH * (i - (LEVELS - 1) / 2), STAR_Y)
         blit_sprite(screen, seat_robot(0, UP, SCALE), 960, ROBOT_Y)
-        word(self.title, self.size, FOCUS if climb.at_top else ICE).draw(screen, 960, TITLE_Y)
+        blit_sprite(screen, title(self.title, self.size, FOCUS if climb.at_top else ICE), 960, TITLE_Y)
         line = words("ladder.lost_one") if climb.lost == 1 else words("ladder.lost_count", lost=climb.lost)
         text(line, LABEL, MIST, "head").draw(screen, 960, LINE_Y)
         if self.age >= SKIP:
@@ -109,7 +110,7 @@ class Summit:
         for lit in (False, True):
             yield partial(star, lit, STAR_R)
         yield partial(seat_robot, 0, UP, SCALE)
-        yield partial(word, self.title, self.size, FOCUS if self.climb.at_top else ICE)
+        yield partial(title, self.title, self.size, FOCUS if self.climb.at_top else ICE)
         if self.volleys:
             for color in dict.fromkeys(self.celebration.colors):
                 for size in SIZES:

@@ -63,7 +63,7 @@ def draw_row(screen: pygame.Surface, row: BoardRow, i: int, x: int, w: int, shar
     text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
     text(row.value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
     if row.note:
-        text(row.note, LABEL, color, "head", "r").draw(screen, x + w - 170, y)
+        text(row.note, LABEL, color, "head", "r").draw(screen, x + w - 210, y)
     if row.fresh:
         sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
     screen.set_clip(before)
