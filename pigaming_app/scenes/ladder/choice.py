@@ -13,6 +13,7 @@ from pigaming_app.scenes.ladder.rungs import LadderPage
 from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.views.game_tile import TILE_H, TILE_Y, tile, tile_rect
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, dim, panel
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
@@ -107,11 +108,13 @@ class LadderChoice:
 
 
 @cached
-def wide_tile(name: str, line: str, hot: bool) -> LitImage:
+@resumable
+def wide_tile(name: str, line: str, hot: bool) -> Steps[LitImage]:
     """The tile for all games; top left at (0, 0)."""
     w, h = ALL_BOX.size
     layer = Layer(0, 0, w, h)
     panel(layer.glow, 0, 0, w, h, dim(FOCUS, 0.55) if hot else STEEL)
     layer.canvas.text(name, fit_size(name, LABEL, w // 2 - 60), 32, h / 2, FOCUS if hot else ICE)
     layer.canvas.body(line, w - 32, h / 2, ICE if hot else MIST, "r", fit_size(line, BODY, w // 2, "body"))
-    return layer.render()
+    yield
+    return (yield from layer.render_steps())

@@ -20,6 +20,7 @@ from pigaming_app.ui.draw import (
     dim,
     icon,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite, dimmed
@@ -60,18 +61,21 @@ def state_of(climb: Climb, rung: int) -> str:
 
 
 @cached
-def rails() -> LitImage:
+@resumable
+def rails() -> Steps[LitImage]:
     """The two rails and the floor."""
     left, right = RAILS
     layer = Layer(left - 60, rung_y(LEVELS) - 90, right - left + 120, GROUND - rung_y(LEVELS) + 130)
     for x in RAILS:
         layer.glow.neon([(x, rung_y(LEVELS) - 72), (x, GROUND)], STEEL, LINE)
     layer.glow.line([(left - 52, GROUND), (right + 52, GROUND)], MIST, THIN)
-    return layer.render()
+    yield
+    return (yield from layer.render_steps())
 
 
 @cached
-def stars(level: int, state: str) -> LitImage:
+@resumable
+def stars(level: int, state: str) -> Steps[LitImage]:
     """A rung at y = 0 and the stars of its robot beside it; those passed have a tick."""
     left, right = RAILS
     layer = Layer(left - 10, -60, STARS_X + 420 - left, 120)
@@ -80,7 +84,9 @@ def stars(level: int, state: str) -> LitImage:
     if state == PAST:
         icon(layer.glow, "check", STARS_X + 4, -STANDS, 20, FOCUS, LINE)
     layer.canvas.text(LIT * level, STARS, STARS_X + 44, -STANDS, ICE, "head")
-    return dimmed(layer.render(), 0.5) if state == AHEAD else layer.render()
+    yield
+    lit = yield from layer.render_steps()
+    return dimmed(lit, 0.5) if state == AHEAD else lit
 
 
 @cached

@@ -11,12 +11,10 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers, format_climb
-from pigaming_app.scenes.ladder.rungs_view import UP
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.initials import Initials, Qualification, places
 from pigaming_app.scenes.results.stars import star
-from pigaming_app.scenes.results.winner import title
-from pigaming_app.scenes.views.sprites.robot import seat_robot
+from pigaming_app.scenes.results.winner import big_robot, title
 from pigaming_app.storage.scores import Score
 from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, LINE, MIST, PLAYERS, STEEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
@@ -79,7 +77,7 @@ class Summit:
         for i in range(LEVELS):
             lit = i < climb.beaten and self.age >= STAR_EVERY * (i + 1)
             star(lit, STAR_R).draw(screen, 960 + STAR_PITCH * (i - (LEVELS - 1) / 2), STAR_Y)
-        blit_sprite(screen, seat_robot(0, UP, SCALE), 960, ROBOT_Y)
+        blit_sprite(screen, big_robot(0, SCALE), 960, ROBOT_Y)
         blit_sprite(screen, title(self.title, self.size, FOCUS if climb.at_top else ICE), 960, TITLE_Y)
         line = words("ladder.lost_one") if climb.lost == 1 else words("ladder.lost_count", lost=climb.lost)
         text(line, LABEL, MIST, "head").draw(screen, 960, LINE_Y)
@@ -109,7 +107,7 @@ class Summit:
         yield floor
         for lit in (False, True):
             yield partial(star, lit, STAR_R)
-        yield partial(seat_robot, 0, UP, SCALE)
+        yield partial(big_robot, 0, SCALE)
         yield partial(title, self.title, self.size, FOCUS if self.climb.at_top else ICE)
         if self.volleys:
             for color in dict.fromkeys(self.celebration.colors):

@@ -258,7 +258,7 @@ def leave(walker: TourWalker, game: str) -> None:
 
 
 def ladder(walker: TourWalker) -> None:
-    """A climb through all games: a match that is won, one that is ended, the end of the climb, the letters, the table."""
+    """A climb through all games: a match, the offer of weaker robots, the end of the climb, the letters, the table."""
     walker.set_screen("ladder: choice")
     choose(walker, "ladder")
     walker.wait(0.5)
