@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from pigaming_app.ai.registry import POINT, RIVALS
 from pigaming_app.events.ladder import Climb, table_of, worth
+from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
@@ -16,6 +17,7 @@ from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers
 from pigaming_app.scenes.ladder.rungs import LadderPage
+from pigaming_app.scenes.ladder.strengths import Strengths
 from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
@@ -173,6 +175,14 @@ def summit(arcade: Arcade) -> Summit:
     return scene
 
 
+def strengths(arcade: Arcade) -> Strengths:
+    scene = Strengths(arcade.context, "pitanks")
+    rows = [(brain, 900.0 - 160.0 * i) for i, brain in enumerate((*RIVALS["pitanks"], "classic", "random", "hand1"))]
+    rated = tuple(Strength(brain, rating, rating - 90.0, rating + 90.0) for brain, rating in rows)
+    scene.ratings, scene.age = Ratings("pitanks", "original", 100_000, rated), 9.0
+    return scene
+
+
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
     "ladder resumed": ladder("", rung=5, wins=1, losses=1, beaten=4, lost=999),
@@ -180,6 +190,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "ladder easier": easier,
     "summit": summit,
     "climbers": climbers,
+    "strengths": strengths,
     "title": lambda arcade: Title(arcade.context),
     "options": lambda arcade: OptionsPage(arcade.context),
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),

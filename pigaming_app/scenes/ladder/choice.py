@@ -10,6 +10,7 @@ from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of, resumable_climbs
 from pigaming_app.scenes.ladder.climbers import Climbers
 from pigaming_app.scenes.ladder.rungs import LadderPage
+from pigaming_app.scenes.ladder.strengths import Strengths
 from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.views.game_tile import TILE_H, TILE_Y, tile, tile_rect
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, dim, panel
@@ -30,6 +31,7 @@ RULES_Y = 876
 HINTS = [
     (Button.FIRE, "ladder.hint_ok"),
     (Button.Y, "ladder.hint_climbers"),
+    (Button.X, "ladder.hint_strengths"),
     (Button.BACK, "ladder.hint_back"),
 ]
 
@@ -52,11 +54,14 @@ class LadderChoice:
             self.navigation.show_message(self.context.words("ladder.damaged"))
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE chooses a ladder, Y shows the best climbers, BACK leaves."""
+        """FIRE chooses a ladder, Y shows the best climbers, X the strength of the AIs, BACK leaves."""
         event = self.navigation.prompts.as_button(event)
         if event.button is Button.Y:
             self.context.sounds.play("accept")
             return Push(Climbers(self.context, self.focus.name))
+        if event.button is Button.X:
+            self.context.sounds.play("accept")
+            return Push(Strengths(self.context, self.focus.name if self.focus.name in FORMATS else next(iter(FORMATS))))
         chosen = self.focus.activated(event)
         if chosen is None:
             return self.navigation.handle(event)

@@ -65,7 +65,7 @@ def draw_row(screen: pygame.Surface, row: BoardRow, i: int, x: int, w: int, shar
     if row.note:
         text(row.note, LABEL, color, "head", "r").draw(screen, x + w - 210, y)
     if row.fresh:
-        sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
+        sign("left", 20, FOCUS, LINE).draw(screen, x + 376, y)
     screen.set_clip(before)
 
 

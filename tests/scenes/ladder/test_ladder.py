@@ -4,12 +4,15 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai.registry import STRENGTHS
 from pigaming_app.events import climb_files
 from pigaming_app.events.ladder import Climb, table_of, worth
+from pigaming_app.events.league_files import Ratings, Strength, file_name
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers
 from pigaming_app.scenes.ladder.rungs import INPUT_LOCKOUT, LadderPage
+from pigaming_app.scenes.ladder.strengths import Strengths, shown
 from pigaming_app.scenes.ladder.summit import SKIP, Summit
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
@@ -191,3 +194,26 @@ def test_the_table_steps_through_the_games_and_a_mouse_drives_by_keyboard(arcade
     arcade.click(*choice.focus.rect("all").center)
     assert page(arcade).climber.device == KEYS[0]
     assert page(arcade).climb.next_game == "pitanks"
+
+
+def test_the_ratings_of_each_game_are_one_press_away_and_the_users_own_come_first(arcade: Arcade) -> None:
+    arcade.press(Button.X)
+    for game in ("pitanks", "factory", "race", "pitanks"):
+        page = arcade.shown(Strengths)
+        assert page.game == game
+        assert page.ratings
+        arcade.wait(1.0, draw=True)
+        arcade.press(Button.RIGHT)
+    (folders().data / file_name("race")).write_text("{}", encoding="utf-8")
+    arcade.press(Button.RIGHT)
+    page = arcade.shown(Strengths)
+    assert page.message_left > 0.0
+    assert page.ratings, "the shipped ones"
+    arcade.press(Button.BACK)
+    arcade.shown(LadderChoice)
+
+
+def test_of_many_ais_the_page_shows_all_levels_and_the_best_others() -> None:
+    names = [*(f"other{i}" for i in range(20)), *STRENGTHS]
+    rated = tuple(Strength(name, 500.0 - 10.0 * i, 0.0, 600.0) for i, name in enumerate(names))
+    assert [row.brain for row in shown(Ratings("race", "party", 1, rated))] == [*names[:7], *STRENGTHS]
