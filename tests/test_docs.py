@@ -260,7 +260,7 @@ def test_the_page_on_the_thesis_has_the_results_of_the_page_on_opponents():
     triple = re.compile(r"\d+ / \d+ / \d+")
     thesis, opponents = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, OPPONENTS_PAGE))
     assert thesis == opponents
-    assert len(thesis) == 8
+    assert len(thesis) == 10
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -10,14 +10,13 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import fields, replace
 from io import BytesIO, StringIO
 from os.path import realpath
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from pigaming_app.ai.experiments import training
-from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
+from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe, changed
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.registry import games
@@ -123,18 +122,8 @@ def _check(arguments: Namespace) -> None:
 
 def _recipe(arguments: Namespace) -> Recipe:
     """The recipe with the changes of --set. Raises Refusal."""
-    kinds: dict[str, Any] = {field.name: field.type for field in fields(Recipe)}
-    changes: dict[str, float] = {}
-    for text in arguments.set:
-        name, equals, value = text.partition("=")
-        if name not in kinds or not equals:
-            raise Refusal(f"--set: {text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
-        try:
-            changes[name] = kinds[name](value)
-        except ValueError:
-            raise Refusal(f"--set: {text!r}; {value!r} is not such a number") from None
     try:
-        return replace(RECIPES[arguments.reward], **changes)  # type: ignore[arg-type]
+        return changed(RECIPES[arguments.reward], arguments.set)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}") from None
 

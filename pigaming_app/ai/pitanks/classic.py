@@ -1,8 +1,12 @@
-"""The frozen reference opponent of PiTanks: the original's finite state machine without improvements.
+"""The frozen reference opponent of PiTanks: the original's finite state machine, with one addition.
 
 Winning or level it defends: it goes behind the nearest inner wall, waits there, and fires at an opponent in sight.
 Losing it attacks: it closes in round the walls, aims and fires. It aims without lead, never dodges, ignores pickups and
 never leaves cover in a level match. Results are comparable because it stays the same while `fsm` improves.
+
+The addition is BREAK_FREE: a robot that drives and gets nowhere for STUCK_TICKS backs out, turning at random, and goes
+on as before. The original's robots stayed stuck in walls, by a fault of its engine that caused some of its ties; its
+paper mentions no such state, though the diagram of its states is not in our copy.
 
 The original's paper does not give the numbers in `Parameters`. Only these were fitted, so that trained robots reach the
 published results against it: see tests/bench/reproduce_table.py.

@@ -1,24 +1,37 @@
 """Rewards of the Q-learner and all other parameters of its training, as one recipe.
 
 RECIPES[1] and RECIPES[2] are the original's two reward tables. Every choice that its paper leaves open is a named field
-here, with our choice as default; the Lab edits the same fields.
+here, with our choice as default; the Lab edits the same fields. In two of them our default is not the paper's reading:
+
+- `in_sight`: its rewards are functions of two states and an action, and a state holds directions only, so its "line of
+  sight" is the direction of the opponent with the closest wall elsewhere: 0. Ours is 1, a free line between the robots
+  as well, so that shots into the other walls earn nothing.
+- `exposure`: its opponent "was not behind but gets behind": 0. Ours is 1: a wall that stops covering the robot's back
+  counts, too, so that each spell of danger costs once, however it begins.
+
+docs/thesis.md has the results of both readings.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from pigaming_app.ai.qlearning.features import opponent_of, wall_of
+from pigaming_app.ai.qlearning.features import SECTORS, opponent_of, wall_of
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.toml_table import quote
 
-AHEAD = 0  # sector straight ahead
 CREEP = 10.0  # px/s; a slower robot counts as standing
-BEHIND_FROM, BEHIND_TO = 4, 12  # first and last sector that count as behind
 
 ANY, SWITCH, HEAT = (-1000.0, 1000.0), (0, 1), (0.001, 1000.0)
 BOUNDS: dict[str, tuple[float, float]] = {
+    "in_sight": SWITCH,
+    "off_wall": SWITCH,
+    "look": (0, 7),
+    "behind_from": (1, 8),
+    "behind_to": (8, 15),
+    "exposure": SWITCH,
     "behind_always": SWITCH,
     "gamma": (0.0, 0.999),
     "ceiling": (1, 1_000_000_000),
@@ -27,7 +40,6 @@ BOUNDS: dict[str, tuple[float, float]] = {
     "period": (1, 50),
     "incoming": SWITCH,
     "loaded": SWITCH,
-    "in_sight": SWITCH,
     "moving": SWITCH,
     "ramp": SWITCH,
     "last": SWITCH,
@@ -39,9 +51,15 @@ class Recipe:
     """All parameters of learning except the random seed. Rewards are in points; switches are 0 or 1."""
 
     hit: float = 10.0  # fires with the opponent ahead and in sight, and the closest wall in another direction
-    miss: float = -1.0  # fires with the opponent in another direction
-    behind: float = -1.0  # opponent behind, and the closest wall in another direction
-    behind_always: int = 0  # 0: only when this situation begins; 1: at every decision
+    in_sight: int = 1  # 1: `hit` needs a free line to the opponent; 0, the thesis: its direction alone counts
+    off_wall: int = 1  # 1, the thesis: `hit` needs the closest wall in another direction; 0: in any
+    look: int = 0  # sectors on either side of straight ahead that count as ahead; the thesis: 0
+    miss: float = -1.0  # fires with the opponent in another direction than ahead
+    behind: float = -1.0  # exposed: the opponent behind, and the closest wall in another direction
+    behind_from: int = 4  # first and last sector that count as behind; the thesis: "between 4 and 12", so 4 and 12,
+    behind_to: int = 12  # or 5 and 11
+    exposure: int = 1  # `behind` where exposure begins: 1: however; 0, the thesis: as the opponent gets behind
+    behind_always: int = 0  # 0, the thesis's agent 1: only then; 1, agent 2: at every decision in exposure
     still: float = 0.0  # no linear command
     gamma: float = 0.6  # discount per decision
     ceiling: int = 100_000  # experiences, of both robots, over which the temperature falls
@@ -50,7 +68,6 @@ class Recipe:
     period: int = 5  # ticks between decisions: 10 Hz; at 3 rad/s a decision turns by 17 degrees, less than a sector
     incoming: int = 1  # 1: only approaching bullets are seen; 0: all of the opponent's
     loaded: int = 0  # 1: firing counts only when the gun is loaded; 0: pressing the button counts
-    in_sight: int = 1  # 1: `hit` needs a free line of sight; 0: the direction alone counts
     moving: int = 0  # `still` means 0: no linear command; 1: no motion, whatever the command
     ramp: int = 1  # 1: linear fall of the temperature; 0: one step at `ceiling`, as the thesis's whole numbers do
     last: int = 1  # 1: the last decision is learned from at the end (a truncation: bootstrapped); 0: it is dropped
@@ -74,15 +91,30 @@ class RecipeRecord(Recipe):
 RECIPES = {1: Recipe(), 2: replace(Recipe(), behind_always=1, still=-10.0)}
 
 
+def changed(recipe: Recipe, settings: Iterable[str]) -> Recipe:
+    """The recipe with changes of the form NAME=NUMBER. Raises ValueError."""
+    kinds: dict[str, Any] = {field.name: field.type for field in fields(Recipe)}
+    changes: dict[str, Any] = {}
+    for text in settings:
+        name, equals, value = text.partition("=")
+        if name not in kinds or not equals:
+            raise ValueError(f"{text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
+        try:
+            changes[name] = kinds[name](value)
+        except ValueError:
+            raise ValueError(f"{text!r}; {value!r} is not such a number") from None
+    return replace(recipe, **changes)
+
+
 @kernel
 def action_reward(match: Any, seat: int, opponent: int, state: int, action: Any, knobs: Any) -> float:
     """Immediate reward for choosing `action` in `state`, points."""
     reward = 0.0
     if action.fire and not (knobs.loaded and match.tanks[seat].cooldown):
-        ahead = opponent_of(state)
-        if ahead != AHEAD:
+        direction = opponent_of(state)
+        if knobs.look < direction < SECTORS - knobs.look:
             reward += knobs.miss
-        elif wall_of(state) != ahead:
+        elif wall_of(state) != direction or not knobs.off_wall:
             robot, other = match.robots[seat], match.robots[opponent]
             if not knobs.in_sight or is_clear(match, robot.x, robot.y, other.x, other.y, 0.0):
                 reward += knobs.hit
@@ -95,12 +127,18 @@ def action_reward(match: Any, seat: int, opponent: int, state: int, action: Any,
 @kernel
 def transition_reward(before: int, after: int, knobs: Any) -> float:
     """Reward for the transition from one decision's state to the next one's, points."""
-    reward: float = knobs.behind if exposed(after) and (knobs.behind_always or not exposed(before)) else 0.0
+    begun = exposed(before, knobs) if knobs.exposure else opponent_behind(before, knobs)
+    reward: float = knobs.behind if exposed(after, knobs) and (knobs.behind_always or not begun) else 0.0
     return reward
 
 
 @kernel
-def exposed(state: int) -> int:
+def exposed(state: int, knobs: Any) -> int:
     """1 if the opponent is behind and the closest wall is in another direction."""
-    ahead = opponent_of(state)
-    return 1 if BEHIND_FROM <= ahead <= BEHIND_TO and wall_of(state) != ahead else 0
+    return 1 if opponent_behind(state, knobs) and wall_of(state) != opponent_of(state) else 0
+
+
+@kernel
+def opponent_behind(state: int, knobs: Any) -> int:
+    """1 if the direction of the opponent counts as behind."""
+    return 1 if knobs.behind_from <= opponent_of(state) <= knobs.behind_to else 0

@@ -4,7 +4,7 @@ import json
 import os
 import zipfile
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import asdict, replace
 from io import BytesIO
 from pathlib import Path
 from warnings import catch_warnings
@@ -38,7 +38,11 @@ def short(fast=False, seed=1, recipe=RECIPES[2], table=None):
 @compiles
 @pytest.mark.parametrize(
     "recipe",
-    [*RECIPES.values(), replace(RECIPES[2], loaded=1, in_sight=0, period=7, last=0, incoming=0, moving=1, ramp=0)],
+    [
+        *RECIPES.values(),
+        replace(RECIPES[2], loaded=1, in_sight=0, period=7, last=0, incoming=0, moving=1, ramp=0),
+        replace(RECIPES[1], exposure=0, off_wall=0, look=1, behind_from=5, behind_to=11),
+    ],
 )
 def test_both_bodies_learn_the_same_table_to_the_last_bit(recipe):
     plain, fast = (Training(recipe, 7, fast=fast, minutes=0.5) for fast in (False, True))
@@ -158,6 +162,13 @@ def test_a_table_of_an_older_version_is_read_and_learns_on(version):
     again.run(300)
     assert again.matches == 3
     assert again.experiences > int(trained.rows["experiences"][0])
+
+
+@pytest.mark.parametrize("change", [{"speed": 1.0}, {"gamma": None}])
+def test_a_recipe_with_a_knob_too_many_or_too_few_is_of_another_version(change):
+    recipe = {**asdict(RECIPES[1]), **change}
+    with pytest.raises(TableError, match="its recipe is of another version"):
+        tables._recipe({name: value for name, value in recipe.items() if value is not None})
 
 
 def rewritten(path, **parts):

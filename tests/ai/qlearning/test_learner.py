@@ -196,6 +196,40 @@ def test_an_opponent_that_gets_behind_costs_1_once_by_the_first_table_and_every_
             assert transition_reward(there, away, RECIPES[2]) == 0.0
 
 
+@pytest.mark.parametrize(("behind", "thesis", "ours"), [(False, -1.0, -1.0), (True, 0.0, -1.0)])
+def test_losing_the_wall_at_its_back_costs_a_robot_1_only_where_exposure_counts(behind, thesis, ours):
+    """The wall from (300, 200) to (300, 400) covers its back until it falls, or it turns its back as that falls."""
+    match = standing((430.0, 300.0, 0.0 if behind else pi), (100.0, 300.0, 0.0))
+    before = situation(match, 0, 1, 1)
+    assert (opponent_of(before), wall_of(before)) == ((8, 8) if behind else (0, 0))
+    match.walls[0].health, match.robots[0].heading = 0, 0.0
+    after = situation(match, 0, 1, 1)
+    assert opponent_of(after) == 8 != wall_of(after)
+    assert transition_reward(before, after, replace(RECIPES[1], exposure=0)) == thesis
+    assert transition_reward(before, after, RECIPES[1]) == ours
+    for exposure in (0, 1):
+        recipe = replace(RECIPES[1], exposure=exposure)
+        assert transition_reward(after, after, recipe) == 0.0
+        assert transition_reward(after, after, replace(recipe, behind_always=1)) == -1.0
+
+
+def test_the_ends_of_behind_are_knobs():
+    front, narrow = state(3, NONE, NONE), replace(RECIPES[1], behind_from=5, behind_to=11)
+    for recipe, ends in ((RECIPES[1], {4, 12}), (narrow, {5, 11})):
+        costs = [ahead for ahead in range(SECTORS) if transition_reward(front, state(ahead, NONE, NONE), recipe)]
+        assert {costs[0], costs[-1]} == ends
+        assert len(costs) == costs[-1] - costs[0] + 1
+
+
+def test_what_counts_as_ahead_and_a_wall_ahead_are_knobs():
+    match = without_walls(standing((300.0, 300.0, 0.35), (900.0, 300.0, pi)))  # one sector to the left
+    assert [shot(match, replace(RECIPES[1], look=look)) for look in (0, 1)] == [-1.0, 10.0]
+    match.robots[0].heading = 0.8  # two
+    assert shot(match, replace(RECIPES[1], look=1)) == -1.0
+    match = standing((200.0, 300.0, 0.0), (270.0, 300.0, pi))  # on this side of the wall at x = 300
+    assert [shot(match, replace(RECIPES[1], off_wall=off_wall)) for off_wall in (1, 0)] == [0.0, 10.0]
+
+
 @pytest.mark.parametrize(
     "wrong", [{"gamma": 1.0}, {"period": 0}, {"cold": 0.0}, {"hit": float("nan")}, {"in_sight": 2}]
 )
