@@ -204,6 +204,7 @@ def test_the_ratings_of_each_game_are_one_press_away_and_the_users_own_come_firs
         assert page.ratings
         arcade.wait(1.0, draw=True)
         arcade.press(Button.RIGHT)
+    folders().data.mkdir(parents=True, exist_ok=True)
     (folders().data / file_name("race")).write_text("{}", encoding="utf-8")
     arcade.press(Button.RIGHT)
     page = arcade.shown(Strengths)
