@@ -31,7 +31,7 @@ from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
 FILE = "ladder.toml"
 FORMAT = 1
 MOST = 8  # climbs kept
-KEPT = timedelta(hours=12)
+KEPT = timedelta(hours=2)
 NUMBERS = 10**9
 LIMITS = {
     "rung": (1, LEVELS + 1),
@@ -59,7 +59,7 @@ def new_number() -> int:
 
 
 def saved_climbs(folder: Path, now: datetime | None = None) -> tuple[list[SavedClimb], list[str]]:
-    """The climbs of the last hours, newest first, and sentences on a damaged file, which is set aside."""
+    """The climbs of the last two hours, newest first, and sentences on a damaged file, which is set aside."""
     read, problems = read_or_restore(folder / FILE, parse)
     now = now or datetime.now().astimezone()
     return [saved for saved in read or [] if abs(now - saved.when) <= KEPT], problems

@@ -5,11 +5,10 @@ from pathlib import Path
 
 import pygame
 
-from pigaming_app.ai.registry import level_of
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.replay import Replay
-from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.recordings import store
+from pigaming_app.scenes.views.ai_sign import level_mark
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -104,8 +103,8 @@ def whole(arena: str, when: str, seats: tuple[tuple[int, str, int | None, bool],
     for i, (seat, brain, score, won) in enumerate(seats):
         x = PLAYERS_X + SLOT * i
         badge(layer.glow, seat, x + 28, y + 4, 24)
-        if level := level_of(brain):
-            layer.canvas.crisp.text(f"{level}{LIT}", 28, x + 75, y + 22, MIST, "head", "c")
+        if text := level_mark(brain):
+            layer.canvas.crisp.text(text, 28, x + 75, y + 22, MIST, "head", "c")
         else:
             icon(layer.glow, "pad" if brain == "human" else "ai", x + 76, y + 20, 13, MIST, 3)
         if won:

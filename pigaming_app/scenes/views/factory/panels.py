@@ -4,9 +4,8 @@ from collections.abc import Iterator
 
 import pygame
 
-from pigaming_app.ai.registry import level_of
 from pigaming_app.games.factory.state import ICE as FIRST_TEAM
-from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.views.ai_sign import level_mark
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory.background import draw_lorry
 from pigaming_app.scenes.views.hud_parts import number_bits
@@ -71,8 +70,8 @@ def robot_sign(seat: int, brain: str, turbo: int) -> pygame.Surface:
     """Robot in a panel: badge, AI sign, and turbo in sixteenths."""
     ink = GlowCanvas(120, 52, 3)
     badge(ink, seat, 34, 22, 18)
-    if level := level_of(brain):
-        ink.text(f"{level}{LIT}", 34, 58, 22, ICE, "head")
+    if text := level_mark(brain):
+        ink.text(text, 30, 61, 22, ICE, "head")
     elif brain:
         icon(ink, "ai", 80, 20, 13, MIST, 3)
     ink.line([(14, 46), (104, 46)], dim(PLAYERS[seat], 0.2), 4)
