@@ -9,7 +9,7 @@ number = 4711
 when = 2026-11-22T10:00:00+00:00
 game = "pitanks"
 rung = 3
-easier = 0
+eased = []
 wins = 1
 losses = 0
 clear = 0
@@ -35,7 +35,6 @@ KEPT = timedelta(hours=2)
 NUMBERS = 10**9
 LIMITS = {
     "rung": (1, LEVELS + 1),
-    "easier": (0, LEVELS - 1),
     "wins": (0, NEEDED - 1),
     "losses": (0, NEEDED - 1),
     "clear": (0, MOST_LOST),
@@ -111,7 +110,19 @@ def _saved(entry: Any) -> SavedClimb | None:
         return None
     if not isinstance(when, datetime) or when.tzinfo is None:
         return None
+    if not isinstance(entry["eased"], list):
+        return None
     values = {name: entry[name] for name in LIMITS}
     if not all(type(value) is int and LIMITS[name][0] <= value <= LIMITS[name][1] for name, value in values.items()):
         return None
-    return SavedClimb(number, when, Climb(game, **values))
+    climb = Climb(game, eased=_eased(entry["eased"], values["rung"]), **values)
+    return SavedClimb(number, when, climb) if len(climb.eased) == len(entry["eased"]) else None
+
+
+def _eased(value: Any, rung: int) -> tuple[int, ...]:
+    """The rungs of a list, as far as robots there and above have at least level 1."""
+    found: list[int] = []
+    for start in value:
+        if type(start) is int and max([2, len(found) + 2, *found]) <= start <= min(rung, LEVELS):
+            found.append(start)
+    return tuple(found)

@@ -45,7 +45,7 @@ class Climb:
 
     game: str
     rung: int = 1  # 1 to LEVELS; LEVELS + 1: at the top
-    easier: int = 0  # levels by which the robots are weaker
+    eased: tuple[int, ...] = ()  # rungs from which on robots are one level weaker, in the order of choice
     wins: int = 0  # on this rung, and losses
     losses: int = 0
     clear: int = 0  # clear losses in a row, since the last offer
@@ -59,7 +59,7 @@ class Climb:
 
     def level_on(self, rung: int) -> int:
         """Level of the robot on a rung."""
-        return max(1, rung - self.easier)
+        return rung - sum(start <= rung for start in self.eased)
 
     @property
     def at_top(self) -> bool:
@@ -81,7 +81,7 @@ class Climb:
 
     def made_easier(self) -> "Climb":
         """The climb with robots one level weaker from here on; the matches on this rung begin anew."""
-        return replace(self, easier=self.rung - self.level + 1, wins=0, losses=0, clear=0)
+        return replace(self, eased=(*self.eased, self.rung), wins=0, losses=0, clear=0)
 
     def kept_hard(self) -> "Climb":
         """The climb after weaker robots have been declined."""

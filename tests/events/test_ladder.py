@@ -61,7 +61,7 @@ def test_weaker_robots_are_offered_after_two_clear_losses_in_a_row_and_count_for
     assert twice.offers_easier
     assert not twice.kept_hard().offers_easier
     easier = twice.made_easier()
-    assert [easier.level_on(rung) for rung in range(1, 6)] == [1, 1, 2, 3, 4]
+    assert [easier.level_on(rung) for rung in range(1, 6)] == [1, 2, 2, 3, 4], "below as they were"
     for _ in range(6):
         easier = easier.after(WON)
     assert (easier.at_top, easier.beaten) == (True, 4)
@@ -103,11 +103,11 @@ def test_a_stronger_robot_is_worth_more_than_any_number_of_losses():
 def test_climbs_of_several_copies_are_kept_side_by_side(tmp_path):
     for number in range(1, MOST + 4):
         climb_files.save(tmp_path, number, Climb("pitanks", rung=2))
-    climb_files.save(tmp_path, 9, Climb("race", rung=5, easier=1, wins=1, beaten=3, lost=7))
+    climb_files.save(tmp_path, 9, Climb("race", rung=5, eased=(2, 4), wins=1, beaten=3, lost=7))
     climb_files.delete(tmp_path, 10)
     found, problems = climb_files.saved_climbs(tmp_path)
     assert problems == []
-    assert found[0].climb == Climb("race", rung=5, easier=1, wins=1, beaten=3, lost=7)
+    assert found[0].climb == Climb("race", rung=5, eased=(2, 4), wins=1, beaten=3, lost=7)
     assert len(found) == MOST - 1
     later = datetime.now().astimezone() + KEPT + timedelta(minutes=1)
     assert climb_files.saved_climbs(tmp_path, later) == ([], [])
@@ -120,6 +120,11 @@ def test_a_damaged_file_is_set_aside_and_wrong_entries_are_ignored(tmp_path):
     for wrong in ("rung = 9", "rung = true", 'rung = "3"', "rung = 1e9", "rungs = 3"):
         (tmp_path / FILE).write_text(whole.replace("rung = 3", wrong), encoding="utf-8")
         assert [saved.number for saved in climb_files.saved_climbs(tmp_path)[0]] == [1]
+    for eased in ("[1]", "[4]", "[3, 2]", "[2, 2]", "[2, 3, 3, 3]", "[true]", "2"):
+        (tmp_path / FILE).write_text(whole.replace("eased = []", f"eased = {eased}"), encoding="utf-8")
+        assert climb_files.saved_climbs(tmp_path) == ([], [])
+    (tmp_path / FILE).write_text(whole.replace("eased = []", "eased = [2]"), encoding="utf-8")
+    assert [saved.climb.level for saved in climb_files.saved_climbs(tmp_path)[0]] == [2, 1]
     (tmp_path / FILE).write_bytes(b"\x00 no climb")
     found, (problem,) = climb_files.saved_climbs(tmp_path)
     assert [saved.number for saved in found] == [1], "the previous version"

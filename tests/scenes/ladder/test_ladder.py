@@ -100,7 +100,7 @@ def test_weaker_robots_are_offered_between_matches_and_shown_on_the_ladder(arcad
     assert page(arcade)._shown().level == 2, "seen before it is chosen"
     arcade.press(Button.FIRE)
     assert page(arcade).climb.level == 2
-    assert saved()[0].easier == 1
+    assert saved()[0].eased == (3,)
     assert begin(arcade).setup.seats[1].brain == "level2"
 
 
