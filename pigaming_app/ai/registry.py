@@ -55,7 +55,7 @@ KINDS: dict[str, dict[str, BrainKind]] = {
 
 LEVELS = {"level1": "hand1", "level2": "hand1", "level3": "hand2", "level4": "hand2", "level5": "hand3"}  # without own
 NAMED_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}
-STRENGTHS = tuple(NAMED_LEVELS)
+STRENGTHS = tuple(LEVELS)
 BRAINS = {
     game: {
         **kinds,
@@ -108,6 +108,12 @@ def known_brains(game: str, wanted: Sequence[str]) -> list[str]:
     for path in paths:
         find_brain(game, path)
     return [*kinds, *paths]
+
+
+def level_of(brain: str) -> int:
+    """The level, 1 to 5, for which a brain is named; 0 if its name is that of no level."""
+    name = NAMED_LEVELS.get(brain, brain)
+    return STRENGTHS.index(name) + 1 if name in STRENGTHS else 0
 
 
 def make_brain(game: str, name: str, seed: int) -> BrainPlayer:

@@ -1,4 +1,4 @@
-"""Attract mode: for each game in turn an AI match, a highlight of any match, the lesson and the high scores.
+"""Attract mode: for each game in turn an AI match, a highlight, the lesson, the high scores and the best climbers.
 
 Any input only ends it.
 """
@@ -11,11 +11,13 @@ from itertools import cycle
 import pygame
 
 from pigaming_app.ai.registry import STRENGTHS, new_match
+from pigaming_app.events.ladder import ALL, table_of
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
+from pigaming_app.scenes.ladder.climbers import Climbers
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
@@ -33,7 +35,7 @@ LEVELS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """Up to four shows per game, cyclically, from a random game; pushed over the title when idle."""
+    """Up to five shows per game, cyclically, from a random game; pushed over the title when idle."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -42,7 +44,7 @@ class Attract:
         self.shows = (
             partial(make, game)
             for game in cycle(names[first:] + names[:first])
-            for make in (self._match, self._highlight, self._howto, self._best)
+            for make in (self._match, self._highlight, self._howto, self._best, self._climbers)
         )
         self.show: Scene | None = None
         self.clip: Clip | None = None  # the next highlight
@@ -114,6 +116,14 @@ class Attract:
             return None
         best = HighScores(self.context, secrets.choice(tables))
         return TimedPage(best, best.paint)
+
+    def _climbers(self, game: str) -> Scene | None:
+        """The best climbers of the game, or of all games; None if there are none."""
+        climbed = [ladder for ladder in (game, ALL) if self.context.scores.best(table_of(ladder))]
+        if not climbed:
+            return None
+        page = Climbers(self.context, secrets.choice(climbed))
+        return TimedPage(page, page.paint)
 
 
 class DemoMatch:

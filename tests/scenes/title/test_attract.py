@@ -103,7 +103,8 @@ def scores_of(context: Context, game: str) -> None:
 
 def recording(game: str, seed: int = 1) -> Replay:
     """A short match with moments."""
-    match = new_match(make_setup(game, ["hard", "easy", "hard", "easy"], None, 0.4, seed, None, None, STRENGTHS))
+    brains = ["level5", "level1", "level5", "level1"]
+    match = new_match(make_setup(game, brains, None, 0.4, seed, None, None, STRENGTHS))
     while not match.over:
         match.tick()
     match.series[0].append((20.0, match.series[0][-1][1] + 1))
