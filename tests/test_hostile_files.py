@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.qlearning import table_files as tables
+from pigaming_app.ai.brain.archive import check_sum
+from pigaming_app.ai.networks.files import NetworkError
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games import arenas, replay
@@ -29,7 +30,7 @@ from pigaming_app.hardware.session.store import load as load_calibration
 from pigaming_app.hardware.session.store import load_robots
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, measure
 from pigaming_app.hardware.sysid.evaluate import replay as replay_run
-from pigaming_app.scenes.files import load_replay, load_table, save_replay
+from pigaming_app.scenes.files import load_network, load_replay, load_table, save_replay
 from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, to_toml
@@ -220,7 +221,7 @@ def test_a_bomb_of_ticks_is_refused(tmp_path):
 
 def forged_table(head, q, n, check=True):
     packed = BytesIO()
-    known = {**head, "check": tables._check(head, q, n)} if check and isinstance(head, dict) else head
+    known = {**head, "check": check_sum(head, {"q": q, "n": n})} if check and isinstance(head, dict) else head
     np.savez_compressed(packed, head=np.array(json.dumps(known)), q=q, n=n)
     return packed.getvalue()
 
@@ -270,6 +271,7 @@ READERS = {
     "run.jsonl": (runs.load, RecordingError),
     "a.replay": (load_replay, ReplayError),
     "a.npz": (load_table, TableError),
+    "b.npz": (load_network, NetworkError),
 }
 
 
@@ -281,7 +283,7 @@ def test_bytes_that_are_no_such_file_are_refused(tmp_path, name):
         assert not refused_or_used(lambda: read(tmp_path / name), error)
 
 
-@pytest.mark.parametrize("name", ["arena.toml", "calibration.toml", "run.jsonl", "a.replay", "a.npz"])
+@pytest.mark.parametrize("name", ["arena.toml", "calibration.toml", "run.jsonl", "a.replay", "a.npz", "b.npz"])
 def test_a_missing_file_is_refused(tmp_path, name):
     read, error = READERS[name]
     assert not refused_or_used(lambda: read(tmp_path / name), error)

@@ -27,8 +27,15 @@ MAY = {
     "cli": {"jobs"},
 }
 MODULES, FLOORS = 15, 7  # at most: in a folder, between the rooms
-ONLY_IN = {"pygame": {"ui", "scenes"}, "cv2": {"hardware"}, "serial": {"hardware"}, "torch": set()}
-DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite", "cv2", "serial", "matplotlib"}
+ONLY_IN = {
+    "pygame": {"ui", "scenes"},
+    "cv2": {"hardware"},
+    "serial": {"hardware"},
+    "onnxruntime": {"ai"},
+    "torch": set(),
+}
+DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
+DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime"}
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 

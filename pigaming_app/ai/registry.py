@@ -3,13 +3,15 @@
 The registry also attaches each brain's `explain`, so that no brain imports its own explanation.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 from pigaming_app.ai.brain import baselines
+from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
+from pigaming_app.ai.brain_files import is_path, read_brain
 from pigaming_app.ai.factory import foreman, foreman_thoughts
 from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner, gunner_thoughts
 from pigaming_app.ai.qlearning import table_files
@@ -17,6 +19,7 @@ from pigaming_app.ai.race import racer, racer_thoughts
 from pigaming_app.ai.race.steering_help import with_help
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import ROBOTS
 
@@ -79,15 +82,41 @@ DRIVING: dict[str, dict[str, Driving]] = {  # driving styles for people, in the 
 }
 
 
+def is_brain(game: str, name: str) -> bool:
+    """True for a registered name and for the path of a file."""
+    return name in BRAINS.get(game, {}) or is_path(name)
+
+
+def find_brain(game: str, name: str) -> BrainKind:
+    """The brain of a registered name, or of the path of a file. Raises ChoiceError."""
+    kinds = BRAINS.get(game, {})
+    if name in kinds or not is_path(name):
+        require_one_of("brain", name, list(kinds))
+        return kinds[name]
+    try:
+        return read_brain(game, name)
+    except BrainFileError as error:
+        raise ChoiceError(str(error)) from None
+
+
+def known_brains(game: str, wanted: Sequence[str]) -> list[str]:
+    """The registered names of a game, and the paths among the `wanted` names. Raises ChoiceError for unusable files."""
+    kinds = BRAINS.get(game, {})
+    paths = [name for name in dict.fromkeys(wanted) if kinds and name not in kinds and is_path(name)]
+    for path in paths:
+        find_brain(game, path)
+    return [*kinds, *paths]
+
+
 def make_brain(game: str, name: str, seed: int) -> BrainPlayer:
-    """A player with the brain `name` of `game`. Raises KeyError for unknown names."""
-    return BrainPlayer(BRAINS[game][name], seed)
+    """A player with the brain `name` of `game`. Raises ChoiceError."""
+    return BrainPlayer(find_brain(game, name), seed)
 
 
 def new_match(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant) -> Match:
-    """A match with an AI player on every seat that names a brain; all other seats stay idle."""
+    """A match with an AI player on every seat that names a brain; all other seats stay idle. Raises ChoiceError."""
     match = Match(setup, plant)
     for i, seat in enumerate(setup.seats):
-        if seat.brain in BRAINS[setup.game]:
+        if is_brain(setup.game, seat.brain):
             match.sit(i, make_brain(setup.game, seat.brain, setup.seed * ROBOTS + i))
     return match

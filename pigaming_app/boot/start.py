@@ -26,11 +26,12 @@ from pigaming_app.boot.interpreter import (
 
 NEEDED = {"test": {"test"}}
 OPTIONAL = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # extras that a job also runs without
-OPTIONAL |= {"test": {"train", "hardware", "plots"}}
+OPTIONAL |= {"test": {"train", "hardware", "plots", "onnx"}}
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
 }
+EXTRA_OF_FILE = {".onnx": "onnx"}  # suffixes of files that require an extra, wherever one is named
 HANDED_OVER = "pigaming"  # python -X pigaming: main.py skips boot
 
 
@@ -43,6 +44,7 @@ def start(args: list[str]) -> int | None:
     try:
         words = {arg.partition("=")[0] for arg in args}
         optional = OPTIONAL.get(job, set()) | {EXTRA_OF_WORD[word] for word in words if word in EXTRA_OF_WORD}
+        optional |= {extra for suffix, extra in EXTRA_OF_FILE.items() if any(suffix in arg.lower() for arg in args)}
         place = environment({ARCADE} | NEEDED.get(job, set()), optional)
         return None if place is None else hand_over(place, args)
     except StartError as trouble:

@@ -15,7 +15,7 @@ FREE, ALONE, PAIRS, ALLIES = "free", "alone", "pairs", "allies"
 class Seat:
     """One of the four seats of a match: its player and its team (free-for-all: the seat's own number)."""
 
-    brain: str  # human, off, or a name in BRAINS
+    brain: str  # human, off, the name of a registered brain, or the path of its file
     team: int
 
 

@@ -5,11 +5,11 @@ from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
 
 from pigaming_app.ai.experiments import league
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal
-from pigaming_app.jobs.terminal.refusal import refused
+from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 
 
@@ -22,6 +22,7 @@ def options(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Play the duel and print its result. Raises Refusal."""
+    require_for_brains((arguments.left, arguments.right))
     with refused(ChoiceError, ArenaError):
         result = _play(arguments)
     if arguments.json:
@@ -34,7 +35,7 @@ def run(arguments: Namespace) -> int:
 def _play(arguments: Namespace) -> league.Duel:
     require_one_of("game", arguments.game, list(games()))
     for brain in (arguments.left, arguments.right):
-        require_one_of("brain", brain, list(BRAINS[arguments.game]))
+        find_brain(arguments.game, brain)
     return league.duel(
         arguments.game,
         arguments.left,
@@ -50,8 +51,11 @@ def _play(arguments: Namespace) -> league.Duel:
 
 def _print(result: league.Duel) -> None:
     low, high = result.wilson95
-    print(f"{'':10}{'wins':>7}{'ties':>7}{'losses':>7}{'mean score':>12}")
-    print(f"{result.left:10}{result.wins:7}{result.ties:7}{result.losses:7}{result.mean_score_left:12.2f}")
-    print(f"{result.right:10}{result.losses:7}{result.ties:7}{result.wins:7}{result.mean_score_right:12.2f}")
-    print(f"{result.left} wins {100 * result.wins / result.matches:.1f} % of {result.matches} matches", end=" ")
+    shown = league.names((result.left, result.right))
+    left, right = shown[result.left], shown[result.right]
+    width = max(10, len(left) + 1, len(right) + 1)
+    print(f"{'':{width}}{'wins':>7}{'ties':>7}{'losses':>7}{'mean score':>12}")
+    print(f"{left:{width}}{result.wins:7}{result.ties:7}{result.losses:7}{result.mean_score_left:12.2f}")
+    print(f"{right:{width}}{result.losses:7}{result.ties:7}{result.wins:7}{result.mean_score_right:12.2f}")
+    print(f"{left} wins {100 * result.wins / result.matches:.1f} % of {result.matches} matches", end=" ")
     print(f"(Wilson 95 %: {100 * low:.1f} to {100 * high:.1f} %), {result.ticks_per_second:,.0f} ticks/s")

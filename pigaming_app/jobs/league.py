@@ -10,7 +10,7 @@ from pigaming_app.ai.experiments import league as leagues
 from pigaming_app.ai.experiments.league import Duel, League, LeagueRow
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal
-from pigaming_app.jobs.terminal.refusal import refused
+from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 
 WIDTH = 100  # columns
@@ -29,6 +29,7 @@ def options(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Play the league and print its tables. Raises Refusal."""
+    require_for_brains(arguments.brains)
     with refused(ChoiceError, ArenaError):
         result = leagues.league(
             arguments.game,

@@ -11,7 +11,8 @@ from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
-from pigaming_app.ai.registry import BRAINS, new_match
+from pigaming_app.ai.brain_files import display_name
+from pigaming_app.ai.registry import known_brains, new_match
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
@@ -31,7 +32,7 @@ from pigaming_app.jobs.terminal.options import (
     path,
     shared,
 )
-from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, require_for_brains
 from pigaming_app.scenes.files import save_replay
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
@@ -51,7 +52,7 @@ def options(parser: ArgumentParser) -> None:
     game_option(parser)
     parser.add_argument("--game", dest="named_game", help=argparse.SUPPRESS)  # the only syntax up to 1.4.0
     parser.set_defaults(game=None)  # to notice a contradiction
-    parser.add_argument("--seats", help="human, off, or an AI for each seat; default human,normal")
+    parser.add_argument("--seats", help="human, off, an AI or a trained one's file for each seat; default human,normal")
     parser.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; default: the game's own")
     shared(parser, *MATCH)
     parser.add_argument(
@@ -81,7 +82,8 @@ def _play(arguments: Namespace) -> int:
     wanted = goal(arguments)
     chosen = mat_settings(arguments)
     seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
-    names = list(BRAINS.get(arguments.game, {}))
+    require_for_brains(seats)
+    names = known_brains(arguments.game, seats)
     rounds = _rounds(arguments)
     arena, seed, variant = arguments.arena, arguments.seed, arguments.variant
     minutes = ROUND_MINUTES if rounds and arguments.minutes is None else arguments.minutes
@@ -357,7 +359,7 @@ def _print(match: Match, as_json: bool, seconds: float, rounds: Rounds | None = 
         print(json.dumps({**result, "match_seconds": outcome.seconds, "seconds": seconds}))
         return
     for row in outcome.rows:
-        brain = match.setup.seats[row.seat].brain
+        brain = display_name(match.setup.seats[row.seat].brain)
         facts = "  ".join(
             f"{name} {value:.0%}" if name == "aim" else f"{name} {round(value, 2):g}"
             for name, value in row.stats.items()

@@ -1,9 +1,11 @@
-"""Replays and trained tables as files: formats are defined by `games` and `ai`, file access by `storage`."""
+"""Replays and trained brains as files: formats are defined by `games` and `ai`, file access by `storage`."""
 
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from pigaming_app.ai.networks import files as network_files
+from pigaming_app.ai.networks.files import NetworkError, TrainedNetwork
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.qlearning.table_files import TableError, Trained
 from pigaming_app.games import replay
@@ -33,6 +35,16 @@ def save_table(trained: Trained, path: Path) -> None:
 def load_table(path: Path) -> Trained:
     """Read and check a trained table. Raises TableError, whose text begins with the file name."""
     return _load(path, table_files.MAX_BYTES, table_files.decode, TableError)
+
+
+def save_network(trained: TrainedNetwork, path: Path) -> None:
+    """Write a trained network atomically. Raises NotSaved, NetworkError."""
+    write_atomic(path, network_files.encode(trained))
+
+
+def load_network(path: Path) -> TrainedNetwork:
+    """Read and check a trained network. Raises NetworkError, whose text begins with the file name."""
+    return _load(path, network_files.MAX_BYTES, network_files.decode, NetworkError)
 
 
 def _load(path: Path, limit: int, decode: Callable[[bytes, str], T], error: type[ValueError]) -> T:

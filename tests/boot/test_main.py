@@ -338,9 +338,8 @@ def test_the_project_file_has_only_requirements_that_boot_supports():
     extras = project["optional-dependencies"]
     for one in [*project["dependencies"], *(one for extra in extras.values() for one in extra)]:
         assert re.fullmatch(r"[a-z0-9-]+>=[\d.]+,<[\d.]+", one)
-    assert {name for groups in (start.NEEDED, start.OPTIONAL) for names in groups.values() for name in names} | set(
-        start.EXTRA_OF_WORD.values()
-    ) <= set(extras)
+    named = {name for groups in (start.NEEDED, start.OPTIONAL) for names in groups.values() for name in names}
+    assert named | {*start.EXTRA_OF_WORD.values(), *start.EXTRA_OF_FILE.values()} <= set(extras)
 
 
 def test_no_registry_is_named():

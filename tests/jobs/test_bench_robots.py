@@ -23,7 +23,7 @@ def ground():
 @pytest.mark.parametrize("game", one_in(3, games()))
 def test_a_match_on_the_mat_plays_to_its_end(game, ground):
     arena = jobs()[list(games()).index(game)].arena
-    run = on_mat(Job(game, arena, 30.0, 7, 0.05, mashed=False, carried=True), ground)
+    run = on_mat(Job(game, arena, 30.0, 7, 0.05, brain="hand2", carried=True), ground)
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
     assert 3.0 <= run.seconds - run.paused < 4.0
 
@@ -39,7 +39,7 @@ def test_knocked_out_robots_keep_out_of_the_walls_on_the_mat(ground, monkeypatch
         return depth(state, x, y)
 
     monkeypatch.setattr(trials, "entered", noted)
-    run = on_mat(Job("pitanks", arena, 30.0, 7, 0.5, mashed=False, carried=True, variant="party"), ground)
+    run = on_mat(Job("pitanks", arena, 30.0, 7, 0.5, brain="hand2", carried=True, variant="party"), ground)
     assert seen["hits"] >= 10
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
 
@@ -50,6 +50,7 @@ def test_twenty_minutes_are_played_in_every_game():
     assert {job.game for job in planned} == set(games())
     assert {job.fps for job in planned} == {30.0, 60.0}
     assert {job.variant for job in planned if job.game == "pitanks"} == {None, "party"}
+    assert [job.game for job in planned if job.brain] == ["pitanks"]
 
 
 def test_figures_are_compared_with_what_they_must_reach():

@@ -37,6 +37,7 @@ class BrainKind:
     - `weights(fast)` returns a row of one record with the learned parameters, a NumPy record (`fast`) or a plain one.
       Every call returns the same row; the first call may read a file.
     - `explain`, with the arguments of `think`, returns the brain's present reasoning for display. Read-only.
+    - `plain`: it cannot be compiled; `weights` has the same row for both values of `fast`.
     """
 
     name: str
@@ -45,6 +46,7 @@ class BrainKind:
     reset: Callable[[Any, int], None]
     weights: Callable[[bool], Any] = no_weights
     explain: Callable[[Any, int, Any, Any], Thoughts] | None = None
+    plain: bool = False
 
 
 class BrainPlayer:

@@ -13,6 +13,10 @@ MoveKey = tuple[int, int, int]  # stick ahead and clockwise, each -1, 0 or 1, an
 
 OPPONENT, MATE, WALL, BULLET, PRIZE, GOAL, WAY = "opponent", "mate", "wall", "bullet", "prize", "goal", "way"
 PERSON = "person"
+STICKS = {
+    (1, 0): "ahead", (1, -1): "ahead_left", (1, 1): "ahead_right", (0, 0): "stay", (0, -1): "turn_left",
+    (0, 1): "turn_right", (-1, 0): "reverse", (-1, -1): "reverse", (-1, 1): "reverse",
+}  # behaviours by position of the stick: ahead and clockwise  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,13 @@ class Thoughts:
     utilities: Mapping[str, float] = field(default_factory=dict)  # utility of each behaviour, 0..1
     moves: Mapping[MoveKey, float] = field(default_factory=dict)  # utility of each move, for brains that choose moves
     chosen: str | MoveKey = ""  # a key of `utilities` or of `moves`
+    heads: Mapping[str, Sequence[float]] = field(default_factory=dict)  # probabilities of choices, for networks
+    choices: Mapping[str, int] = field(default_factory=dict)  # of each head
+
+
+def behaviour_of(linear: int, angular: int, fire: int) -> str:
+    """The behaviour that an action shows; the stick ahead and clockwise, each -1, 0 or 1."""
+    return "shoot" if fire else STICKS[linear, angular]
 
 
 def clamp(value: float) -> float:

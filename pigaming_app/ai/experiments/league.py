@@ -7,15 +7,16 @@ Assoc. 22, 1927, 209-212). All pairs of a league play the same seeds.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from math import sqrt
 from time import perf_counter
 from typing import Any, NamedTuple
 
+from pigaming_app.ai.brain_files import is_path, stem_of
 from pigaming_app.ai.experiments.ratings import Rating, ratings
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import BRAINS, find_brain, known_brains
 from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
@@ -121,8 +122,9 @@ def league(
         result, ends = play_duel(setups, left, right, fast)
         duels.append(result)
         shares[i, j] = [_points(ends[k : k + 2]) for k in range(0, matches, 2)]
-    rated = ratings(len(brains), shares, seed)
-    rows = [_row(brain, rating, duels) for brain, rating in zip(brains, rated, strict=True)]
+    rated, shown = ratings(len(brains), shares, seed), names(brains)
+    duels = [replace(duel, left=shown[duel.left], right=shown[duel.right]) for duel in duels]
+    rows = [_row(shown[brain], rating, duels) for brain, rating in zip(brains, rated, strict=True)]
     rows.sort(key=lambda row: -row.rating.rating)
     setup = setups[0]
     options = game, setup.arena, setup.minutes, setup.variant, matches, seed
@@ -132,11 +134,17 @@ def league(
 def check_brains(game: str, brains: Sequence[str]) -> None:
     """Check the entrants of a league. Raises ChoiceError for unknown, repeated or too few brains."""
     for brain in brains:
-        require_one_of("brain", brain, list(BRAINS[game]))
+        find_brain(game, brain)
         if brains.count(brain) > 1:
             raise ChoiceError(f"brain '{brain}' is named twice; in a league each plays once against each other")
     if len(brains) < 2:
         raise ChoiceError(f"a league needs two brains or more; {game} has {', '.join(BRAINS[game])}")
+
+
+def names(brains: Sequence[str]) -> dict[str, str]:
+    """The name of each entrant in results: of a file its stem, or its path if another entrant has that name."""
+    stems = {brain: stem_of(brain) if is_path(brain) else brain for brain in brains}
+    return {brain: stem if [*stems.values()].count(stem) == 1 else brain for brain, stem in stems.items()}
 
 
 class Ending(NamedTuple):
@@ -159,12 +167,14 @@ def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None)
     ticks = round((setups[0].minutes * 60 + variant.overtime) * HZ)
     if fast is None:
         fast = can_compile() and matches * ticks > MIN_COMPILED_MATCHES
+    kinds = {name: find_brain(game, name) for name in (left, right)}
+    fast = fast and not any(kind.plain for kind in kinds.values())
     began = perf_counter()
     if allies:
         halves = [(setups, [name] * ROBOTS) for name in (left, right)]
     else:
         halves = [*_both_ways(setups, _line_up(variant, left, right))]
-    batches = [Batch(half, [BRAINS[game][name] for name in order], fast) for half, order in halves]
+    batches = [Batch(half, [kinds[name] for name in order], fast) for half, order in halves]
     for batch in batches:
         batch.play(ticks)
     seconds = perf_counter() - began
@@ -211,7 +221,7 @@ def _setups(
     variants = games()[game].variants
     variant = games()[game].default.name if variant is None else variant
     require_one_of("variant", variant, list(variants))
-    brains, kinds = _line_up(variants[variant], left, right), list(BRAINS[game])
+    brains, kinds = _line_up(variants[variant], left, right), known_brains(game, [left, right])
     each = 1 if variants[variant].team_mode == ALLIES else 2
     return [
         make_setup(game, brains, arena, minutes, seed + i // each, variant, None, kinds, goal) for i in range(matches)

@@ -23,6 +23,15 @@ class Layers:
 
     def logits(self, inputs: Sequence[float]) -> list[float]:
         """The outputs, as sums: in units of LOGIT."""
+        logits: list[float] = self._sums(inputs).tolist()
+        return logits
+
+    def logits_of(self, rows: Sequence[Sequence[float]]) -> list[list[float]]:
+        """The outputs for several rows of inputs at once."""
+        logits: list[list[float]] = self._sums(rows).tolist()
+        return logits
+
+    def _sums(self, inputs: Any) -> Any:
         (first, second, last), (first_bias, second_bias, last_bias) = self.matrices, self.biases
         x = np.array(inputs) @ first
         x += first_bias
@@ -30,8 +39,7 @@ class Layers:
         x += second_bias
         x = squash_all(x) @ last
         x += last_bias
-        logits: list[float] = x.tolist()
-        return logits
+        return x
 
     def largest_sum(self) -> float:
         """The largest number that any sum, also a part of one, can reach; must be below EXACT."""

@@ -37,6 +37,9 @@ class Handicap:
     thrift: float = 0.0  # cost of a shot that it has in mind, in points
 
 
+NO_HANDICAP = Handicap()
+
+
 @cache
 def weights_record(size: int, outputs: int) -> type:
     """The record of a compiled network's parameters."""
@@ -208,7 +211,7 @@ def packed_layers(layers: "Layers") -> Any:
 
 
 def network_brain(
-    name: str, encoding: Encoding, weights: Callable[[bool], Any], handicap: Handicap = Handicap()
+    name: str, encoding: Encoding, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
 ) -> BrainKind:
     """A brain that plays by a network."""
 

@@ -4,17 +4,12 @@ Reading validates everything and rejects foreign, truncated or edited files with
 checksum of itself and the table, and the hash of the engine, since results measured with another engine may differ.
 """
 
-import hashlib
-import json
-import warnings
-import zipfile
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from functools import cache
-from io import BytesIO
 from typing import Any
 
 from pigaming_app import ASSETS
+from pigaming_app.ai.brain.archive import BrainFileError, pack, unpack, verify
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.qlearning.features import STATES
 from pigaming_app.ai.qlearning.learner import ACTIONS, PAIRS, QTable
@@ -31,7 +26,7 @@ FIXED = {"off_wall": 1, "look": 0, "behind_from": 4, "behind_to": 12, "exposure"
 PARTS = {"head": 100_000, "q": 8 * PAIRS + 1000, "n": 8 * PAIRS + 1000}  # limits of the unpacked sizes, bytes
 
 
-class TableError(ValueError):
+class TableError(BrainFileError):
     """A file is not a valid trained table; the message is one line."""
 
 
@@ -61,8 +56,6 @@ class Trained:
 
 def encode(trained: Trained) -> bytes:
     """Content of the file of a trained table."""
-    import numpy as np
-
     table = trained.rows[0]
     head: dict[str, Any] = {
         "format": FORMAT,
@@ -71,19 +64,20 @@ def encode(trained: Trained) -> bytes:
         "recipe": asdict(trained.recipe),
         **{key: int(table[key]) for key in COUNTS},
     }
-    q, n = table["q"], table["n"].astype("<i4")
-    head["check"] = _check(head, q, n)
-    packed = BytesIO()
-    np.savez_compressed(packed, head=np.array(json.dumps(head)), q=q, n=n)
-    return packed.getvalue()
+    return pack(head, {"q": table["q"], "n": table["n"].astype("<i4")})
 
 
 def decode(raw: bytes, name: str) -> Trained:
     """Validate and unpack the content of the file `name`. Raises TableError, whose message begins with the name."""
     try:
         return _trained(*_parts(raw))
-    except TableError as error:
+    except BrainFileError as error:
         raise TableError(f"{name}: {error}") from None
+
+
+def brain_of(trained: Trained) -> BrainKind:
+    """The brain of a table, for matches against people: it frees itself when stuck."""
+    return player(trained.name, Learned(trained.rows), reflex=True)
 
 
 @cache
@@ -99,43 +93,21 @@ def shipped_brain(name: str) -> BrainKind:
 
 
 def _parts(raw: bytes) -> tuple[dict[str, Any], Any, Any]:
-    """Header, Q-values and visit counts of a file, validated in format, type and shape only. Raises TableError."""
-    import numpy as np
-
-    if not raw.startswith(b"PK"):
-        raise TableError("not a trained table")
-    try:
-        with zipfile.ZipFile(BytesIO(raw)) as archive:
-            sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
-            if len(archive.infolist()) != len(PARTS) or sizes.keys() != {f"{part}.npy" for part in PARTS}:
-                raise TableError("not a trained table")
-            if any(sizes[f"{part}.npy"] > limit for part, limit in PARTS.items()):
-                raise TableError("not a trained table: a part of it is too big")
-            if archive.testzip() is not None:
-                raise TableError("truncated or damaged")
-        with warnings.catch_warnings(), np.load(BytesIO(raw), allow_pickle=False) as file:
-            warnings.simplefilter("error")  # NumPy warns of some headers
-            head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
-        layout = q.dtype.str, q.shape, n.dtype.str, n.shape  # NumPy returns bytes for a part that is not an array
-    except TableError:
-        raise
-    except Exception:  # zipfile and NumPy raise many kinds of exceptions for damaged files
-        raise TableError("truncated or damaged") from None
-    if not isinstance(head, dict) or head.get("format") != FORMAT:
-        raise TableError("not a trained table of this version")
+    """Header, Q-values and visit counts of a file, validated in format, type and shape only. Raises BrainFileError."""
+    head, arrays = unpack(raw, "trained table", FORMAT, PARTS)
+    q, n = arrays["q"], arrays["n"]
     if head.get("rule") != RULE:
         raise TableError("trained by the rules of another game")
-    if layout != ("<f8", (PAIRS,), "<i4", (PAIRS,)):
+    if (q.dtype.str, q.shape, n.dtype.str, n.shape) != ("<f8", (PAIRS,), "<i4", (PAIRS,)):
         raise TableError("the table has another shape")
     return head, q, n
 
 
 def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
-    """The table after validation of its content. Raises TableError."""
+    """The table after validation of its content. Raises BrainFileError."""
     import numpy as np
 
-    if head.get("check") != _check(head, q, n):
-        raise TableError("it was changed after it was saved")
+    verify(head, {"q": q, "n": n})
     tried = n.reshape(STATES, ACTIONS) > 0
     counts = {"experiences": int(n.sum()), "pairs": int(tried.sum()), "states": int(tried.any(axis=1).sum())}
     if not np.isfinite(q).all() or (n < 0).any() or any(head.get(key) != count for key, count in counts.items()):
@@ -175,9 +147,3 @@ def _recipe(numbers: Any) -> Recipe:
         return Recipe(**FIXED | numbers)
     except (TypeError, ValueError) as error:
         raise TableError(f"its recipe: {error}") from None
-
-
-def _check(head: Mapping[str, Any], q: Any, n: Any) -> str:
-    """SHA-256 of the header (without its checksum) and the table, hex."""
-    text = json.dumps({key: value for key, value in head.items() if key != "check"}, sort_keys=True)
-    return hashlib.sha256(text.encode() + q.tobytes() + n.tobytes()).hexdigest()

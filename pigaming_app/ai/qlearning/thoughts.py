@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from math import copysign, cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import BULLET, OPPONENT, WALL, MoveKey, Percept, Thoughts
+from pigaming_app.ai.brain.thoughts import BULLET, OPPONENT, WALL, MoveKey, Percept, Thoughts, behaviour_of
 from pigaming_app.ai.qlearning.features import (
     NONE,
     SECTORS,
@@ -21,10 +21,6 @@ from pigaming_app.ai.qlearning.features import (
 from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, max_value, move_probabilities
 
 SIGHT = 190.0  # px at which walls and bullets are marked, as features hold directions without distances
-STEERS = {
-    (1, 0): "ahead", (1, -1): "ahead_left", (1, 1): "ahead_right", (0, 0): "stay", (0, -1): "turn_left",
-    (0, 1): "turn_right", (-1, 0): "reverse", (-1, -1): "reverse", (-1, 1): "reverse",
-}  # fmt: skip
 
 
 def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
@@ -38,7 +34,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     likely = move_probabilities(weights, here, weights.knobs.cold)[mind.move]
     move = _plain(mind.move)
     return Thoughts(
-        behaviour="shoot" if move[2] else STEERS[move[:2]],
+        behaviour=behaviour_of(*move),
         reason="tried" if tried else "new",
         names={"count": tried, "percent": round(100.0 * likely)},
         facts={

@@ -1,6 +1,6 @@
 """Refusals of jobs: a request that cannot be carried out ends in one line and exit code 2."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 
@@ -8,7 +8,11 @@ from pigaming_app import INSTALLED
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.ui.i18n import english
 
-EXTRAS = {"hardware": ("cv2", "OpenCV"), "plots": ("matplotlib", "matplotlib")}  # a module, and the package's name
+EXTRAS = {
+    "hardware": ("cv2", "OpenCV"),
+    "plots": ("matplotlib", "matplotlib"),
+    "onnx": ("onnxruntime", "onnxruntime"),
+}  # a module, and the package's name
 FETCHED = "connect this machine to the internet and start main.py again, which installs it"
 
 
@@ -35,6 +39,12 @@ def require(extra: str) -> None:
     module, name = EXTRAS[extra]
     if find_spec(module) is None:
         raise Refusal(f"{name} is missing (extra `{extra}`): {remedy(extra)}")
+
+
+def require_for_brains(names: Iterable[str]) -> None:
+    """Raises Refusal where a brain is an ONNX model and the extra that runs it is not installed."""
+    if any(name.lower().endswith(".onnx") for name in names):
+        require("onnx")
 
 
 def remedy(extra: str) -> str:

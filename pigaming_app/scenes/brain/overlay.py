@@ -36,6 +36,7 @@ class BrainOverlay:
         self.queried = -QUERY_PERIOD  # tick of the last query
         self.rose = [0.0] * PETALS
         self.wishes: dict[str, float] = {}
+        self.heads: dict[str, list[float]] = {}
         self.clock = 0.0
 
     @property
@@ -47,7 +48,7 @@ class BrainOverlay:
         """Show the first AI, then the next; after the last, none."""
         after = [seat for seat in self.seats if self.seat is None or seat > self.seat]
         self.seat = after[0] if after else None
-        self.queried, self.rose, self.wishes = -QUERY_PERIOD, [0.0] * PETALS, {}
+        self.queried, self.rose, self.wishes, self.heads = -QUERY_PERIOD, [0.0] * PETALS, {}, {}
 
     def draw(self, screen: pygame.Surface, blend: float, seconds: float) -> None:
         """Draw it over the match, `seconds` after the previous picture."""
@@ -76,6 +77,11 @@ class BrainOverlay:
         self.wishes = {
             name: (old := current.get(name, 0.0)) + part * (new - old) for name, new in thoughts.utilities.items()
         }
+        before = self.heads
+        self.heads = {
+            name: [old + part * (new - old) for old, new in zip(before.get(name, chances), chances, strict=True)]
+            for name, chances in thoughts.heads.items()
+        }
 
     def _floor(self, screen: pygame.Surface, state: Any, seat: int, blend: float) -> None:
         others = [self.view.pose(other, blend) for other in self.view.seats if other != seat]
@@ -98,6 +104,9 @@ class BrainOverlay:
         if thoughts.moves:
             sure = f"{thoughts.names.get('percent', 0)} %", self.words("brain.sure")
             cards.draw_moves(screen, right, w, seat, thoughts.moves, thoughts.chosen, sure)
+        elif thoughts.heads:
+            cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen, cards.heads_width(self.heads))
+            cards.draw_heads(screen, right + w, seat, self.heads, thoughts.choices)
         else:
             cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen)
             buttons = [("turbo", state.actions[seat].turbo)]

@@ -1,7 +1,8 @@
 """Panels of the brain overlay, in place of the HUD: action, reason and wishes of the AI.
 
 Left: the robot, its action and the reason. Right: a bar for every wish, the chosen one in white, and the stick; brains
-that choose among moves show a value per move instead.
+that choose among moves show a value per move instead. Networks show how much each topic matters, and beside it, for
+every part of the action, the probabilities of the choices.
 """
 
 from collections.abc import Mapping, Sequence
@@ -36,16 +37,21 @@ from pigaming_app.ui.draw.text import fit_size, word
 
 Y, H, EDGE = 24, 106, 24  # px: top and height of both boxes, margin of their sprites
 TEXT = 104  # px from the left edge of a box to its texts
-BAR_W, BAR_H, PITCH = 36, 48, 72  # px
+BAR_W, BAR_H, PITCH, LEAST_GAP = 36, 48, 72, 14  # px
+CHOICE_W, CHOICE_PITCH = 7, 12  # px: bars of choices
+HEAD_W, HEAD_GAP, DIVIDED = 38, 8, 20  # px: least width of a head; between heads; round the line before them
 TOP, SIGN_Y = 10, 83  # px from a box's top to its bars and to the middle of their signs
 CELL, GAP = 28, 30  # px: size of a stick cell; gap between stick and sign
 LEVELS = 10  # colour levels of a cell in each direction
 CRATES = {"raw": 0, "half": 1, "done": 2, "damaged": 3}  # signs that are crates
+PAIRS = {"others": ("ai", "ai"), "drive": ("up", "down"), "turn": ("left", "right")}  # signs of two icons
 SIGNS = {
     "cover": "shield", "attack": "faster", "fire": "shoot", "dodge": "ricochet", "free": "turn_left",
     "collect": "plus", "left": "left", "line": "up", "right": "right", "brake": "stay", "turbo": "fastest",
     "back": "behind", "put": "down", "wait": "clock",
     "swing": "turn_right",
+    "near": "ai", "bullets": "ricochet", "mines": "mine", "pickups": "plus", "self": "shield", "score": "crown",
+    "rest": "unknown",
 }  # fmt: skip
 
 
@@ -60,23 +66,59 @@ def draw_words(screen: pygame.Surface, x: int, w: int, seat: int, doing: str, be
     lines(screen, x + TEXT, w - TEXT - 20, doing, because)
 
 
-def draw_wishes(screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mapping[str, float], chosen: object) -> None:
-    """The right box of a brain with wishes: one bar each."""
+def draw_wishes(
+    screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mapping[str, float], chosen: object, aside: float = 200.0
+) -> None:
+    """The right box of a brain with wishes: one bar each; `aside`: px kept free at its right end."""
     put_on(screen, box(seat, w, False), x, Y)
     light: Batch = []
-    room = w - 224
+    room = w - 24 - aside
     pitch = min(PITCH, room / max(1, len(wishes)))
     left = x + 24 + (room - pitch * len(wishes)) / 2
+    width = BAR_W if pitch > BAR_W + LEAST_GAP else round(pitch - LEAST_GAP)
     for i, (name, value) in enumerate(wishes.items()):
         at = left + pitch * (i + 0.5)
-        put(light, bar(seat, name == chosen, False), at, Y + TOP)
-        if tall := round(BAR_H * min(1.0, max(0.0, value))):
-            image, dx, dy = bar(seat, name == chosen, True)
-            hidden = EDGE + BAR_H - tall
-            area = 0, hidden, image.get_width(), tall + EDGE
-            screen.blit(image, (at + dx, Y + TOP + dy + hidden), area, special_flags=pygame.BLEND_RGB_ADD)
+        draw_bar(screen, light, at, seat, value, name == chosen, width)
         put(light, sign(name, WHITE if name == chosen else MIST), at, Y + SIGN_Y)
     screen.fblits(light, pygame.BLEND_RGB_ADD)
+
+
+def draw_bar(screen: pygame.Surface, light: Batch, x: float, seat: int, value: float, chosen: bool, w: int) -> None:
+    """A bar round x, filled to `value`, 0..1."""
+    put(light, bar(seat, chosen, False, w), x, Y + TOP)
+    if tall := round(BAR_H * min(1.0, max(0.0, value))):
+        image, dx, dy = bar(seat, chosen, True, w)
+        hidden = EDGE + BAR_H - tall
+        area = 0, hidden, image.get_width(), tall + EDGE
+        screen.blit(image, (x + dx, Y + TOP + dy + hidden), area, special_flags=pygame.BLEND_RGB_ADD)
+
+
+def draw_heads(
+    screen: pygame.Surface, right: float, seat: int, heads: Mapping[str, Sequence[float]], choices: Mapping[str, int]
+) -> None:
+    """Probabilities of the choices at the right end of that box, the chosen ones in white; of buttons, of a press."""
+    light: Batch = []
+    x = right - heads_width(heads) + DIVIDED
+    put(light, divider(seat), x - DIVIDED / 2, Y)
+    for name, chances in heads.items():
+        shown, first = (chances[1:], 1) if len(chances) == 2 else (chances, 0)
+        w = head_width(chances)
+        left = x + (w - CHOICE_PITCH * (len(shown) - 1)) / 2
+        for i, chance in enumerate(shown):
+            draw_bar(screen, light, left + CHOICE_PITCH * i, seat, chance, choices[name] == first + i, CHOICE_W)
+        put(light, sign(name, MIST), x + w / 2, Y + SIGN_Y)
+        x += w + HEAD_GAP
+    screen.fblits(light, pygame.BLEND_RGB_ADD)
+
+
+def heads_width(heads: Mapping[str, Sequence[float]]) -> float:
+    """Width of the probabilities of all choices, with their margins, px."""
+    return DIVIDED + sum(head_width(chances) + HEAD_GAP for chances in heads.values()) + 8
+
+
+def head_width(chances: Sequence[float]) -> float:
+    """Width of one head, px."""
+    return max(HEAD_W, CHOICE_PITCH * (len(chances) if len(chances) > 2 else 1))
 
 
 def draw_held(screen: pygame.Surface, right: int, seat: int, held: MoveKey, buttons: Sequence[tuple[str, int]]) -> None:
@@ -154,16 +196,24 @@ def box(seat: int, w: int, named: bool) -> pygame.Surface:
 
 
 @cached
-def bar(seat: int, chosen: bool, full: bool) -> Sprite:
-    """A wish bar, full or empty, anchored at the middle of its top."""
-    ink = GlowCanvas(BAR_W + 2 * EDGE, BAR_H + 2 * EDGE).set_transform(EDGE + BAR_W / 2, EDGE)
-    outline = cut_box(-BAR_W / 2, 0, BAR_W, BAR_H, 6)
+def bar(seat: int, chosen: bool, full: bool, w: int) -> Sprite:
+    """A bar `w` px wide, full or empty, anchored at the middle of its top."""
+    ink = GlowCanvas(w + 2 * EDGE, BAR_H + 2 * EDGE).set_transform(EDGE + w / 2, EDGE)
+    outline = cut_box(-w / 2, 0, w, BAR_H, min(6, w / 4))
     color = WHITE if chosen else dim(PLAYERS[seat], 0.75)
     if full:
         ink.fill(outline, color)
-        return Sprite(ink.lit(0.5), -EDGE - BAR_W // 2, -EDGE)
+        return Sprite(ink.lit(0.5), -EDGE - w // 2, -EDGE)
     ink.line(outline, ICE if chosen else dim(color, 0.5), LINE - 3, True)
-    return Sprite(ink.plain(), -EDGE - BAR_W // 2, -EDGE)
+    return Sprite(ink.plain(), -EDGE - w // 2, -EDGE)
+
+
+@cached
+def divider(seat: int) -> Sprite:
+    """The line between two parts of a box, anchored at its upper edge."""
+    ink = GlowCanvas(2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink.line([(0, 14), (0, H - 14)], dim(PLAYERS[seat], 0.5), THIN)
+    return Sprite(ink.plain(), -EDGE, -EDGE)
 
 
 @cached
@@ -172,6 +222,12 @@ def sign(name: str, color: Color) -> Sprite:
     ink = GlowCanvas(96, 96, 3).set_transform(48, 48)
     if name in CRATES:
         state_icon(ink, CRATES[name], 0, 0, 17, color)
+    elif name in PAIRS:
+        for side, part in zip((-1, 1), PAIRS[name], strict=True):
+            dx, dy = (0, 10 * side) if name == "drive" else (10 * side, 0)
+            icon(ink, part, dx, dy, 10, color, 4)
+    elif name == "walls":
+        ink.line(cut_box(-19, -6, 38, 12, 4), color, 4, True)
     else:
         icon(ink, SIGNS[name], 0, 0, 18, color, 5)
     return trim(ink.lit(0.4), 48, 48)

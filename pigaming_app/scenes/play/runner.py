@@ -8,6 +8,7 @@ from contextlib import AbstractContextManager
 
 import pygame
 
+from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.registry import RIVALS, TURN
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
@@ -160,7 +161,9 @@ class MatchRunner:
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"
-        return (words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else brain.upper()), "ai"
+        return (
+            words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else display_name(brain).upper()
+        ), "ai"
 
     def _tag_sprites(self) -> AbstractContextManager[None]:
         """Tag new sprites with the game, to release them when the title returns."""

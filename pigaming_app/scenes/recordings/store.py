@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
+from pigaming_app.ai.brain_files import display_name
 from pigaming_app.games.game import Seat
 from pigaming_app.games.replay import Replay, ReplayError, pack
 from pigaming_app.scenes.files import load_replay
@@ -101,7 +102,9 @@ def _free_name(replay: Replay, now: datetime) -> Path:
 
 
 def _players(seats: Sequence[Seat]) -> str:
-    return "-".join(seat.brain for seat in seats if seat.brain != "off")
+    """The players of the seats, in lower-case letters, digits and hyphens."""
+    players = "-".join(display_name(seat.brain) for seat in seats if seat.brain != "off")
+    return re.sub(r"[^a-z0-9-]+", "-", players.lower())
 
 
 def _deletable(path: Path) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.registry import RIVALS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
@@ -22,7 +23,7 @@ def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int]
     brain = setup.seats[seat].brain
     if brain == "human":
         return words("results.stand_in_wins" if seat in absent else "results.wins", player=seat + 1)
-    level = words(f"lobby.{brain}").lower() if brain in RIVALS[setup.game] else brain
+    level = words(f"lobby.{brain}").lower() if brain in RIVALS[setup.game] else display_name(brain)
     return words("results.ai_wins", player=seat + 1, level=level)
 
 

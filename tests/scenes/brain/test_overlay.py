@@ -5,6 +5,9 @@ from itertools import pairwise
 import pygame
 import pytest
 
+from pigaming_app.ai.brain.kind import BrainPlayer
+from pigaming_app.ai.networks.files import brain_of
+from pigaming_app.ai.networks.thoughts import REASONS
 from pigaming_app.ai.registry import make_brain, new_match
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.brain import floor_marks as marks
@@ -21,6 +24,7 @@ from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.labels import text_width
+from tests.ai.networks.random_network import random_network
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
@@ -261,6 +265,22 @@ def test_seats_without_an_explaining_brain_are_skipped(arcade: Arcade) -> None:
     object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.reset))
     overlay = BrainOverlay(stage.match, stage.view, arcade.context.words)
     assert overlay.seats == [1, 2, 3]
+
+
+def test_a_network_shows_what_matters_to_it_and_the_probabilities_of_its_choices(arcade: Arcade) -> None:
+    stage = stage_of(arcade, "pitanks")
+    stage.match.sit(0, BrainPlayer(brain_of(random_network()), 1))
+    overlay = stage.brain
+    overlay.next()
+    for _ in range(60):
+        stage.advance(1 / 60)
+        stage.draw(arcade.screen)
+    assert overlay.thoughts.heads.keys() == overlay.heads.keys() == {"drive", "turn", "fire", "turbo"}
+    box = arcade.screen.subsurface((1108, 24, 652, 106)).copy()
+    aside = round(cards.heads_width(overlay.heads))
+    for part in (pygame.Rect(0, 0, 652 - aside, 106), pygame.Rect(652 - aside, 0, aside, 106)):
+        assert max(box.get_at((x, 30)).b for x in range(part.left + 8, part.right - 8)) > 100
+    assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in (*REASONS, *overlay.heads))
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

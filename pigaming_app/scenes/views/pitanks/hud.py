@@ -11,7 +11,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import is_brain
 from pigaming_app.games.pitanks.scoring import is_overtime
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
@@ -85,7 +85,7 @@ def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
 
 
 class PiTanksHud:
-    """Keeps the HUD up to date. `players`: driver of each seat; names in BRAINS are marked as AI."""
+    """Keeps the HUD up to date. `players`: driver of each seat; names of brains are marked as AI."""
 
     def __init__(self, background: Background, state: Any, players: list[str], words: Words | None) -> None:
         self.background, self.players = background, players
@@ -134,7 +134,7 @@ class PiTanksHud:
         return not state.tanks[seat].barred if is_overtime(state) else alone
 
     def _ai(self, seat: int) -> bool:
-        return self.players[seat] in BRAINS["pitanks"]
+        return is_brain("pitanks", self.players[seat])
 
     def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
         text = str(points).replace("-", "−")

@@ -8,7 +8,7 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import is_brain
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud_parts import CLOCK, XS, H, HudParts, Y, number_bits
@@ -31,7 +31,7 @@ ICONS = ("", "speed", "shield", "oil")  # of `Racer.item`
 
 
 class RaceHud:
-    """Keeps the HUD up to date. `players`: driver of each seat; names in BRAINS are marked as AI."""
+    """Keeps the HUD up to date. `players`: driver of each seat; names of brains are marked as AI."""
 
     def __init__(self, background: Background, state: Race, players: list[str], words: Words | None) -> None:
         self.background, self.players, self.words = background, players, words
@@ -102,7 +102,7 @@ class RaceHud:
                 yield partial(race_cards.banner, announced(self.words("race.last_lap")), FOCUS)
 
     def _ai(self, seat: int) -> bool:
-        return self.players[seat] in BRAINS.get("race", {})
+        return is_brain("race", self.players[seat])
 
     def _card(self, state: Race, seat: int, place: int) -> RaceCard:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps

@@ -1,0 +1,216 @@
+"""File format of trained networks: one .npz of at most 100 kB with whole-number weights and a JSON head.
+
+Weights and biases are int16 in units of 1/256. The head holds what the training was (recipe, seed, curve), the licence,
+the hash of the engine, and a handicap: a level is a network with a handicap.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cache
+from itertools import pairwise
+from math import isfinite
+from typing import Any
+
+from pigaming_app import ASSETS
+from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, unpack, verify
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, Handicap, Policy, network_brain
+from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.ai.networks.thoughts import make_explain
+from pigaming_app.games.engine_hash import engine_hash
+
+FORMAT = "pigaming-network-1"
+LICENCE = "MIT"
+MAX_BYTES = 100_000  # size limit of a file
+MAX_HEAD, MAX_MATRIX, MAX_BIAS = 400_000, 100_000, 2_000  # limits of unpacked sizes, bytes; a character has four
+MATRICES, BIASES = ("first", "second", "last"), ("first_bias", "second_bias", "last_bias")
+PARTS = {HEAD: MAX_HEAD, **dict.fromkeys(MATRICES, MAX_MATRIX), **dict.fromkeys(BIASES, MAX_BIAS)}
+MAX_TEXT, MAX_ENTRIES, MAX_ROWS, MAX_COLUMNS = 4_000, 100, 1_000, 20
+LIMITS = {"delay": (0.0, 1.0), "error": (0.0, 1.0), "sharpness": (0.0, 10.0)}  # of handicaps
+
+
+class NetworkError(BrainFileError):
+    """A file is not a valid network; the message is one line."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The course of a training: numbers by row and column, such as updates and shares of wins."""
+
+    columns: tuple[str, ...] = ()
+    rows: tuple[tuple[float, ...], ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class TrainedNetwork:
+    """A network with the parameters of its training.
+
+    `matrices`: int16, (inputs, 64), (64, 64), (64, outputs), in units of 1/256; `biases`: int16, one for each column.
+    """
+
+    name: str
+    game: str
+    matrices: Sequence[Any]
+    biases: Sequence[Any]
+    recipe: Mapping[str, Any]  # hyper-parameters, opponents: numbers, texts, and lists of them
+    seed: int
+    updates: int
+    decisions: int  # of the learner's robots, over the whole training
+    curve: Curve = Curve()
+    licence: str = LICENCE
+    engine: str = field(default_factory=engine_hash)  # hash of the engine it was trained with
+    handicap: Handicap = NO_HANDICAP
+
+    @property
+    def other_engine(self) -> bool:
+        """True if it was trained with another version of the engine, so that results may differ."""
+        return self.engine != engine_hash()
+
+
+def encode(trained: TrainedNetwork) -> bytes:
+    """Content of the file of a network. Raises NetworkError for one that `decode` would refuse."""
+    head = {
+        "format": FORMAT,
+        **{key: value for key, value in vars(trained).items() if key not in ("matrices", "biases", "recipe")},
+        "recipe": dict(trained.recipe),
+        "curve": asdict(trained.curve),
+        "handicap": asdict(trained.handicap),
+    }
+    arrays = dict(zip((*MATRICES, *BIASES), (*trained.matrices, *trained.biases), strict=True))
+    raw = pack(head, arrays)
+    decode(raw, trained.name)
+    return raw
+
+
+def decode(raw: bytes, name: str) -> TrainedNetwork:
+    """Validate and unpack the content of the file `name`. Raises NetworkError, whose message begins with the name."""
+    try:
+        if len(raw) > MAX_BYTES:
+            raise NetworkError(f"it is larger than {MAX_BYTES:,} bytes")
+        head, arrays = unpack(raw, "network", FORMAT, PARTS)
+        return _trained(head, arrays)
+    except BrainFileError as error:
+        raise NetworkError(f"{name}: {error}") from None
+
+
+def brain_of(trained: TrainedNetwork) -> BrainKind:
+    """The brain that plays by a network, with its handicap."""
+    return explained_brain(trained.name, trained.game, policy_of(trained), trained.handicap)
+
+
+def explained_brain(
+    name: str, game: str, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
+) -> BrainKind:
+    """A brain by a network of a game, with its explanation."""
+    encoding = ENCODINGS[game]
+    return replace(network_brain(name, encoding, weights, handicap), explain=make_explain(encoding))
+
+
+def policy_of(trained: TrainedNetwork) -> Policy:
+    """The parameters of a network, for brains."""
+    from pigaming_app.ai.networks.layers import Layers
+
+    return Policy(Layers(trained.matrices, trained.biases))
+
+
+@cache
+def shipped(name: str) -> TrainedNetwork:
+    """A network that ships with the arcade, cached. Raises OSError, NetworkError."""
+    path = ASSETS / "brains" / f"{name}.npz"
+    return decode(path.read_bytes(), path.name)
+
+
+def shipped_brain(name: str, game: str, file: str, handicap: Handicap = NO_HANDICAP) -> BrainKind:
+    """A brain `name` by a network that ships with the arcade as `file`.npz, which is read on first use."""
+
+    @cache
+    def policy() -> Policy:
+        return policy_of(shipped(file))
+
+    return explained_brain(name, game, lambda fast: policy()(fast), handicap)
+
+
+def _trained(head: Mapping[str, Any], arrays: Mapping[str, Any]) -> TrainedNetwork:
+    """The network after validation. Raises BrainFileError."""
+    from pigaming_app.ai.networks.layers import EXACT, Layers
+
+    encoding = ENCODINGS.get(str(head.get("game")))
+    if encoding is None:
+        raise NetworkError(f"a network for another game; networks play {', '.join(ENCODINGS)}")
+    sizes = (encoding.size, HIDDEN, HIDDEN, encoding.outputs)
+    shapes = [*pairwise(sizes), *((size,) for size in sizes[1:])]
+    if any(array.dtype.str != "<i2" for array in arrays.values()):
+        raise NetworkError("its weights are not whole numbers of 16 bits")
+    if [array.shape for array in arrays.values()] != shapes:
+        raise NetworkError(f"the network has another shape than those of {encoding.game}")
+    verify(head, arrays)
+    matrices, biases = tuple(arrays[part] for part in MATRICES), tuple(arrays[part] for part in BIASES)
+    if Layers(matrices, biases).largest_sum() >= EXACT:
+        raise NetworkError("its weights are too large")
+    try:
+        return TrainedNetwork(
+            name=_text(head["name"]),
+            game=encoding.game,
+            matrices=matrices,
+            biases=biases,
+            recipe=_recipe(head["recipe"]),
+            seed=_count(head["seed"], -(2**63)),
+            updates=_count(head["updates"]),
+            decisions=_count(head["decisions"]),
+            curve=_curve(head["curve"]),
+            licence=_text(head["licence"]),
+            engine=_text(head["engine"]),
+            handicap=_handicap(head["handicap"]),
+        )
+    except (KeyError, TypeError, ValueError, OverflowError):
+        raise NetworkError("its head is not complete") from None
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str) or len(value) > MAX_TEXT:
+        raise ValueError("text")
+    return value
+
+
+def _count(value: Any, low: int = 0) -> int:
+    if type(value) is not int or not low <= value < 2**63:
+        raise ValueError("count")
+    return value
+
+
+def _number(value: Any) -> float:
+    if type(value) not in (int, float) or not isfinite(value):
+        raise ValueError("number")
+    return float(value)
+
+
+def _recipe(table: Any) -> dict[str, Any]:
+    """Numbers, texts and truth values by name, or lists of them. Raises ValueError."""
+    if not isinstance(table, dict) or len(table) > MAX_ENTRIES:
+        raise ValueError("recipe")
+    for values in table.values():
+        for value in values if isinstance(values, list) else [values]:
+            if isinstance(value, str):
+                _text(value)
+            elif value is not None and type(value) is not bool:
+                _number(value)
+    return table
+
+
+def _curve(table: Any) -> Curve:
+    """Raises KeyError, TypeError, ValueError."""
+    columns = tuple(_text(name) for name in table["columns"])
+    rows = tuple(tuple(_number(value) for value in row) for row in table["rows"])
+    if len(columns) > MAX_COLUMNS or len(rows) > MAX_ROWS or any(len(row) != len(columns) for row in rows):
+        raise ValueError("curve")
+    return Curve(columns, rows)
+
+
+def _handicap(table: Any) -> Handicap:
+    """Raises KeyError, TypeError, ValueError."""
+    if not isinstance(table, dict) or table.keys() != {one.name for one in fields(Handicap)}:
+        raise ValueError("handicap")
+    numbers = {name: _number(value) for name, value in table.items()}
+    if any(not low <= numbers[name] <= high for name, (low, high) in LIMITS.items()):
+        raise ValueError("handicap")
+    return Handicap(**numbers)

@@ -1,0 +1,126 @@
+"""Explanation of a network: what its decision depends on, and how likely each of its choices was.
+
+Dependence on a topic is measured by occlusion: its inputs are set to 0, the logits computed again, and the measure is
+the total variation distance between the probabilities of the choices with and without them, 0 to 1, of the head where
+it is largest. It is exact for this one decision, but blind to topics that replace each other (Zeiler and Fergus, ECCV
+2014, section 4.2). It costs one forward pass a topic, all of them in one call.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache
+from math import pi
+from typing import Any
+
+from pigaming_app.ai.brain.thoughts import PETALS, Percept, Thoughts, behaviour_of, blend, towards
+from pigaming_app.ai.networks import pitanks_thoughts
+from pigaming_app.ai.networks.encoding import Encoding
+from pigaming_app.ai.networks.policy import LOGIT
+
+Explain = Callable[[Any, int, Any, Any], Thoughts]
+Percepts = Callable[[Any, Any], Iterator[tuple[str, Percept]]]
+
+REST = "rest"  # the topic of groups that are in no table
+TOPICS: dict[str, dict[str, tuple[str, ...]]] = {"pitanks": pitanks_thoughts.TOPICS}
+PERCEPTS: dict[str, Percepts] = {"pitanks": pitanks_thoughts.percepts}
+REASONS = {
+    "near": "looks_near", "others": "looks_others", "bullets": "looks_bullets", "mines": "looks_mines",
+    "pickups": "looks_pickups", "walls": "looks_walls", "self": "looks_self", "score": "looks_score",
+    REST: "looks_rest",
+}  # text keys  # fmt: skip
+MATTERS = 0.05  # share of the choice from which on a topic counts
+TILTED = 0.3  # deflection above which the stick counts as held
+
+
+@cache
+def make_explain(encoding: Encoding) -> Explain:
+    """The explanation of a game's networks."""
+    topics = topics_of(encoding)
+    percepts = PERCEPTS.get(encoding.game, _none)
+
+    def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+        if not any(mind.inputs):
+            return Thoughts("starts")
+        chances = probabilities(encoding, mind.logits, mind.sharpness)
+        shares = _shares(encoding, topics, chances, mind, weights)
+        first = max(shares, key=lambda topic: shares[topic])
+        action = match.actions[seat]
+        heads = dict(zip((name for name, _ in encoding.heads), chances, strict=True))
+        return Thoughts(
+            behaviour=behaviour_of(_step(action.linear), _step(action.angular), int(action.fire)),
+            reason=REASONS[first] if shares[first] >= MATTERS else "looks_nothing",
+            percepts=tuple(sight for topic, sight in percepts(match, mind.inputs) if shares[topic] >= MATTERS),
+            rose=_rose(heads),
+            utilities=shares,
+            chosen=first if shares[first] >= MATTERS else "",
+            heads=heads,
+            choices={name: int(mind.choices[k]) for k, (name, _) in enumerate(encoding.heads)},
+        )
+
+    return explain
+
+
+def topics_of(encoding: Encoding) -> dict[str, list[range]]:
+    """Places of the inputs of each topic."""
+    known = TOPICS.get(encoding.game, {})
+    topic_of = {group: topic for topic, groups in known.items() for group in groups}
+    places: dict[str, list[range]] = {topic: [] for topic in known}
+    first = 0
+    for group, length in encoding.groups:
+        places.setdefault(topic_of.get(group, REST), []).append(range(first, first + length))
+        first += length
+    return places
+
+
+def probabilities(encoding: Encoding, logits: Sequence[float], sharpness: float) -> list[list[float]]:
+    """Probability of each choice, by head; as `policy.odds`, which draws the choices."""
+    chances, first = [], 0
+    for _, count in encoding.heads:
+        own = logits[first : first + count]
+        best = max(own)
+        odds = [max(0.0, 1.0 + sharpness * (logit - best) * LOGIT / 64.0) ** 64 for logit in own]
+        total = sum(odds)
+        chances.append([one / total for one in odds])
+        first += count
+    return chances
+
+
+def _shares(
+    encoding: Encoding, topics: Mapping[str, Sequence[range]], chances: list[list[float]], mind: Any, weights: Any
+) -> dict[str, float]:
+    """Dependence of the choices on each topic; topics whose inputs are 0 anyway are not computed."""
+    shares, rows = dict.fromkeys(topics, 0.0), {}
+    for topic, places in topics.items():
+        if any(any(mind.inputs[place.start : place.stop]) for place in places):
+            rows[topic] = list(mind.inputs)
+            for place in places:
+                rows[topic][place.start : place.stop] = [0.0] * len(place)
+    for topic, logits in zip(rows, weights.logits_of([*rows.values()]), strict=True):
+        shares[topic] = _distance(chances, probabilities(encoding, logits, mind.sharpness))
+    return shares
+
+
+def _distance(chances: Sequence[Sequence[float]], others: Sequence[Sequence[float]]) -> float:
+    """Largest total variation distance of a head."""
+    return max(
+        min(1.0, 0.5 * sum(abs(a - b) for a, b in zip(one, other, strict=True)))
+        for one, other in zip(chances, others, strict=True)
+    )
+
+
+def _rose(heads: dict[str, list[float]]) -> Sequence[float]:
+    """Probability of each direction of driving; positions of a stick are evenly spaced from -1 to 1."""
+    if not {"drive", "turn"} <= heads.keys():
+        return [0.0] * PETALS
+    back, _, ahead = heads["drive"]
+    turns = heads["turn"]
+    sides = [2.0 * k / (len(turns) - 1) - 1.0 for k in range(len(turns))]
+    roses = [towards(0.5 * pi * side, ahead * chance) for side, chance in zip(sides, turns, strict=True)]
+    return blend(*roses, *(towards(pi - 0.5 * pi * side, back * p) for side, p in zip(sides, turns, strict=True)))
+
+
+def _step(deflection: float) -> int:
+    return int(deflection > TILTED) - int(deflection < -TILTED)
+
+
+def _none(match: Any, inputs: Any) -> Iterator[tuple[str, Percept]]:
+    return iter(())
