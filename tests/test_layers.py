@@ -21,7 +21,7 @@ MAY = {
     "ai": {"sim", "games"},
     "ui": {"storage"},
     "scenes": {"sim", "storage", "ui", "games", "hardware", "ai"},
-    "gym": {"sim", "storage", "ui", "games", "hardware", "ai", "scenes"},  # to come: faces for learning libraries
+    "gym": {"sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
     "events": {"games", "ai", "storage"},  # to come: tournaments
     "jobs": {"boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
     "cli": {"jobs"},
@@ -32,10 +32,12 @@ ONLY_IN = {
     "cv2": {"hardware"},
     "serial": {"hardware"},
     "onnxruntime": {"ai"},
+    "gymnasium": {"gym"},
+    "pettingzoo": {"gym"},
     "torch": set(),
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
-DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime"}
+DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo"}
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 

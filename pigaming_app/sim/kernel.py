@@ -24,7 +24,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 _registered: list[tuple[Callable[..., Any], Callable[..., Any], dict[str, str]]] = []  # plain, to compile, options
 
 PACKAGE = Path(__file__).resolve().parent.parent
-COMPILED = ("sim", "games", "ai")  # rooms with kernels
+COMPILED = ("sim", "games", "ai", "gym")  # rooms with kernels
 
 
 def kernel(function: F) -> F:

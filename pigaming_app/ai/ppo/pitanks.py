@@ -15,7 +15,8 @@ from pigaming_app.sim.kernel import kernel
 
 POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
 CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of the training on
-SHAPING, SHAPED = 0.5, 0.6  # weight of the potential at the begin, and the share of the training in which it fades out
+SHAPING, SHAPED = 0.5, 0.1  # weight of the potential, at the begin and at the end of the training
+FAR = 3.0  # potential of 1600 px on the way to the nearest opponent
 BLIND = 0.05  # cost of a shot with nobody in the line of fire
 THRIFTY, MOST_THRIFT = 0.4, 0.33  # share of matches in which a shot has a cost, and the highest
 LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
@@ -30,7 +31,7 @@ def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
     gauges[POINTS] = match.robots[seat].score + match.rules.penalty * tank.taken
     gauges[TAKEN], gauges[SHOTS] = tank.taken, tank.shots
     clear, towards, length = inputs[OTHERS + 11] / UNIT, inputs[OTHERS + 4] / UNIT, inputs[WAY + 4] / UNIT
-    gauges[POTENTIAL] = clear * (0.5 * towards + 0.3) - 0.8 * length
+    gauges[POTENTIAL] = clear * (0.5 * towards + 0.3) - FAR * length
 
 
 @kernel
@@ -43,7 +44,7 @@ def result(match: Any, seat: int) -> float:
 def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
     """Rewards (T, S) of the decisions."""
     care = min(FULL_CARE, CARE + (FULL_CARE - CARE) * share / 0.5)
-    shaping = SHAPING * max(0.0, 1.0 - share / SHAPED)
+    shaping = SHAPING + (SHAPED - SHAPING) * share
     blind = np.ones(gains.shape[:2], bool)
     for k in range(OTHERS, OTHERS + 3 * OTHER, OTHER):  # an opponent in the line of fire
         blind &= (inputs[..., k + 11] <= 0) | (inputs[..., k + 1] > 0)
@@ -71,14 +72,14 @@ def duel(share: int, rival: str) -> LineUp:
 
 TASK = Task(
     encoding=ENCODING,
-    arenas=("classic", "courtyard", "islands", "labyrinth", "labyrinth", "trenches"),
-    variants=("pickups", "pickups", "party", "plain", "classic", "original"),
+    arenas=("classic", "courtyard", "islands", "labyrinth", "labyrinth", "trenches", "trenches"),
+    variants=("pickups", "pickups", "party", "party", "plain", "classic", "original"),
     minutes=(2.0,),
     line_ups=(
         duel(4, "hand3"),
         duel(1, "hand2"),
-        duel(2, "classic"),
-        duel(1, "idle"),
+        duel(3, "classic"),
+        duel(2, "idle"),
         duel(1, "q1"),
         duel(1, "q2"),
         duel(3, LEARNER),

@@ -31,6 +31,14 @@ class Screenshot:
         self.view.watch(self.match.state)
         self.view.draw(self.screen, self.match.state, 1.0, DT)
 
+    def pixels(self, seconds: float) -> bytes:
+        """The current state of the match, `seconds` after the last picture.
+
+        Rows of pixels from the top, three bytes each: red, green, blue.
+        """
+        self.view.draw(self.screen, self.match.state, 1.0, seconds)
+        return pygame.image.tobytes(self.screen, "RGB")
+
     def picture(self, path: Path) -> None:
         """Save the current state of the match as a PNG file. Raises NotSaved."""
         self.view.draw(self.screen, self.match.state, 1.0, 0.0)

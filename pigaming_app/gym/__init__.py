@@ -1,0 +1,55 @@
+"""Faces of the games for learning libraries: Gymnasium and PettingZoo. Extra `gym`; with `train` they are compiled.
+
+    import gymnasium
+    import pigaming_app.gym
+
+    one = gymnasium.make("PiTanks-v0", opponents=("level3",))  # one seat
+    many = gymnasium.make_vec("PiTanks-v0", num_envs=4096, opponents=("level3",))
+    match = pigaming_app.gym.parallel_env("factory", agents=2, teams=(0, 0, 1, 1), opponents=("level1", "level1"))
+
+Environments: PiTanks-v0, RobotRace-v0, RobotFactory-v0; games of `parallel_env`: pitanks, race, factory. An observation
+is the game's `Encoding` (see ai/networks) in [-1, 1]; an action is a choice for each of its heads. Options:
+
+- agents: seats of learners in a match, the first ones; 1 by default, in `parallel_env` 2. `make` has one.
+- opponents: names of brains for the seats after them, mates included; ("level3",) by default if there is one agent.
+- arena: a name, the path of a .toml file, several of them, or "all"; the game's first by default.
+- variant, minutes, goal, teams: as in the lobby, with its defaults. `teams` has a number for each of the four seats.
+- ticks: of 1/50 s between decisions; 5 by default, as networks play.
+- continuous: actions are linear and angular stick in [-1, 1], then fire and turbo, on above 0.5.
+- rewards: weights of the game's tallies by name (see rewards.py); a tally's change since the last decision counts.
+- starts: number of different matches that are played; 128 by default.
+- compiled: False to run as plain Python. By default compiled if numba is installed; both give the same bits.
+- max_episode_steps: decisions after which an episode is truncated.
+- render_mode: "rgb_array" draws with the game's own pictures, 1920 x 1080.
+"""
+
+from typing import Any
+
+try:
+    import gymnasium
+    import pettingzoo as pettingzoo
+except ImportError as error:
+    raise ImportError(
+        f"pigaming_app.gym needs {error.name}: pip install 'pigaming-app[gym]'", name=error.name
+    ) from None
+
+from pigaming_app.gym.options import OptionError
+from pigaming_app.gym.parallel import MatchEnv
+
+__all__ = ["ENVIRONMENTS", "OptionError", "parallel_env"]
+
+ENVIRONMENTS = {"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v0": "factory"}  # names of the games
+
+
+def parallel_env(game: str, **options: Any) -> MatchEnv:
+    """A match as a PettingZoo ParallelEnv. Raises OptionError."""
+    return MatchEnv(game, **options)
+
+
+for _name, _game in ENVIRONMENTS.items():
+    gymnasium.register(
+        _name,
+        entry_point="pigaming_app.gym.environment:SeatEnv",
+        vector_entry_point="pigaming_app.gym.vector:SeatVectorEnv",
+        kwargs={"game": _game},
+    )

@@ -1,0 +1,56 @@
+"""One seat of a match as a Gymnasium environment."""
+
+from typing import Any, ClassVar
+
+import gymnasium
+import numpy as np
+
+from pigaming_app.gym.matches import Matches
+from pigaming_app.gym.options import task_of
+from pigaming_app.gym.picture import Camera, checked_mode
+from pigaming_app.gym.spaces import action_space, observation_space
+
+SEEDS = 2**63  # seeds that are drawn lie below
+
+
+class SeatEnv(gymnasium.Env[Any, Any]):
+    """A match with one learner, on the first seat. `options`: see `pigaming_app.gym`.
+
+    An episode is a match; it ends, terminated, when the match is over, or nothing more is at stake for the learner. The
+    clock is part of the rules and of the observation, so that the end of the time also terminates.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"], "render_fps": 10}
+
+    def __init__(self, game: str, render_mode: str | None = None, **options: Any) -> None:
+        """Raises OptionError."""
+        self.render_mode = checked_mode(render_mode)
+        self.task = task_of(game, 1, **options)
+        self.metadata = {**self.metadata, "render_fps": self.task.decisions_a_second}  # type: ignore[misc]
+        self.observation_space, self.action_space = observation_space(self.task), action_space(self.task)
+        self.matches = Matches(self.task, 1)
+        self._seeded = False
+        self._camera = Camera(self.matches, 0)
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Begin the next episode. `seed` determines it and all that follow; `options` is not used."""
+        super().reset(seed=seed)
+        if seed is not None or not self._seeded:
+            self.matches.seed([int(self.np_random.integers(SEEDS)) if seed is None else seed])
+            self._seeded = True
+        self.matches.restart(np.ones(1, np.bool_))
+        observations, _, _ = self.matches.advance()
+        return observations[0, 0], {}
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Play one decision. Raises ValueError for an action outside the action space."""
+        observations, rewards, over = self.matches.advance(self.matches.checked(action))
+        self._camera.watch()
+        return observations[0, 0], float(rewards[0, 0]), bool(over[0]), False, self.matches.result(0) if over[0] else {}
+
+    def render(self) -> Any:
+        """The present picture (height, width, 3), or None without a render mode."""
+        return self._camera.picture() if self.render_mode else None
+
+    def close(self) -> None:
+        self._camera.close()

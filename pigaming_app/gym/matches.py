@@ -1,0 +1,142 @@
+"""Many matches of one task, advanced together by a decision: what all environments share.
+
+Every episode is one of the task's matches, number 0 to `starts` - 1, with the seeds that `play --seed` uses. Which ones
+a match plays follows from its own seed. They are prepared when they are first drawn, and copied from then on.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from pigaming_app.ai.experiments.cast import Cast
+from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.games.batch import initial_states
+from pigaming_app.games.registry import games
+from pigaming_app.gym.loop import Loop, loop_of
+from pigaming_app.gym.options import Task
+from pigaming_app.gym.rewards import TALLIES
+from pigaming_app.sim.record import copy, dtype, packed, unpack
+from pigaming_app.sim.world import ROBOTS
+
+STRIDE = np.uint64(0x9E3779B97F4A7C15)  # of a seed's sequence, as in splitmix64
+
+
+class Matches:
+    """`count` matches. Observations are (count, learners, inputs), rewards (count, learners), `over` is (count,)."""
+
+    def __init__(self, task: Task, count: int) -> None:
+        self.task, self.count = task, count
+        self.encoding = ENCODINGS[task.game]
+        self.cast = Cast(task.opponents, task.fast)
+        self.loop: Loop = loop_of(task.game, self.cast.families, task.continuous, task.fast)
+        self.start_of = np.zeros(count, np.int64)  # number of the match that each plays
+        self.episodes = np.zeros(count, np.int64)  # that each has begun
+        self._streams = np.zeros(count, np.uint64)
+        self._pool: dict[int, Any] = {}  # prepared matches: state, and minds of the four seats
+        shape = (count, task.learners)
+        self.fresh = np.ones(count, np.bool_)
+        self.totals = np.zeros((*shape, len(TALLIES[task.game].names)))
+        self._worth = np.array(task.weights)
+        if task.fast:
+            self.states: Any = np.zeros(count, dtype(games()[task.game].state))
+            self.minds: Any = np.zeros((count, ROBOTS), dtype(self.cast.mind))
+            self.senses: Any = np.zeros(shape, dtype(self.encoding.senses))
+        else:
+            self.states, self.minds = [None] * count, [None] * count
+            self.senses = [[None] * task.learners for _ in range(count)]
+        self._no_actions = np.zeros((*shape, *action_shape(task)), action_type(task))
+
+    def seed(self, seeds: Sequence[int]) -> None:
+        """Seed the choice of matches; the same seed always leads to the same sequence."""
+        self._streams[:] = mixed(np.array([seed & 0xFFFFFFFFFFFFFFFF for seed in seeds], np.uint64))
+
+    def restart(self, which: Any) -> None:
+        """Begin the next episode of the matches selected by a mask (count,)."""
+        chosen = np.flatnonzero(which)
+        self._streams[chosen] += STRIDE
+        self.episodes[chosen] += 1
+        self.start_of[chosen] = mixed(self._streams[chosen]) % np.uint64(self.task.starts)
+        for i, start in zip(chosen.tolist(), self.start_of[chosen].tolist(), strict=True):
+            state, minds = self._prepared(start)
+            if self.task.fast:
+                self.states[i], self.minds[i] = state, minds
+            else:
+                self.states[i], self.minds[i] = copy(state), [copy(mind) for mind in minds]
+                self.senses[i] = [self.encoding.senses() for _ in range(self.task.learners)]
+        if self.task.fast:
+            self.senses[chosen] = np.zeros((), self.senses.dtype)
+        self.fresh[chosen] = True
+
+    def advance(self, actions: Any = None) -> tuple[Any, Any, Any]:
+        """Play one decision; new arrays of observations, rewards and `over`. Fresh matches are only observed.
+
+        `actions`: (count, learners, heads) choices, or (count, learners, 4) if continuous. None: all are fresh.
+        """
+        task, shape = self.task, (self.count, self.task.learners)
+        observations = np.empty((*shape, self.encoding.size), np.float32)
+        rewards, over = np.empty(shape), np.empty(self.count, np.bool_)
+        if actions is None:
+            actions = self._no_actions
+        self.loop(
+            self.states,
+            self.minds,
+            self.cast.weights,
+            self.senses,
+            actions,
+            self.fresh,
+            self.totals,
+            self._worth,
+            observations,
+            rewards,
+            over,
+            task.ticks,
+        )
+        self.fresh[:] = False
+        return observations, rewards, over
+
+    def state(self, i: int) -> Any:
+        """Match i as a plain record."""
+        return unpack(games()[self.task.game].state, self.states[i]) if self.task.fast else self.states[i]
+
+    def result(self, i: int, seat: int = 0) -> dict[str, float]:
+        """The tallies of a learner in match i, by name."""
+        return dict(zip(TALLIES[self.task.game].names, self.totals[i, seat].tolist(), strict=True))
+
+    def checked(self, actions: Any) -> Any:
+        """Actions as the array that `advance` takes. Raises ValueError if they do not lie in the action space."""
+        shape = (self.count, self.task.learners, *action_shape(self.task))
+        found = np.ascontiguousarray(actions, action_type(self.task)).reshape(shape)
+        if not self.task.continuous:
+            choices = np.array([count for _, count in self.encoding.heads])
+            if (found < 0).any() or (found >= choices).any():
+                raise ValueError(f"an action is no choice of the heads {dict(self.encoding.heads)}")
+        return found
+
+    def _prepared(self, start: int) -> Any:
+        if start not in self._pool:
+            setup = self.task.setup_of(start)
+            (state,) = initial_states([setup])
+            minds = [self.cast.mind() for _ in range(ROBOTS)]
+            for mind in minds:
+                mind.family = -1  # nobody: learners, and empty seats
+            for seat, kind in enumerate(self.task.opponents, self.task.learners):
+                minds[seat] = self.cast.mind_of(kind, setup.seed * ROBOTS + seat)
+            self._pool[start] = (packed([state])[0], packed(minds)) if self.task.fast else (state, minds)
+        return self._pool[start]
+
+
+def action_shape(task: Task) -> tuple[int]:
+    """The length of one learner's action."""
+    return (4,) if task.continuous else (len(ENCODINGS[task.game].heads),)
+
+
+def action_type(task: Task) -> Any:
+    return np.float64 if task.continuous else np.int64
+
+
+def mixed(numbers: Any) -> Any:
+    """Well-scattered numbers of 64 bits: the output function of splitmix64."""
+    numbers = (numbers ^ (numbers >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    numbers = (numbers ^ (numbers >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return numbers ^ (numbers >> np.uint64(31))

@@ -1,0 +1,123 @@
+"""Rewards: weighted changes of a seat's tallies from one decision to the next.
+
+A tally is a number that a match keeps for a seat. Each game has a kernel `tally(match, seat, totals)` that fills the
+array `totals` with them, in the order of their names. In every game `win` is 0 until the match is decided for the seat,
+then 1 for a win, -1 for a defeat and 0 for a tie.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pigaming_app.games.pitanks.scoring import lead
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.world import ROBOTS
+
+
+@dataclass(frozen=True)
+class Tallies:
+    """The tallies of a game. `tally` and `is_done` are kernels.
+
+    `is_done(match, seat)` is 1 when nothing that the seat does can change its result any more.
+    """
+
+    names: tuple[str, ...]
+    weights: Mapping[str, float]  # of the default reward; tallies that are not named count nothing
+    tally: Callable[[Any, int, Any], None]
+    is_done: Callable[[Any, int], int]
+
+
+@kernel
+def is_over(match: Any, seat: int) -> int:
+    """1 if the match is over."""
+    return int(match.over)
+
+
+@kernel
+def sign(value: float) -> float:
+    return 1.0 if value > 0 else -1.0 if value < 0 else 0.0
+
+
+# ------------------------------------------------------------------------------------------------------------- PiTanks
+
+
+@kernel
+def tally_pitanks(match: Any, seat: int, totals: Any) -> None:
+    """Hits made and taken, shots, own points, lead of the own team over the best other one, and the win."""
+    tank, ahead = match.tanks[seat], lead(match, seat)
+    totals[0], totals[1], totals[2] = tank.hits, tank.taken, tank.shots
+    totals[3], totals[4] = match.robots[seat].score, ahead
+    totals[5] = sign(ahead) if match.over else 0.0
+
+
+# ---------------------------------------------------------------------------------------------------------- Robot Race
+
+
+@kernel
+def tally_race(match: Any, seat: int, totals: Any) -> None:
+    """Laps covered, with fractions; complete laps, the rank (fewer is better), the finish, and the win."""
+    racer = match.racers[seat]
+    totals[0], totals[1] = racer.progress / match.course.length, match.robots[seat].score
+    totals[2], totals[3] = -racer.rank, racer.finished
+    totals[4] = (1.0 if racer.rank == 1 else -1.0) if match.over or racer.finished else 0.0
+
+
+@kernel
+def has_finished(match: Any, seat: int) -> int:
+    """1 if the match is over, or over for this seat."""
+    return 1 if match.over or match.racers[seat].finished else 0
+
+
+# ------------------------------------------------------------------------------------------------------- Robot Factory
+
+
+@kernel
+def tally_factory(match: Any, seat: int, totals: Any) -> None:
+    """Steps of work, deliveries, spoiled pallets, people driven over, lead of the own team, and the win.
+
+    Among allies the win is a third for each star, or -1.
+    """
+    load, team = match.loads[seat], match.robots[seat].team
+    totals[0], totals[1], totals[2], totals[3] = load.steps, load.delivered, load.spoiled, load.hits
+    ahead = match.delivered[team] - match.delivered[1 - team]
+    if match.rules.party:
+        ahead = match.points[team] - match.points[1 - team]
+    totals[4], totals[5] = ahead, 0.0
+    if match.over and match.rules.allies:
+        totals[5] = match.stars / 3.0 if match.stars else -1.0
+    elif match.over:
+        totals[5] = sign(ahead if ahead or match.rules.party else more_work(match, team))
+
+
+@kernel
+def more_work(match: Any, team: int) -> int:
+    """Steps of work of a team less those of the other; 0 if either has delivered everything."""
+    if match.winner or match.delivered[team] == match.rules.pallets:
+        return 0
+    more = 0
+    for j in range(ROBOTS):
+        if match.robots[j].present:
+            more += match.loads[j].steps if match.robots[j].team == team else -match.loads[j].steps
+    return more
+
+
+TALLIES = {
+    "pitanks": Tallies(
+        ("hits", "taken", "shots", "points", "lead", "win"),
+        {"hits": 1.0, "taken": -1.0, "win": 5.0},
+        tally_pitanks,
+        is_over,
+    ),
+    "race": Tallies(
+        ("progress", "laps", "places", "finish", "win"),
+        {"progress": 10.0, "win": 5.0},
+        tally_race,
+        has_finished,
+    ),
+    "factory": Tallies(
+        ("steps", "delivered", "spoiled", "bumps", "lead", "win"),
+        {"steps": 1.0, "delivered": 2.0, "spoiled": -1.0, "bumps": -0.5, "win": 5.0},
+        tally_factory,
+        is_over,
+    ),
+}  # by game
