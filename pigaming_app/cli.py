@@ -29,6 +29,7 @@ JOBS = {  # modules of `jobs`
     "test": "linter, types and tests",
 }
 LISTING = "\n".join(["jobs:", *(f"  {job:17} {text}" for job, text in JOBS.items())])
+BLAS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")  # threads of NumPy's matrix products
 LOGGED = ("robots", "calibrate", "fidelity")  # jobs whose refusals are also written to the arcade's log
 
 
@@ -43,6 +44,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run a job with these arguments, by default those of this process. Returns the exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # standard output belongs to the job
+    for variable in BLAS:  # our matrices are small; whoever has much to do divides it among threads of its own
+        os.environ.setdefault(variable, "1")  # read when NumPy is imported
     console.prepare()
     try:
         code = _refused_in_one_line(words)

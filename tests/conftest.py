@@ -11,12 +11,14 @@ from typing import Any
 
 import pytest
 
+from pigaming_app.cli import BLAS
 from pigaming_app.sim.kernel import _cache_folder
 
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["SDL_AUDIODRIVER"] = "dummy"
 os.environ["SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS"] = "1"  # as in the arcade: pads count though a window was closed
 os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
+os.environ.update(dict.fromkeys(BLAS, "1"))  # as in every job, which comes too late here
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))  # before home moves: compiling takes long
 
 

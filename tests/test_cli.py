@@ -124,7 +124,8 @@ def test_the_doctor_speaks_json(capsys):
         ["play", "pitanks", "race"],
         ["train", "qlearning", "race", "--out", "a.npz"],
         ["train", "qlearning", "chess", "--out", "a.npz"],
-        ["train", "ppo", "race", "--out", "a.npz"],
+        ["train", "ppo", "factory", "--out", "a.npz"],
+        ["train", "ppo", "chess", "--out", "a.npz"],
         ["play", "--arena", "nowhere", "--headless"],
         ["play", "--minutes", "-1"],
         ["play", "--minutes", "nan"],
@@ -182,6 +183,7 @@ def test_every_job_describes_its_options_without_numpy():
         (["fidelity", "identify", "a.jsonl", "--plots", "a"], "plots"),
         (["bench", "robots"], "hardware"),
         (["train", "qlearning", "--out", "a.npz", "--curve", "a.png"], "plots"),
+        (["train", "ppo", "--out", "a.npz", "--curve", "a.png"], "plots"),
     ],
     ids=lambda words: " ".join(words) if isinstance(words, list) else words,
 )

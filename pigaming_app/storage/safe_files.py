@@ -1,8 +1,8 @@
 """Crash-safe writing of files: after a power cut, full disk or kill a file is complete, either the new or the old one.
 
-`write_atomic` and `AtomicFile` replace a file in one step; `write_with_backup` also saves the previous version as
-`.bak`. `read_or_restore` reads a file; an unreadable one is renamed and replaced by the `.bak`. A killed process leaves
-its temporary file behind, which `delete_temporary_files` deletes.
+`write_atomic` and `AtomicFile` replace a file in one step, `write_all_atomic` several; `write_with_backup` also saves
+the previous version as `.bak`. `read_or_restore` reads a file; an unreadable one is renamed and replaced by the `.bak`.
+A killed process leaves its temporary file behind, which `delete_temporary_files` deletes.
 """
 
 import contextlib
@@ -12,7 +12,7 @@ import re
 import stat
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from datetime import datetime
 from pathlib import Path
 from typing import IO, TypeVar
@@ -45,11 +45,16 @@ class AtomicFile:
         with self._discard_on_error():
             self._file.write(raw)
 
-    def finish(self) -> None:
-        """Replace `path` with the temporary file."""
+    def sync(self) -> None:
+        """Wait until everything written is on the disk."""
         with self._discard_on_error():
             self._file.flush()
             os.fsync(self._file.fileno())
+
+    def finish(self) -> None:
+        """Replace `path` with the temporary file."""
+        self.sync()
+        with self._discard_on_error():
             with contextlib.suppress(FileNotFoundError):
                 os.chmod(self._name, stat.S_IMODE(os.stat(self._target).st_mode))
             if os.name == "nt":
@@ -84,6 +89,23 @@ def write_atomic(path: Path, raw: bytes) -> None:
     with _as_not_saved(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         _replace(path, raw)
+
+
+def write_all_atomic(files: Mapping[Path, bytes]) -> None:
+    """Write files that belong together: none replaces its predecessor before all are on the disk. Raises NotSaved."""
+    drafts: list[AtomicFile] = []
+    try:
+        for path, raw in files.items():
+            with _as_not_saved(path):
+                drafts.append(AtomicFile(path))
+                drafts[-1].write(raw)
+                drafts[-1].sync()
+        for path, draft in zip(files, drafts, strict=True):
+            with _as_not_saved(path):
+                draft.finish()
+    finally:
+        for draft in drafts:
+            draft.discard()
 
 
 def require_writable(path: Path) -> None:

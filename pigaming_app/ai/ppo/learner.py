@@ -4,7 +4,7 @@
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,14 @@ from pigaming_app.ai.networks.policy import HIDDEN
 
 F = np.float32
 SLOPE, SMOOTHNESS, TINY = F(0.1), F(0.001), F(1e-5)  # Adam: 1 - beta1, 1 - beta2, epsilon
+
+LIMITS = {  # of hyper-parameters; the others are shares
+    "matches": (1, 10_000),
+    "decisions": (1, 1_000),
+    "epochs": (1, 100),
+    "minibatch": (1, 1_000_000),
+    "steepest": (1e-6, 1e6),
+}
 
 
 @dataclass(frozen=True)
@@ -31,6 +39,12 @@ class Hyper:
     discount: float = 0.99  # gamma
     trace: float = 0.95  # lambda
     steepest: float = 0.5  # limit of the gradient's norm
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            low, high = LIMITS.get(field.name, (0.0, 1.0))
+            if not low <= (value := getattr(self, field.name)) <= high:
+                raise ValueError(f"{field.name} is {value:g}; possible are {low:g} to {high:g}")
 
     def rate_at(self, share: float) -> float:
         """The learning rate after a share of the training."""
@@ -106,17 +120,10 @@ class Network:
             square += SMOOTHNESS * (gradient * gradient - square)
             matrix -= step * mean / (np.sqrt(square) + TINY)
 
-    def state(self) -> list[Any]:
-        """Weights and moments, for `restore`."""
-        return [*self.weights, *self.means, *self.squares, np.array(self.steps)]
-
-    def restore(self, state: Sequence[Any]) -> None:
-        """Continue from the result of `state`."""
-        count = len(self.weights)
-        self.weights, self.means, self.squares = (
-            [np.array(one) for one in state[k * count : (k + 1) * count]] for k in range(3)
-        )
-        self.steps = int(state[-1])
+    @property
+    def arrays(self) -> list[Any]:
+        """All that changes but `steps`: weights and moments."""
+        return [*self.weights, *self.means, *self.squares]
 
 
 def _orthogonal(inputs: int, outputs: int, gain: float, random: np.random.Generator) -> Any:

@@ -21,7 +21,7 @@ from pigaming_app.games.batch import matches as new_matches
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.kernel import compiled, kernel
+from pigaming_app.sim.kernel import compiled, compiled_before, kernel
 from pigaming_app.sim.record import packed
 from pigaming_app.sim.rng import MASK, uniform
 from pigaming_app.sim.world import ROBOTS
@@ -41,6 +41,14 @@ class Experience(NamedTuple):
     valid: Any  # (T, S) bool; False after the end of a match
     over: Any  # (S,) bool; the match has ended
     results: Any  # (S,) float32, reward of its end
+
+
+class ShardState(NamedTuple):
+    """All that changes in a shard."""
+
+    matches: Any
+    minds: Any
+    random: Any  # state of the generator
 
 
 @kernel
@@ -157,9 +165,29 @@ def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable
 
 
 @cache
-def compiled_collect(task: Task, families: Any, field: str) -> Callable[..., None]:
+def loop_of(task: Task) -> Callable[..., None]:
     """The compiled loop of a task, cached. Raises ImportError without numba."""
-    return compiled(make_collect(task, dispatcher(families), field))
+    cast, network = cast_of(task)
+    field = f"mind{cast.families.index(family_of(network))}"
+    return compiled(make_collect(task, dispatcher(cast.families), field))
+
+
+def is_compiled(task: Task) -> bool:
+    """True if numba's on-disk cache holds the loop of a task, so that it loads at once."""
+    return compiled_before(make_collect(task, dispatcher(cast_of(task)[0].families), ""))
+
+
+def empty_experience(task: Task, streams: int, decisions: int) -> Experience:
+    """Room for experience."""
+    return Experience(
+        np.zeros((decisions + 1, streams, task.encoding.size), np.float32),
+        np.zeros((decisions, streams, len(task.encoding.heads)), np.int64),
+        np.zeros((decisions, streams), np.float32),
+        np.zeros((decisions + 1, streams, len(task.gauges)), np.float32),
+        np.zeros((decisions, streams), np.bool_),
+        np.zeros(streams, np.bool_),
+        np.zeros(streams, np.float32),
+    )
 
 
 class Shard:
@@ -172,6 +200,7 @@ class Shard:
         self.cast, self.network = cast_of(task)
         self._number = self.cast.families.index(family_of(self.network))
         self._starts: dict[Any, Any] = {}
+        self._experience: Experience | None = None
         self._minds = {name: self._prepared(name) for name in brains_of(task)}
         count = len(self.line_ups)
         self.matches: Any = np.repeat(self._start(self.line_ups[0]), count)
@@ -184,23 +213,17 @@ class Shard:
         self._count_streams()
 
     def collect(self, policy: Sequence[Any], pool: Any, decisions: int) -> Experience:
-        """Play `decisions` decisions and begin the matches that have ended anew.
+        """Play `decisions` decisions and begin the matches that have ended anew. The next call overwrites the result.
 
         `policy`: three float32 matrices whose last rows are the biases. `pool`: earlier copies as a row of weights.
         """
-        streams, size = self.width, self.task.encoding.size
-        experience = Experience(
-            np.zeros((decisions + 1, streams, size), np.float32),
-            np.zeros((decisions, streams, len(self.task.encoding.heads)), np.int64),
-            np.zeros((decisions, streams), np.float32),
-            np.zeros((decisions + 1, streams, len(self.task.gauges)), np.float32),
-            np.zeros((decisions, streams), np.bool_),
-            np.zeros(streams, np.bool_),
-            np.zeros(streams, np.float32),
-        )
+        experience = self._experience
+        if experience is None or len(experience.choices) != decisions:
+            experience = self._experience = empty_experience(self.task, self.width, decisions)
+        for array in experience[2:]:
+            array.fill(0)
         weights = tuple(pool if k == self._number else row for k, row in enumerate(self.cast.weights))
-        loop = compiled_collect(self.task, self.cast.families, f"mind{self._number}")
-        loop(self.matches, self.minds, weights, self.streams, *policy, *experience)
+        loop_of(self.task)(self.matches, self.minds, weights, self.streams, *policy, *experience)
         ended = self.matches["over"] > 0
         if self.task.cut:
             ended |= self.random.random(len(ended)) < self.task.cut
@@ -214,15 +237,14 @@ class Shard:
         """Number of streams."""
         return int((self.streams >= 0).sum())
 
-    def state(self) -> dict[str, Any]:
+    def state(self) -> ShardState:
         """Everything that changes, for `restore`."""
-        random = self.random.bit_generator.state
-        return {"matches": self.matches.copy(), "minds": self.minds.copy(), "random": random}
+        return ShardState(self.matches.copy(), self.minds.copy(), self.random.bit_generator.state)
 
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from the result of `state`."""
-        self.matches, self.minds = state["matches"].copy(), state["minds"].copy()
-        self.random.bit_generator.state = state["random"]
+    def restore(self, state: ShardState) -> None:
+        """Continue from the result of `state`. Raises KeyError, TypeError or ValueError."""
+        self.matches, self.minds = state.matches.copy(), state.minds.copy()
+        self.random.bit_generator.state = state.random
         self._count_streams()
 
     def _begin(self, i: int, pool: int) -> None:
@@ -268,17 +290,22 @@ class Shard:
     def _prepared(self, name: str) -> Any:
         """Fresh minds of a brain (n,)."""
         kind = self.network if name in (LEARNER, POOL) else BRAINS[self.task.game].get(name)
-        minds = [self.cast.mind() if kind is None else self.cast.mind_of(kind, seed) for seed in range(MINDS)]
-        for mind in minds:
-            if kind is None:
-                mind.family = NOBODY
-            elif name == LEARNER:
+        minds = [nobody(self.cast) if kind is None else self.cast.mind_of(kind, seed) for seed in range(MINDS)]
+        if name == LEARNER:
+            for mind in minds:
                 mind.family = LEARNING
         return packed(minds)
 
     @property
     def _nobody(self) -> Any:
         return self._minds[OFF]
+
+
+def nobody(cast: Cast) -> Any:
+    """A mind that leaves its seat alone."""
+    mind = cast.mind()
+    mind.family = NOBODY
+    return mind
 
 
 def brains_of(task: Task) -> list[str]:

@@ -1,10 +1,12 @@
 """A training by PPO: shards gather experience, the learner improves the network, and so on.
 
-The result depends on the seed and the number of updates only, not on the threads or machines that play the shards.
+With a planned number of updates the result depends on the seed only, not on the threads or machines that play the
+shards. With a planned time it also depends on the speed of the machine.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -14,32 +16,53 @@ from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper, Learner, advantages
-from pigaming_app.ai.ppo.shard import Experience, Shard
-from pigaming_app.ai.ppo.task import LineUp, Task
+from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
+from pigaming_app.ai.ppo.task import LEARNER, LineUp, Task
+from pigaming_app.ai.ppo.win_rates import Score, win_rates
 
 SHARDS = 4
 POOL, POOLED_EVERY = 40, 15  # earlier copies at most, and updates between two of them
 LARGEST = 32767  # of a 16-bit weight
+NUMBERS = ("updates", "decisions", "entropy", "seconds")  # counted by a training
 Gather = Callable[[Sequence[Any], Any, int], list[Experience]]  # policy, pool, decisions
+
+
+class Diverged(ValueError):
+    """The weights have grown beyond what a network can hold; the message is one line."""
 
 
 class Training:
     """A network in training."""
 
-    def __init__(self, task: Task, seed: int, updates: int, hyper: Hyper = STANDARD) -> None:
-        """`updates`: of the whole training, over which hyper-parameters change. Raises ImportError without numba."""
-        self.task, self.seed, self.planned, self.hyper = task, seed, updates, hyper
-        sequence = np.random.SeedSequence(abs(seed))
-        seeds = sequence.generate_state(SHARDS + 1, np.uint64).tolist()
-        self.shards = [Shard(task, line_ups, seeds[k]) for k, line_ups in enumerate(_dealt(task, hyper.matches))]
+    def __init__(
+        self, task: Task, seed: int, updates: int, hyper: Hyper = STANDARD, minutes: float | None = None
+    ) -> None:
+        """`updates`: of the whole training, unless its time, `minutes`, is planned.
+
+        Raises ImportError without numba, ValueError for too few matches.
+        """
+        self.task, self.seed, self.planned, self.minutes, self.hyper = task, seed, updates, minutes, hyper
+        seeds = np.random.SeedSequence(abs(seed)).generate_state(SHARDS + 1, np.uint64).tolist()
+        self.shards = [Shard(task, line_ups, seeds[k]) for k, line_ups in enumerate(dealt(task, hyper.matches))]
         counts = [choices for _, choices in task.encoding.heads]
         self.learner = Learner(task.encoding.size, counts, hyper, np.random.default_rng(seeds[-1]))
         self.pool: Any = packed_layers(self.layers())
-        self.updates, self.decisions, self.entropy = 0, 0, 0.0
+        self.updates, self.decisions, self.entropy, self.seconds = 0, 0, 0.0, 0.0
+        self.points: list[tuple[float, ...]] = []  # progress, by `columns`
 
-    def update(self, gather: Gather, threads: Executor, share: float | None = None) -> None:
-        """Gather experience and learn from it. `share`: of the training so far; None: by the planned updates."""
-        share = min(1.0, self.updates / self.planned) if share is None else share
+    @property
+    def finished(self) -> bool:
+        """True at the end of the plan."""
+        return self.share >= 1.0
+
+    @property
+    def share(self) -> float:
+        """The part of the training that is done. Hyper-parameters change with it."""
+        return self.updates / self.planned if self.minutes is None else self.seconds / (60.0 * self.minutes)
+
+    def update(self, gather: Gather, threads: Executor) -> None:
+        """Gather experience and learn from it."""
+        began, share = perf_counter(), min(1.0, self.share)
         experiences = gather(self.learner.policy.weights, self.pool, self.hyper.decisions)
         data = [self._digested(experience, share) for experience in experiences]
         joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
@@ -48,6 +71,16 @@ class Training:
         self.decisions += len(joined[0])
         if self.updates % POOLED_EVERY == 0:
             self.pool = np.concatenate([self.pool, packed_layers(self.layers())])[-POOL:]
+        self.seconds += perf_counter() - began
+
+    def measure(self, matches: int, threads: Executor) -> dict[str, Score]:
+        """Play `matches` matches against each rival, and note the results."""
+        scores = win_rates(self.task, packed_layers(self.layers()), matches, threads)
+        ends = [count for score in scores.values() for count in score]
+        if self.points and self.points[-1][0] == self.updates:
+            self.points.pop()
+        self.points.append((self.updates, self.decisions, round(self.seconds, 3), round(self.entropy, 4), *ends))
+        return scores
 
     def _digested(self, experience: Experience, share: float) -> tuple[Any, ...]:
         """Inputs, choices, log odds, advantages and returns of the valid decisions."""
@@ -69,26 +102,42 @@ class Training:
         """A brain that plays by the present policy."""
         return network_brain(name, self.task.encoding, Policy(self.layers()))
 
-    def state(self) -> dict[str, Any]:
-        """Everything that changes, for `restore`."""
-        return {
-            "policy": self.learner.policy.state(),
-            "value": self.learner.value.state(),
-            "random": self.learner.random.bit_generator.state,
-            "shards": [shard.state() for shard in self.shards],
-            "pool": self.pool,
-            "updates": self.updates,
-            "decisions": self.decisions,
+    def state(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Everything that changes, for `restore`: numbers, and arrays by name."""
+        networks = {"policy": self.learner.policy, "value": self.learner.value}
+        states = [shard.state() for shard in self.shards]
+        numbers = {
+            **{name: getattr(self, name) for name in NUMBERS},
+            "steps": [network.steps for network in networks.values()],
+            "random": [self.learner.random.bit_generator.state, *(state.random for state in states)],
+            "points": self.points,
         }
+        arrays = {f"{name}{k}": one for name, network in networks.items() for k, one in enumerate(network.arrays)}
+        for k, state in enumerate(states):
+            arrays |= {f"matches{k}": state.matches, f"minds{k}": state.minds}
+        return numbers, {**arrays, "pool": self.pool}
 
-    def restore(self, state: dict[str, Any]) -> None:
-        """Continue from the result of `state`, bit for bit."""
-        self.learner.policy.restore(state["policy"])
-        self.learner.value.restore(state["value"])
-        self.learner.random.bit_generator.state = state["random"]
-        for shard, one in zip(self.shards, state["shards"], strict=True):
-            shard.restore(one)
-        self.pool, self.updates, self.decisions = state["pool"], state["updates"], state["decisions"]
+    def restore(self, numbers: Mapping[str, Any], arrays: Mapping[str, Any]) -> None:
+        """Continue from the result of `state`, bit for bit. Raises KeyError, TypeError or ValueError."""
+        for name in NUMBERS:
+            setattr(self, name, type(getattr(self, name))(numbers[name]))
+        networks = {"policy": self.learner.policy, "value": self.learner.value}
+        for (name, network), steps in zip(networks.items(), numbers["steps"], strict=True):
+            network.steps = int(steps)
+            for k, one in enumerate(network.arrays):
+                one[:] = arrays[f"{name}{k}"]
+        own, *others = numbers["random"]
+        self.learner.random.bit_generator.state = own
+        for k, (shard, random) in enumerate(zip(self.shards, others, strict=True)):
+            shard.restore(ShardState(arrays[f"matches{k}"], arrays[f"minds{k}"], random))
+        self.pool = arrays["pool"]
+        self.points = [tuple(point) for point in numbers["points"]]
+
+
+def columns(task: Task) -> tuple[str, ...]:
+    """The numbers of a training's points."""
+    ends = (f"{rival}_{end}" for rival in task.rivals for end in Score._fields)
+    return "updates", "decisions", "seconds", "entropy", *ends
 
 
 def in_threads(training: Training, threads: Executor) -> Gather:
@@ -101,16 +150,19 @@ def in_threads(training: Training, threads: Executor) -> Gather:
 
 
 def whole_layers(weights: Sequence[Any]) -> Layers:
-    """Matrices whose last rows are the biases, rounded to whole units. Raises ValueError if they are too large."""
-    rounded = [np.clip(np.rint(matrix * UNIT), -LARGEST, LARGEST) for matrix in weights]
+    """Matrices whose last rows are the biases, rounded to whole units. Raises Diverged."""
+    rounded = [np.clip(np.rint(matrix * UNIT), -LARGEST, LARGEST) + 0.0 for matrix in weights]  # no -0.0
     layers = Layers([matrix[:-1] for matrix in rounded], [matrix[-1] for matrix in rounded])
-    if layers.largest_sum() >= EXACT:
-        raise ValueError("the weights are too large for exact sums")
+    if not layers.largest_sum() < EXACT:  # nor NaN
+        raise Diverged("the training has diverged: its weights are too large")
     return layers
 
 
-def _dealt(task: Task, matches: int) -> list[list[LineUp]]:
-    """The line-ups of every shard: each in proportion to its share, dealt out evenly."""
+def dealt(task: Task, matches: int) -> list[list[LineUp]]:
+    """The line-ups of every shard, each in proportion to its share. Raises ValueError for too few matches."""
     total = sum(line_up.share for line_up in task.line_ups)
     every = [line_up for line_up in task.line_ups for _ in range(round(matches * line_up.share / total))]
-    return [every[k::SHARDS] for k in range(SHARDS)]
+    hands = [every[k::SHARDS] for k in range(SHARDS)]
+    if not all(any(LEARNER in line_up.seats for line_up in hand) for hand in hands):
+        raise ValueError(f"matches: {matches} are too few")
+    return hands

@@ -12,7 +12,6 @@ here, with our choice as default; the Lab edits the same fields. In two of them 
 docs/thesis.md has the results of both readings.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -89,21 +88,6 @@ class RecipeRecord(Recipe):
 
 
 RECIPES = {1: Recipe(), 2: replace(Recipe(), behind_always=1, still=-10.0)}
-
-
-def changed(recipe: Recipe, settings: Iterable[str]) -> Recipe:
-    """The recipe with changes of the form NAME=NUMBER. Raises ValueError."""
-    kinds: dict[str, Any] = {field.name: field.type for field in fields(Recipe)}
-    changes: dict[str, Any] = {}
-    for text in settings:
-        name, equals, value = text.partition("=")
-        if name not in kinds or not equals:
-            raise ValueError(f"{text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
-        try:
-            changes[name] = kinds[name](value)
-        except ValueError:
-            raise ValueError(f"{text!r}; {value!r} is not such a number") from None
-    return replace(recipe, **changes)
 
 
 @kernel

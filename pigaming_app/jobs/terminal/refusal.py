@@ -8,11 +8,13 @@ from pigaming_app import INSTALLED
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.ui.i18n import english
 
-EXTRAS = {
+EXTRAS = {  # a module, and the package's name
     "hardware": ("cv2", "OpenCV"),
-    "plots": ("matplotlib", "matplotlib"),
     "onnx": ("onnxruntime", "onnxruntime"),
-}  # a module, and the package's name
+    "plots": ("matplotlib", "matplotlib"),
+    "ray": ("ray", "Ray"),
+    "train": ("numba", "numba"),
+}
 FETCHED = "connect this machine to the internet and start main.py again, which installs it"
 
 

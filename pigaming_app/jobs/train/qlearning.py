@@ -1,35 +1,30 @@
-"""Train an AI from nothing, in self-play. Ctrl-C ends the training after the current match and saves the result.
+"""A table, learned in self-play. Ctrl-C ends the training after the current match and saves the result.
 
 `--resume` continues from the saved file; the result is the same, to the last bit, as without the interruption.
 """
 
-import csv
 import json
-import signal
-import sys
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterator
-from contextlib import contextmanager
-from io import BytesIO, StringIO
-from os.path import realpath
 from time import perf_counter
 from typing import NamedTuple
 
 from pigaming_app.ai.experiments import training
-from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe, changed
+from pigaming_app.ai.experiments.settings import changed
+from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_one_of
-from pigaming_app.jobs.terminal.options import decimal, game_option, integer, path, shared
-from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.jobs.terminal.options import decimal, game_option, integer, shared
+from pigaming_app.jobs.terminal.refusal import Refusal, refused
+from pigaming_app.jobs.train.outputs import check_outputs, csv_of, output_options, png_of, two_plots
+from pigaming_app.jobs.train.progress import bar, end_line, interrupts, note, show
 from pigaming_app.scenes.files import load_table, save_table
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
-from pigaming_app.storage.safe_files import require_writable, write_atomic
+from pigaming_app.storage.safe_files import write_atomic
 
-BAR = 24  # characters
 SHOWN_EVERY = 0.1  # s, interval of the progress line
 MEASURES = 10  # of a training, spread evenly
 MEASURED = 10  # matches for each
@@ -49,7 +44,6 @@ class Point(NamedTuple):
 
 
 def options(parser: ArgumentParser) -> None:
-    parser.add_argument("learner", choices=["qlearning"], help="a table, for pitanks only")
     game_option(parser)
     parser.add_argument("--reward", type=integer(), default=1, choices=[1, 2], help="published reward; default 1")
     parser.add_argument(
@@ -58,11 +52,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--minutes", type=decimal(0.0, 3600.0), default=2.0, help="length of a match; default 2")
     shared(parser, "--seed", "--json")
     parser.add_argument("--arena", default="classic", help="name, or path of a .toml file; default classic")
-    parser.add_argument("--out", type=path, metavar="FILE", required=True, help="table (.npz)")
-    parser.add_argument("--resume", action="store_true", help="continue from that file")
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=NUMBER", help="change a hyperparameter")
-    parser.add_argument("--curve", type=path, metavar="FILE", help="learning curve (PNG; extra `plots`)")
-    parser.add_argument("--csv", type=path, metavar="FILE", help="learning curve as numbers")
+    output_options(parser, "table")
     parser.add_argument("--plain", action="store_true", help="without numba: the same table, slower")
 
 
@@ -77,14 +67,14 @@ def _train_and_save(arguments: Namespace) -> int:
     learner = _begin(arguments)
     points: list[Point] = []
     if learner.fast and not training.is_compiled():
-        print("compiling the training, once", file=sys.stderr)
+        note("compiling the training, once")
     learner.warm()
-    with _interrupts() as stopped:
-        print("Ctrl-C ends the training after the current match and saves the result", file=sys.stderr)
+    with interrupts() as stopped:
+        note("Ctrl-C ends the training after the current match and saves the result")
         seconds = _train(learner, arguments, points, stopped)
         save_table(learner.trained(arguments.out.stem), arguments.out)
         if arguments.csv:
-            write_atomic(arguments.csv, _csv_of(points))
+            write_atomic(arguments.csv, csv_of(Point._fields, points))
         if arguments.curve:
             write_atomic(arguments.curve, _curve_of(points, arguments))
     _print(learner, arguments, points, seconds, bool(stopped))
@@ -101,23 +91,7 @@ def _check(arguments: Namespace) -> None:
     if not MIN_MINUTES <= arguments.minutes <= MAX_MINUTES:
         raise Refusal(f"--minutes: {arguments.minutes:g}; possible are {MIN_MINUTES:g} to {MAX_MINUTES:g}")
     load_arena(training.GAME, arguments.arena)
-    if arguments.out.suffix != ".npz":
-        raise Refusal(f"--out: {arguments.out}: the name of a table ends in .npz")
-    if arguments.curve and arguments.curve.suffix.lower() != ".png":
-        raise Refusal(f"--curve: {arguments.curve}: the name of a picture ends in .png")
-    taken: set[str] = set()
-    for option in ("out", "csv", "curve"):
-        path = getattr(arguments, option)
-        if path is None:
-            continue
-        if path.is_dir() or not path.absolute().parent.is_dir():
-            raise Refusal(f"--{option}: {path}: there is no such folder, or it is one itself")
-        if realpath(path) in taken:
-            raise Refusal(f"--{option}: {path}: another file of this training has that name")
-        taken.add(realpath(path))
-        require_writable(path)
-    if arguments.curve:
-        require("plots")
+    check_outputs(arguments, "table")
 
 
 def _recipe(arguments: Namespace) -> Recipe:
@@ -141,8 +115,7 @@ def _begin(arguments: Namespace) -> training.Training:
         if new != old:
             raise Refusal(f"--resume: {arguments.out.name} was trained with another {name}")
     if saved.other_engine:
-        name = arguments.out.name
-        print(f"{name}: trained with another version of the engine; what it learned may fit less", file=sys.stderr)
+        note(f"{arguments.out.name}: trained with another version of the engine; what it learned may fit less")
     return training.resumed(saved, fast)
 
 
@@ -161,8 +134,7 @@ def _train(learner: training.Training, arguments: Namespace, points: list[Point]
         if perf_counter() - shown > SHOWN_EVERY or learner.matches >= arguments.matches:
             shown = perf_counter()
             _show(learner, arguments.matches, points[-1])
-    if sys.stderr.isatty():
-        print(file=sys.stderr)
+    end_line()
     return seconds
 
 
@@ -174,49 +146,19 @@ def _note(learner: training.Training, points: list[Point]) -> None:
 
 
 def _show(learner: training.Training, matches: int, last: Point) -> None:
-    """Print a line of progress; in a terminal it replaces the previous one."""
-    done = BAR * learner.matches // matches
+    """Print a line of progress."""
     score = f"FSM {last.wins}-{last.ties}-{last.losses}" if last.matches else "FSM not met yet"
     line = (
-        f"[{'#' * done}{'.' * (BAR - done)}] {learner.matches}/{matches} matches  {learner.experiences:,} experiences  "
+        f"{bar(learner.matches / matches)} {learner.matches}/{matches} matches  {learner.experiences:,} experiences  "
         f"T {learner.temperature:.3f}  {learner.visited:,} states  {score}"
     )
-    if sys.stderr.isatty():
-        print(f"\r{line}", end="", file=sys.stderr, flush=True)
-    elif last.matches == learner.matches:
-        print(line, file=sys.stderr, flush=True)
-
-
-@contextmanager
-def _interrupts() -> Iterator[list[int]]:
-    """Within this context SIGINT and SIGTERM are only noted in the list."""
-    stopped: list[int] = []
-    kinds = (signal.SIGINT, signal.SIGTERM)
-    before = [signal.signal(kind, lambda number, frame: stopped.append(number)) for kind in kinds]
-    try:
-        yield stopped
-    finally:
-        for kind, handler in zip(kinds, before, strict=True):
-            signal.signal(kind, handler)
-
-
-def _csv_of(points: list[Point]) -> bytes:
-    text = StringIO(newline="")
-    writer = csv.writer(text)
-    writer.writerow(Point._fields)
-    writer.writerows(points)
-    return text.getvalue().encode()
+    show(line, milestone=last.matches == learner.matches)
 
 
 def _curve_of(points: list[Point], arguments: Namespace) -> bytes:
     """The learning curve as a PNG file: results against the FSM, states visited, temperature."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
+    figure, score, seen = two_plots()
     matches = [point.matches for point in points]
-    figure, (score, seen) = pyplot.subplots(2, 1, figsize=(9, 7), sharex=True, layout="constrained")
     for word, colour in (("wins", "tab:green"), ("ties", "tab:gray"), ("losses", "tab:red")):
         shares = [getattr(point, word) / MEASURED if point.matches else float("nan") for point in points]
         score.plot(matches, shares, color=colour, marker="o", label=f"{word} against the FSM")
@@ -228,10 +170,7 @@ def _curve_of(points: list[Point], arguments: Namespace) -> bytes:
     heat.plot(matches, [point.temperature for point in points], color="tab:orange", label="temperature")
     heat.set(ylabel="temperature")
     figure.legend(loc="outside lower center", ncols=2, handles=[*seen.lines, *heat.lines])
-    picture = BytesIO()
-    figure.savefig(picture, dpi=110, format="png")
-    pyplot.close(figure)
-    return picture.getvalue()
+    return png_of(figure)
 
 
 def _print(

@@ -1,0 +1,6 @@
+"""Tasks by game: the games that PPO learns."""
+
+from pigaming_app.ai.ppo import pitanks
+from pigaming_app.ai.ppo.task import Task
+
+TASKS: dict[str, Task] = {task.game: task for task in (pitanks.TASK,)}

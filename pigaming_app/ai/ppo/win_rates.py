@@ -1,0 +1,72 @@
+"""Progress of a training: matches of the network, as a brain like any other, against fixed rivals."""
+
+from concurrent.futures import Executor
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from pigaming_app.ai.experiments.cast import family_of
+from pigaming_app.ai.networks.encoding import PERIOD
+from pigaming_app.ai.ppo.shard import cast_of, empty_experience, loop_of, nobody
+from pigaming_app.ai.ppo.task import OFF, Task
+from pigaming_app.ai.registry import BRAINS
+from pigaming_app.games.batch import matches as new_matches
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
+from pigaming_app.sim.record import packed, unpack
+from pigaming_app.sim.world import HZ, ROBOTS
+
+SEED = 1_000_000  # of the first match; no training plays it
+
+
+class Score(NamedTuple):
+    """Ends of matches."""
+
+    wins: int
+    ties: int
+    losses: int
+
+
+def win_rates(task: Task, network: Any, matches: int, threads: Executor) -> dict[str, Score]:
+    """Ends of `matches` duels against each rival of a task, for a network as a row of packed weights.
+
+    Arenas and variants take turns, and every other match is played with the sides swapped.
+    """
+    results = threads.map(lambda rival: _duels(task, network, rival, matches), task.rivals)
+    return dict(zip(task.rivals, results, strict=True))
+
+
+def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
+    rules, arenas = games()[task.game], [*dict.fromkeys(task.arenas)]
+    variants = [rules.variants[name] for name in dict.fromkeys(task.variants)]
+    cast, player = cast_of(task)
+    kinds = player, BRAINS[task.game][rival]
+    setups, seated = [], []
+    for i in range(matches):
+        lap, stop = divmod(i // 2, len(arenas))
+        variant, arena = variants[(lap + stop) % len(variants)], arenas[stop]
+        one, two, three, four = (Seat("ai" if k < 2 else OFF, variant.teams[k]) for k in range(ROBOTS))
+        seed, minutes = SEED + i // 2, task.minutes[0]
+        setups.append(
+            Setup(task.game, arena, (one, two, three, four), minutes, seed, variant.name, variant.default_goal)
+        )
+        minds = [cast.mind_of(kinds[k ^ i % 2], seed * ROBOTS + k) for k in range(2)]
+        seated.append([*minds, nobody(cast), nobody(cast)])
+    states = new_matches(setups)
+    number = cast.families.index(family_of(player))
+    weights = tuple(network if k == number else row for k, row in enumerate(cast.weights))
+    longest = max(round((task.minutes[0] * 60 + variant.overtime) * HZ) for variant in variants)
+    nothing = empty_experience(task, 0, -(-longest // PERIOD))
+    policy = [np.zeros((1, 1), np.float32)] * 3
+    loop_of(task)(
+        states,
+        packed([mind for row in seated for mind in row]).reshape(-1, ROBOTS),
+        weights,
+        np.full((matches, ROBOTS), -1),
+        *policy,
+        *nothing,
+    )
+    ends: list[Any] = [unpack(rules.state, state) for state in states]
+    leads = [rules.ranking_key(end, i % 2) - rules.ranking_key(end, 1 - i % 2) for i, end in enumerate(ends)]
+    wins, losses = sum(lead > 0 for lead in leads), sum(lead < 0 for lead in leads)
+    return Score(wins, matches - wins - losses, losses)

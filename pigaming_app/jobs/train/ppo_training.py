@@ -1,0 +1,143 @@
+"""The run of `train ppo`."""
+
+import json
+import os
+from argparse import Namespace
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor, ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+from time import monotonic
+
+from pigaming_app.ai.brain.archive import BrainFileError
+from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.settings import changed
+from pigaming_app.ai.networks.files import encode as encode_network
+from pigaming_app.ai.ppo.checkpoint import encode, restore
+from pigaming_app.ai.ppo.learner import STANDARD
+from pigaming_app.ai.ppo.product import trained_network
+from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.ppo.shard import is_compiled
+from pigaming_app.ai.ppo.training import SHARDS, Diverged, Training, columns, in_threads
+from pigaming_app.ai.ppo.win_rates import Score
+from pigaming_app.games.registry import games
+from pigaming_app.games.setup import ChoiceError, require_one_of
+from pigaming_app.jobs.terminal.refusal import Refusal, refused
+from pigaming_app.jobs.train.outputs import csv_of, png_of, two_plots
+from pigaming_app.jobs.train.progress import bar, end_line, interrupts, note, show
+from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
+
+MEASURED_EVERY = 25  # updates
+MEASURED, MEASURED_AT_END = 10, 40  # matches against each rival
+SAVED_EVERY = 60.0  # s
+
+
+def train_and_save(arguments: Namespace, beside: Path) -> int:
+    """Train, save and print the result; 130 after Ctrl-C. `beside`: the checkpoint. Raises Refusal or NotSaved."""
+    with refused(ChoiceError, BrainFileError):
+        training = _begin(arguments, beside)
+    if not is_compiled(training.task):
+        note("compiling the training, once; it takes a minute")
+    with ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads, interrupts() as stopped, refused(Diverged):
+        note("Ctrl-C ends the training after the current update and saves the result")
+        _train(training, threads, partial(_save, training, arguments.out, beside), stopped)
+        scores = training.measure(MEASURED_AT_END, threads)
+        _save(training, arguments.out, beside)
+        if arguments.csv:
+            write_atomic(arguments.csv, csv_of(columns(training.task), training.points))
+        if arguments.curve:
+            write_atomic(arguments.curve, _curve_of(training))
+    _print(training, scores, arguments, bool(stopped))
+    return 130 if stopped else 0
+
+
+def _begin(arguments: Namespace, beside: Path) -> Training:
+    """A fresh training, or the saved one. Raises Refusal, ChoiceError or BrainFileError."""
+    require_one_of("game", arguments.game, list(games()))
+    if arguments.game not in TASKS:
+        raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
+    try:
+        hyper = changed(STANDARD, arguments.set)
+        training = Training(TASKS[arguments.game], arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
+    except ValueError as wrong:
+        raise Refusal(f"--set: {wrong}") from None
+    if arguments.resume:
+        restore(training, beside)
+    return training
+
+
+def _train(training: Training, threads: Executor, save: Callable[[], None], stopped: list[int]) -> None:
+    """Train to the end of the plan, or until stopped."""
+    gather = in_threads(training, threads)
+    scores = training.measure(MEASURED, threads)  # also compiles
+    saved = monotonic()
+    while not training.finished and not stopped:
+        training.update(gather, threads)
+        measured = training.updates % MEASURED_EVERY == 0
+        if measured:
+            scores = training.measure(MEASURED, threads)
+        show(_line(training, scores), milestone=measured)
+        if monotonic() - saved > SAVED_EVERY:
+            saved = monotonic()
+            try:
+                save()
+            except NotSaved as error:  # there may be room later
+                end_line()
+                note(str(error))
+    end_line()
+
+
+def _save(training: Training, out: Path, beside: Path) -> None:
+    """Write network and checkpoint. Raises NotSaved."""
+    write_all_atomic({out: encode_network(trained_network(training, out.stem)), beside: encode(training)})
+
+
+def _line(training: Training, scores: Mapping[str, Score]) -> str:
+    """A line of progress."""
+    if training.minutes is None:
+        done = f"{training.updates}/{training.planned} updates"
+    else:
+        done = f"{training.updates} updates  {training.seconds / 60:.1f}/{training.minutes:g} min"
+    ends = "  ".join(f"{rival} {score.wins}-{score.ties}-{score.losses}" for rival, score in scores.items())
+    return f"{bar(training.share)} {done}  {training.decisions / training.seconds:,.0f} decisions/s  {ends}"
+
+
+def _curve_of(training: Training) -> bytes:
+    """The learning curve as a PNG file: wins against the rivals, and the policy's entropy."""
+    figure, upper, lower = two_plots()
+    millions = [point[1] / 1e6 for point in training.points]
+    for k, rival in enumerate(training.task.rivals):
+        ends = [point[4 + 3 * k : 7 + 3 * k] for point in training.points]
+        upper.plot(millions, [end[0] / sum(end) for end in ends], label=f"wins against {rival}")
+    upper.set(title=f"{training.task.game}, seed {training.seed}", ylabel="share of wins", ylim=(-0.03, 1.03))
+    upper.legend()
+    lower.plot(millions, [point[3] for point in training.points], color="tab:orange")
+    lower.set(xlabel="decisions, millions", ylabel="entropy of the policy, nats")
+    return png_of(figure)
+
+
+def _print(training: Training, scores: Mapping[str, Score], arguments: Namespace, stopped: bool) -> None:
+    """Print the result."""
+    speed = training.decisions / training.seconds if training.seconds else 0.0
+    if arguments.json:
+        result = {
+            "game": training.task.game,
+            "seed": training.seed,
+            "updates": training.updates,
+            "decisions": training.decisions,
+            "seconds": training.seconds,
+            "decisions_per_second": speed,
+            "entropy": training.entropy,
+            "rivals": {rival: score._asdict() for rival, score in scores.items()},
+            "finished": not stopped,
+            "out": str(arguments.out),
+        }
+        print(json.dumps(result))
+        return
+    print(f"{training.updates} updates, {training.decisions:,} decisions: {arguments.out}")
+    print(f"trained in {training.seconds:.1f} s, {speed:,.0f} decisions/s")
+    for rival, score in scores.items():
+        low, high = wilson(score.wins, sum(score))
+        print(f"against {rival}: {score.wins}-{score.ties}-{score.losses} (wins: {low:.0%} to {high:.0%})")
+    if stopped:
+        print("stopped before the end; continue with --resume")

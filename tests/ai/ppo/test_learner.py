@@ -1,0 +1,96 @@
+"""The learner: gradients against finite differences, advantages by hand, and a game that it must solve."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from pigaming_app.ai.ppo.learner import Hyper, Learner, Network, advantages, policy_slopes
+
+RANDOM = np.random.default_rng(1)
+
+
+def numeric(function, array, index, step):
+    """Slope of `function()` by one element of an array that it uses."""
+    kept, ends = array[index], []
+    for side in (1, -1):
+        array[index] = kept + side * step
+        ends.append(function())
+    array[index] = kept
+    return (ends[0] - ends[1]) / (2 * step)
+
+
+def test_the_gradient_is_that_of_finite_differences():
+    network = Network(7, 3, 1.0, RANDOM)
+    network.weights = [matrix.astype(float) for matrix in network.weights]
+    network.weights[0] *= 3.0  # some units saturate
+    x, slopes = RANDOM.normal(size=(20, 7)), RANDOM.normal(size=(20, 3))
+    network.forward(x)
+    gradients = network.gradient(slopes.copy())
+    for matrix, gradient in zip(network.weights, gradients, strict=True):
+        for _ in range(12):
+            index = tuple(RANDOM.integers(matrix.shape))
+            expected = numeric(lambda: float((network.forward(x) * slopes).sum()), matrix, index, 1e-6)
+            assert gradient[index] == pytest.approx(expected, rel=1e-4, abs=1e-6)
+
+
+def test_the_slopes_of_the_policy_are_those_of_the_clipped_objective():
+    counts, n, clip, entropy = (3, 2), 40, 0.2, 0.05
+    logits = RANDOM.normal(size=(n, 5))
+    choices = np.stack([RANDOM.integers(count, size=n) for count in counts], axis=1)
+    gains = RANDOM.normal(size=n)
+
+    def logs():
+        parts = np.split(logits, [3], axis=1)
+        return [part - np.log(np.exp(part).sum(1, keepdims=True)) for part in parts]
+
+    def odds():
+        return sum(log[np.arange(n), choices[:, head]] for head, log in enumerate(logs()))
+
+    before = odds() + RANDOM.normal(size=n) * 0.3
+
+    def loss():
+        ratio = np.exp(odds() - before)
+        objective = np.minimum(ratio * gains, np.clip(ratio, 1 - clip, 1 + clip) * gains).mean()
+        return -objective - entropy * -sum((np.exp(log) * log).sum(1).mean() for log in logs())
+
+    slopes, disorder = policy_slopes(logits, counts, choices, before, gains, clip, entropy)
+    assert disorder == pytest.approx(-sum((np.exp(log) * log).sum(1).mean() for log in logs()), rel=1e-5)
+    for _ in range(30):
+        index = tuple(RANDOM.integers(logits.shape))
+        assert slopes[index] == pytest.approx(numeric(loss, logits, index, 1e-6), rel=1e-3, abs=1e-6)
+
+
+def test_advantages_stop_at_the_end_of_a_match_and_look_ahead_elsewhere():
+    rewards = np.array([[1, 1], [2, 2], [4, 0]], np.float32)
+    values = np.array([[10, 10], [20, 20], [30, 30], [40, 40]], np.float32)
+    valid = np.array([[True, True], [True, True], [True, False]])
+    found = advantages(rewards, values, valid, np.array([False, True]), discount=0.5, trace=0.5)
+    last = 4 + 0.5 * 40 - 30
+    middle = 2 + 0.5 * 30 - 20 + 0.25 * last
+    first = 1 + 0.5 * 20 - 10 + 0.25 * middle
+    ended = 2 - 20
+    assert found.tolist() == [[first, 1 + 0.5 * 20 - 10 + 0.25 * ended], [middle, ended], [last, 0]]
+
+
+def test_it_learns_to_do_as_it_is_told():
+    """Each of two heads is rewarded for the choice that the inputs name."""
+    counts, hyper = (3, 2), Hyper(epochs=2, minibatch=256, rate=5e-3, last_rate=5e-3, entropy=0.0, last_entropy=0.0)
+    learner, rows = Learner(5, counts, hyper, np.random.default_rng(2)), np.arange(1024)
+    right = 0.0
+    with ThreadPoolExecutor(1) as threads:
+        for _ in range(40):
+            wanted = np.stack([RANDOM.integers(count, size=1024) for count in counts], axis=1)
+            inputs = np.zeros((1024, 5), np.float32)
+            inputs[rows, wanted[:, 0]] = inputs[rows, 3 + wanted[:, 1]] = 1.0
+            logits, choices, odds = learner.policy.forward(inputs), [], np.zeros(1024, np.float32)
+            for part in np.split(logits, [3], axis=1):
+                log = part - np.log(np.exp(part).sum(1, keepdims=True))
+                choices.append((np.exp(log).cumsum(1) < RANDOM.random((1024, 1))).sum(1).clip(0, part.shape[1] - 1))
+                odds += log[rows, choices[-1]]
+            chosen = np.stack(choices, axis=1)
+            gains = (chosen == wanted).mean(1).astype(np.float32)
+            right = float(gains.mean())
+            values = learner.value.forward(inputs)[:, 0]
+            learner.update([inputs, chosen, odds, gains - values, gains], 0.0, threads)
+    assert right > 0.97

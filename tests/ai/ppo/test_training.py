@@ -1,0 +1,92 @@
+"""A training by PPO: the same bits however it is interrupted or divided, and matches as they were asked for."""
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from pigaming_app.ai.brain.archive import BrainFileError
+from pigaming_app.ai.networks.files import brain_of, decode, encode
+from pigaming_app.ai.networks.policy import packed_layers
+from pigaming_app.ai.ppo import checkpoint
+from pigaming_app.ai.ppo.product import trained_network
+from pigaming_app.ai.ppo.training import Training, in_threads
+from pigaming_app.ai.ppo.win_rates import win_rates
+from tests.ai.ppo.plain import TASK, TINY, play_plain, same
+
+
+@pytest.fixture(autouse=True)
+def _plain(monkeypatch):
+    play_plain(monkeypatch)
+
+
+def trained(updates, threads=1, training=None, planned=4):
+    """A training after some updates."""
+    training = training or Training(TASK, 5, planned, TINY)
+    with ThreadPoolExecutor(threads) as executor:
+        for _ in range(updates):
+            training.update(in_threads(training, executor), executor)
+    return training
+
+
+@pytest.fixture(scope="module")
+def halfway():
+    with pytest.MonkeyPatch.context() as patch:
+        play_plain(patch)
+        return trained(2)
+
+
+def test_it_goes_on_from_a_checkpoint_as_if_nothing_had_happened(halfway, tmp_path):
+    path = tmp_path / "a.checkpoint.npz"
+    path.write_bytes(checkpoint.encode(halfway))
+    other = Training(TASK, 5, 4, TINY)
+    checkpoint.restore(other, path)
+    assert same(other, halfway)
+    whole = trained(4, threads=2)
+    assert same(trained(2, training=other), whole)
+    assert not np.array_equal(whole.learner.policy.weights[0], halfway.learner.policy.weights[0])
+    assert whole.decisions > halfway.decisions > 0
+
+
+def test_a_damaged_or_foreign_checkpoint_is_refused_in_one_line(halfway, tmp_path):
+    raw, path = checkpoint.encode(halfway), tmp_path / "a.checkpoint.npz"
+    damaged = bytearray(raw)
+    damaged[len(raw) // 2] ^= 1
+    for content, reason in (
+        (b"", "not a checkpoint"),
+        (raw[:-100], "damaged"),
+        (bytes(damaged), "damaged"),
+        (encode(trained_network(halfway, "a")), "not a checkpoint"),
+    ):
+        path.write_bytes(content)
+        with pytest.raises(BrainFileError, match=f"^a.checkpoint.npz: .*{reason}"):
+            checkpoint.restore(Training(TASK, 5, 4, TINY), path)
+    path.write_bytes(raw)
+    for other, reason in ((Training(TASK, 6, 4, TINY), "seed"), (Training(TASK, 5, 5, TINY), "planned updates")):
+        with pytest.raises(BrainFileError, match=f"another {reason}$"):
+            checkpoint.restore(other, path)
+
+
+def test_the_file_of_the_network_names_its_recipe(halfway):
+    network = decode(encode(trained_network(halfway, "mine")), "mine.npz")
+    assert network.recipe["rate"] == TINY.rate
+    assert network.recipe["WIN"] == 2.0
+    assert network.recipe["line_ups"][0] == "1 learner hand3 off off"
+    assert (network.updates, network.decisions, network.licence) == (2, halfway.decisions, "MIT")
+    assert json.dumps(network.recipe)
+    played = packed_layers(halfway.layers())
+    assert brain_of(network).weights(True).tobytes() == played.tobytes()
+
+
+def test_progress_is_measured_from_both_sides(halfway):
+    """Somebody who stands still is beaten as often as it is out-scored; nobody loses to a robot that never shoots."""
+    with ThreadPoolExecutor(1) as threads:
+        (score,) = win_rates(TASK, packed_layers(halfway.layers()), 4, threads).values()
+    assert sum(score) == 4
+    assert score.losses == 0
+
+
+def test_too_few_matches_are_refused():
+    with pytest.raises(ValueError, match="too few"):
+        Training(TASK, 1, 1, type(TINY)(matches=2))
