@@ -1,7 +1,8 @@
 """Process in which the Lab's network learns, so that learning never delays a frame.
 
-    python -m pigaming_app.ai.ppo.lab_process          trains: orders come on standard input, reports leave on the output
-    python -m pigaming_app.ai.ppo.lab_process compile  compiles its loop into numba's cache
+    python -m pigaming_app.ai.ppo.lab.process          trains: orders come on standard input, reports leave
+                                                       on standard output
+    python -m pigaming_app.ai.ppo.lab.process compile  compiles its loop into numba's cache
 
 Messages are pickles. The process ends with the arcade, however that ends, since its standard input is closed then.
 """
@@ -15,7 +16,7 @@ from time import monotonic
 from typing import BinaryIO
 
 from pigaming_app.ai.experiments.evaluation import exit_with_parent
-from pigaming_app.ai.ppo.lab_messages import PATIENCE, Begin, Order, Report
+from pigaming_app.ai.ppo.lab.messages import PATIENCE, Begin, Order, Report
 
 PAUSE = Order()
 REPORTS = 0.15  # s between two reports at least
@@ -66,7 +67,7 @@ class Inbox:
 
 def serve(inbox: Inbox, reports: BinaryIO) -> None:
     """Train as ordered, for ever. Raises ImportError without numba, OSError when the arcade has ended."""
-    from pigaming_app.ai.ppo.lab_lesson import LESSON, Lesson
+    from pigaming_app.ai.ppo.lab.lesson import LESSON, Lesson
 
     def send(report: Report) -> None:
         pickle.dump(report, reports)
@@ -90,7 +91,7 @@ def serve(inbox: Inbox, reports: BinaryIO) -> None:
 
 def compile_lesson() -> None:
     """Compile or load the loop. Raises ImportError without numba."""
-    from pigaming_app.ai.ppo.lab_lesson import Lesson
+    from pigaming_app.ai.ppo.lab.lesson import Lesson
 
     with ThreadPoolExecutor(1) as threads:
         Lesson(Begin(0, 1), threads).report()

@@ -1,8 +1,13 @@
 """Messages between the arcade and the process in which the Lab's network learns."""
 
+from itertools import pairwise
 from typing import Any, NamedTuple
 
-from pigaming_app.ai.ppo.lab import NetworkRecipe
+import numpy as np
+
+from pigaming_app.ai.networks.pitanks import ENCODING
+from pigaming_app.ai.networks.policy import HIDDEN
+from pigaming_app.ai.ppo.lab.task import NetworkRecipe
 
 
 class Weights(NamedTuple):
@@ -19,6 +24,15 @@ class State(NamedTuple):
     updates: int = 0
     decisions: int = 0
     matches: float = 0.0
+
+
+def _untrained() -> State:
+    sizes = (ENCODING.size, HIDDEN, HIDDEN, ENCODING.outputs)
+    matrices = tuple(np.zeros(shape, "<i2") for shape in pairwise(sizes))
+    return State(Weights(matrices, tuple(np.zeros(size, "<i2") for size in sizes[1:])))
+
+
+UNTRAINED = _untrained()  # acts at random
 
 
 class Begin(NamedTuple):
@@ -39,7 +53,7 @@ class Order(NamedTuple):
 class Habit(NamedTuple):
     """The usual behaviour with the opponent in one direction."""
 
-    value: float  # mean of the value function
+    value: float  # mean of the value function, less the mean over all directions
     action: str  # key of a sign
 
 

@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.cast import family_of
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, TURNS
 from pigaming_app.ai.networks.policy import packed_layers
-from pigaming_app.ai.ppo.lab import HYPER, MINUTES, RELOADED, RIVAL, STAND, TASK, NetworkRecipe, task_of
-from pigaming_app.ai.ppo.lab_messages import Begin, Habit, Report, State, Weights
+from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin, Habit, Report, State, Weights
+from pigaming_app.ai.ppo.lab.task import HYPER, MINUTES, RELOADED, RIVAL, STAND, TASK, NetworkRecipe, task_of
 from pigaming_app.ai.ppo.training import Training, in_threads
 from pigaming_app.ai.ppo.win_rates import win_rates
 from pigaming_app.sim.world import HZ
@@ -23,7 +22,7 @@ SECTORS = 16
 ACTIONS = ("shoot", "turn_left", "turn_right", "ahead", "behind", "stay")
 CHANCES = np.array([1 / 2, 3 / 7, 3 / 7, 1 / 3, 1 / 3, 1 / 21])  # of the actions in random play
 CLEAR = 0.15  # excess over random play, relative to certainty, that counts as a preference
-FADING = 0.97  # weight of the past in the habits, per update
+MEMORY = 300.0  # decisions of each direction that count
 HELD = 20  # updates in which a network from a file is not changed, while its value function is learned
 MATCHES = 20  # in a measurement
 GRAIN, INTERVAL = 25, 0.5  # measurements over the length of the curve, about; s between two of them at least
@@ -48,7 +47,7 @@ class Lesson:
     def matches(self) -> float:
         """Matches played so far, their parts included."""
         played = self.training.updates * HYPER.matches * LESSON / (60.0 * MINUTES)
-        return played + (self.before.matches if self.before else 0.0)
+        return played + (self.before or UNTRAINED).matches
 
     def learn(self, recipe: NetworkRecipe) -> None:
         """One update."""
@@ -61,7 +60,7 @@ class Lesson:
 
     def report(self, measured: bool = True) -> Report:
         """The state, with a measurement if one is due. `measured`: it may be."""
-        before = self.before or State(Weights((), ()))
+        before = self.before or UNTRAINED
         updates, decisions = before.updates + self.training.updates, before.decisions + self.training.decisions
         state = State(self._weights(), updates, decisions, self.matches)
         share = self._share() if measured and self._due() else None
@@ -118,12 +117,16 @@ class Habits:
         stays = (drive == STAND) & ~left & ~right
         done = np.column_stack([ready & (fire == 1), left, right, drive > STAND, drive < STAND, stays])
         for sums, parts in ((self.seen, 1.0), (self.values, values), (self.ready, ready), (self.actions, done)):
-            sums *= FADING
             np.add.at(sums, sectors, parts)
+        kept = np.minimum(1.0, MEMORY / np.maximum(self.seen, 1.0))
+        for sums in (self.seen, self.values, self.ready, self.actions.T):
+            sums *= kept
 
     def summary(self) -> tuple[Habit | None, ...]:
         """The habit of each direction."""
         result: list[Habit | None] = []
+        values = self.values / np.maximum(self.seen, 1.0)
+        usual = values[self.seen >= 1.0].mean() if (self.seen >= 1.0).any() else 0.0
         for sector in range(SECTORS):
             seen = self.seen[sector]
             if seen < 1.0:
@@ -133,5 +136,5 @@ class Habits:
             excess = (self.actions[sector] / counts - CHANCES) / (1.0 - CHANCES)
             best = int(excess.argmax())
             action = ACTIONS[best] if excess[best] > CLEAR else "unknown"
-            result.append(Habit(float(self.values[sector] / seen), action))
+            result.append(Habit(float(values[sector] - usual), action))
         return tuple(result)
