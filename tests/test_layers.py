@@ -32,12 +32,13 @@ ONLY_IN = {
     "cv2": {"hardware"},
     "serial": {"hardware"},
     "onnxruntime": {"ai"},
+    "ray": {"ai"},
     "gymnasium": {"gym"},
     "pettingzoo": {"gym"},
     "torch": set(),
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
-DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo"}
+DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "ray", "gymnasium", "pettingzoo"}
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from pigaming_app.ai.networks.encoding import Encoding
 
+SHARDS = 4  # independent parts of a training's matches
 LEARNER, POOL, OFF = "learner", "pool", "off"  # on a seat: the network in training, an earlier copy of it, nobody
 
 
