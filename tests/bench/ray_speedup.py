@@ -16,9 +16,9 @@ from pigaming_app.cli import BLAS
 
 os.environ.update(dict.fromkeys(BLAS, "1"))  # before NumPy is imported
 
-from pigaming_app.ai.ppo.ray_workers import LOCAL, RayShards  # noqa: E402
-from pigaming_app.ai.ppo.registry import TASKS  # noqa: E402
-from pigaming_app.ai.ppo.training import Training, in_threads  # noqa: E402
+from pigaming_app.ai.ppo.ray_workers import LOCAL, RayShards
+from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.ppo.training import Training, in_threads
 
 WARM = 3  # updates before the clock starts
 

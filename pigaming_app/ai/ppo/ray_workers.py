@@ -38,8 +38,9 @@ class ShardWorker:
 
     def begin(self, number: int, line_ups: Sequence[LineUp], state: ShardState) -> None:
         """Take over a shard in this state."""
-        self._shards[number] = Shard(self._task, line_ups, seed=0)
-        self._shards[number].restore(state)
+        shard = self._shards[number] = Shard(self._task, line_ups, seed=0)
+        shard.warm()
+        shard.restore(state)
 
     def collect(self, number: int, chunk: Chunk) -> Experience:
         """Play on. Ray hands over arrays that cannot be written, which compiled code takes for another type."""
@@ -61,7 +62,7 @@ class RayShards:
     def __init__(self, training: Training, address: str, workers: int) -> None:
         """`address`: of a cluster, or LOCAL to start one here. Raises NoCluster; ImportError without Ray."""
         import ray
-        from ray.exceptions import NodeDiedError, ObjectLostError, RayActorError
+        from ray.exceptions import NodeDiedError, ObjectLostError, RayActorError, RayError
 
         self._ray, self._lost = ray, (RayActorError, NodeDiedError, ObjectLostError)
         self._training = training
@@ -70,10 +71,11 @@ class RayShards:
             options = {"address": LOCAL, "num_cpus": workers, "include_dashboard": False}
         try:
             ray.init(log_to_driver=False, logging_level="ERROR", **options)
-        except (OSError, RuntimeError, ValueError, ray.exceptions.RayError) as error:
+        except (OSError, RuntimeError, ValueError, RayError) as error:
             raise NoCluster(f"--ray: {address}: {' '.join(str(error).split())}") from None
         self._chunks: list[Any] = []  # played since the shards of the training were up to date
         self._workers = [self._hired(number, workers) for number in range(workers)]
+        self.sync()  # when all have compiled
 
     def __enter__(self) -> "RayShards":
         return self
