@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 
 from pigaming_app import INSTALLED, ROOT
-from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
-from pigaming_app.ai.ppo.task import LineUp
+from pigaming_app.ai.ppo.task import LineUp, Task
 from pigaming_app.ai.ppo.training import Training
 from pigaming_app.sim.kernel import PACKAGE
 
@@ -32,8 +31,8 @@ class NoCluster(Exception):
 class ShardWorker:
     """The actor: plays some shards."""
 
-    def __init__(self, game: str) -> None:
-        self._task = TASKS[game]
+    def __init__(self, task: Task) -> None:
+        self._task = task
         self._shards: dict[int, Shard] = {}
 
     def begin(self, number: int, line_ups: Sequence[LineUp], state: ShardState) -> None:
@@ -123,7 +122,7 @@ class RayShards:
 
     def _hired(self, place: int, workers: int) -> Any:
         """A worker with every shard of this place, as it was before the present request."""
-        worker = self._ray.remote(ShardWorker).options(scheduling_strategy="SPREAD").remote(self._training.task.game)
+        worker = self._ray.remote(ShardWorker).options(scheduling_strategy="SPREAD").remote(self._training.task)
         for number in self._numbers()[place::workers]:
             shard = self._training.shards[number]
             worker.begin.remote(number, shard.line_ups, shard.state())

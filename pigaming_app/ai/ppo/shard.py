@@ -16,7 +16,7 @@ from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import HIDDEN, Policy, network_brain
 from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.batch import matches as new_matches
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -227,7 +227,8 @@ class Shard:
             experience = self._experience = empty_experience(self.task, self.width, decisions)
         for array in experience[2:]:
             array.fill(0)
-        weights = tuple(pool if k == self._number else row for k, row in enumerate(self.cast.weights))
+        networks = np.concatenate([self.cast.weights[self._number], pool])
+        weights = tuple(networks if k == self._number else row for k, row in enumerate(self.cast.weights))
         loop_of(self.task)(self.matches, self.minds, weights, self.streams, *policy, *experience)
         ended = self.matches["over"] > 0
         if self.task.cut:
@@ -271,7 +272,7 @@ class Shard:
             prepared = self._minds[name]
             self.minds[i, seat] = prepared[random.integers(len(prepared))]
             if name == POOL:
-                self.minds["row"][i, seat] = random.integers(pool)
+                self.minds["row"][i, seat] = len(self.cast.weights[self._number]) + random.integers(pool)
             if name != OFF:
                 family = self._number if name == LEARNER else int(self.minds["family"][i, seat])
                 self.minds[f"mind{family}"]["random"][i, seat] = random.integers(MASK + 1)
@@ -288,7 +289,7 @@ class Shard:
         """A prepared start of a match of this kind: a row of one."""
         task, random = self.task, self.random
         variants = line_up.variants or task.variants
-        variant, arena = (str(random.choice(names)) for names in (variants, task.arenas))
+        variant, arena = (str(random.choice(names)) for names in (variants, line_up.arenas or task.arenas))
         minutes, number = float(random.choice(task.minutes)), int(random.integers(STARTS))
         key = variant, arena, minutes, number, line_up.teams, sum(name != OFF for name in line_up.seats)
         if key not in self._starts:
@@ -301,7 +302,7 @@ class Shard:
 
     def _prepared(self, name: str) -> Any:
         """Fresh minds of a brain (n,)."""
-        kind = self.network if name in (LEARNER, POOL) else BRAINS[self.task.game].get(name)
+        kind = self.network if name in (LEARNER, POOL) else find_brain(self.task.game, name) if name != OFF else None
         minds = [nobody(self.cast) if kind is None else self.cast.mind_of(kind, seed) for seed in range(MINDS)]
         if name == LEARNER:
             for mind in minds:
@@ -327,10 +328,10 @@ def brains_of(task: Task) -> list[str]:
 
 @cache
 def cast_of(task: Task) -> tuple[Cast, Any]:
-    """The cast of a task's matches, and its network, whose weights are replaced by those of the pool."""
+    """The cast of a task's matches, and an empty network; those of the pool are added to its family in every round."""
     sizes = ((task.encoding.size, HIDDEN), (HIDDEN, HIDDEN), (HIDDEN, task.encoding.outputs))
     empty = Layers([np.zeros(size) for size in sizes], [np.zeros(units) for _, units in sizes])
     network = network_brain("network", task.encoding, Policy(empty))
-    known = BRAINS[task.game]
-    rivals = {known[name] for name in (*brains_of(task), *task.rivals) if name in known}
+    names = {*brains_of(task), *task.rivals} - {LEARNER, POOL, OFF}
+    rivals = {find_brain(task.game, name) for name in names}
     return Cast([network, *sorted(rivals, key=lambda kind: kind.name)], fast=True), network

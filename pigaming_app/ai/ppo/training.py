@@ -15,7 +15,7 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.learner import STANDARD, Hyper, Learner, advantages
+from pigaming_app.ai.ppo.learner import Hyper, Learner, advantages
 from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
 from pigaming_app.ai.ppo.win_rates import Score, win_rates
@@ -34,12 +34,13 @@ class Training:
     """A network in training."""
 
     def __init__(
-        self, task: Task, seed: int, updates: int, hyper: Hyper = STANDARD, minutes: float | None = None
+        self, task: Task, seed: int, updates: int, hyper: Hyper | None = None, minutes: float | None = None
     ) -> None:
-        """`updates`: of the whole training, unless its time, `minutes`, is planned.
+        """`updates`: of the whole training, unless its time, `minutes`, is planned. `hyper`: None for the task's.
 
         Raises ImportError without numba, ValueError for too few matches.
         """
+        hyper = hyper or task.hyper
         self.task, self.seed, self.planned, self.minutes, self.hyper = task, seed, updates, minutes, hyper
         seeds = np.random.SeedSequence(abs(seed)).generate_state(SHARDS + 1, np.uint64).tolist()
         self.shards = [Shard(task, line_ups, seeds[k]) for k, line_ups in enumerate(dealt(task, hyper.matches))]

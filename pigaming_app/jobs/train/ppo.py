@@ -6,7 +6,6 @@ bit for bit with --updates. The checkpoint for that lies beside the network.
 
 from argparse import ArgumentParser, Namespace
 
-from pigaming_app.ai.ppo.task import SHARDS
 from pigaming_app.jobs.terminal.options import decimal, game_option, integer, shared, word
 from pigaming_app.jobs.terminal.refusal import Refusal, require
 from pigaming_app.jobs.train.outputs import check_outputs, output_options
@@ -23,15 +22,13 @@ def options(parser: ArgumentParser) -> None:
     length.add_argument(
         "--minutes", type=decimal(0.01, 10_000.0), metavar="NUMBER", help=f"length; default {DEFAULT_MINUTES:g}"
     )
+    parser.add_argument("--against", metavar="AI", help="learn duels against this one alone, to exploit it")
     shared(parser, "--seed", "--json")
     output_options(parser, "network")
     machines = parser.add_argument_group("several machines", "The same network, bit for bit, as without them.")
     machines.add_argument("--ray", type=word, metavar="ADDRESS", help="Ray cluster, auto, or local (extra `ray`)")
     machines.add_argument(
-        "--workers",
-        type=integer(high=SHARDS),
-        metavar="NUMBER",
-        help=f"processes that play, at most {SHARDS}; default {DEFAULT_WORKERS}",
+        "--workers", type=integer(), metavar="NUMBER", help=f"processes that play; default {DEFAULT_WORKERS}"
     )
 
 

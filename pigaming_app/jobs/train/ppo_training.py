@@ -15,14 +15,14 @@ from pigaming_app.ai.experiments.league import wilson
 from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.checkpoint import encode, restore
-from pigaming_app.ai.ppo.learner import STANDARD
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
-from pigaming_app.ai.ppo.task import SHARDS
+from pigaming_app.ai.ppo.task import SHARDS, Task
 from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
 from pigaming_app.ai.ppo.win_rates import Score
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
@@ -65,14 +65,26 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     require_one_of("game", arguments.game, list(games()))
     if arguments.game not in TASKS:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
+    if arguments.workers > SHARDS:
+        raise Refusal(f"--workers: {arguments.workers}; the matches are divided among {SHARDS} at most")
+    task = _task(arguments)
     try:
-        hyper = changed(STANDARD, arguments.set)
-        training = Training(TASKS[arguments.game], arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
+        hyper = changed(task.hyper, arguments.set)
+        training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}") from None
     if arguments.resume:
         restore(training, beside)
     return training
+
+
+def _task(arguments: Namespace) -> Task:
+    """The game as it is to be learned. Raises ChoiceError."""
+    task = TASKS[arguments.game]
+    if arguments.against is None:
+        return task
+    find_brain(arguments.game, arguments.against)
+    return task.against(arguments.against)
 
 
 @contextmanager
