@@ -32,13 +32,14 @@ ONLY_IN = {
     "cv2": {"hardware"},
     "serial": {"hardware"},
     "onnxruntime": {"ai"},
+    "ray": {"ai"},
     "pymunk": {"jobs"},
     "gymnasium": {"gym"},
     "pettingzoo": {"gym"},
     "torch": set(),
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
-DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk"}
+DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray"}
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 

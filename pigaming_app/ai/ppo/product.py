@@ -43,6 +43,7 @@ def recipe(training: Training) -> dict[str, Any]:
         "match_minutes": list(task.minutes),
         "line_ups": [described(line_up) for line_up in task.line_ups],
         "cut": task.cut,
+        "sharpness": task.sharpness,
     }
 
 
@@ -56,4 +57,8 @@ def constants(task: Task) -> dict[str, float]:
 def described(line_up: LineUp) -> str:
     """A line-up in words, such as "4 learner hand3"."""
     teams = f" teams {' '.join(map(str, line_up.teams))}" if line_up.teams else ""
-    return " ".join([str(line_up.share), *line_up.seats]) + teams + "".join(f" {name}" for name in line_up.variants)
+    return (
+        " ".join([str(line_up.share), *line_up.seats])
+        + teams
+        + "".join(f" {name}" for name in (*line_up.variants, *line_up.arenas))
+    )

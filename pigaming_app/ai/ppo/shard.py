@@ -238,6 +238,13 @@ class Shard:
         self._count_streams()
         return experience
 
+    def warm(self) -> None:
+        """Compile the loop, for a fresh shard."""
+        encoding = self.task.encoding
+        sizes = ((encoding.size, HIDDEN), (HIDDEN, HIDDEN), (HIDDEN, encoding.outputs))
+        policy = [np.zeros((inputs + 1, units), np.float32) for inputs, units in sizes]
+        self.collect(policy, self.cast.weights[self._number], 0)
+
     @property
     def width(self) -> int:
         """Number of streams."""

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from pigaming_app.ai.networks.encoding import Encoding
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
 
+SHARDS = 4  # independent parts of a training's matches
 LEARNER, POOL, OFF = "learner", "pool", "off"  # on a seat: the network in training, an earlier copy of it, nobody
 
 

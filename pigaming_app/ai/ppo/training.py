@@ -17,10 +17,9 @@ from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
 from pigaming_app.ai.ppo.learner import Hyper, Learner, advantages
 from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
-from pigaming_app.ai.ppo.task import LEARNER, LineUp, Task
+from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
 from pigaming_app.ai.ppo.win_rates import Score, win_rates
 
-SHARDS = 4
 POOL, POOLED_EVERY = 40, 15  # earlier copies at most, and updates between two of them
 LARGEST = 32767  # of a 16-bit weight
 NUMBERS = ("updates", "decisions", "entropy", "seconds")  # counted by a training
