@@ -1,0 +1,105 @@
+"""Driving of the factory planner: reach a slot without stops, and use the fork in passing.
+
+It turns while it drives, backwards first if the way begins behind it, and slows down only to turn. A slot that is not
+ready yet is approached so as to arrive in time.
+"""
+
+from math import pi, sin
+from typing import Any
+
+from pigaming_app.ai.brain.steering import turn_stick
+from pigaming_app.ai.factory.driving import ASIDE, LEAN, LOOK, LOOKS, PERIOD, ROBOT_ROOM, free_distance
+from pigaming_app.games.factory.state import WORKERS
+from pigaming_app.sim.action import set_action
+from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.kernel import kernel
+
+NEAR = 150.0  # px from the slot within which it steers to the slot itself
+WITHIN = 36.0  # px between fork and slot within which it presses fire
+HOLD = 18.0  # px between fork and slot at which it waits for a pallet
+ASIDE_ERROR = 26.0  # px by which the way may miss the slot without slowing down
+BACK = 90.0  # px that must be free behind it before it backs out of a turn
+DASH = 110.0  # px to the waypoint for turbo
+
+
+@kernel
+def reach(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
+    """Drive to the target slot and use the fork there; `ready`: 1 if the fork can be used, else in `wait` s."""
+    slot = obs.slots[mind.target]
+    dx, dy = obs.fork_x - slot.x, obs.fork_y - slot.y
+    gap2 = dx * dx + dy * dy
+    if ready and gap2 < WITHIN * WITHIN:
+        set_action(action, 0.0, 0.0, 0 if action.fire else 1, 0)
+        mind.pressed = action.fire
+        return
+    if obs.straight and obs.goal_distance < NEAR:
+        dock(obs, mind, action, wait, ready)
+    else:
+        cruise(obs, mind, action, wait, ready)
+
+
+@kernel
+def dock(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
+    """Steer straight to the slot; slow down only as far as the bearing asks for, or to wait."""
+    bearing, distance = obs.goal_bearing, obs.goal_distance
+    short = distance - obs.fork - (0.0 if ready else HOLD)
+    aside = distance * sin(bearing)
+    if bearing > 1.2 or bearing < -1.2:
+        speed = 0.0
+    elif -ASIDE_ERROR < aside < ASIDE_ERROR:
+        speed = 1.0
+    else:
+        speed = max(0.0, min(1.0, (distance - 100.0) / 60.0))
+    if not ready or short < 10.0:
+        limit = short / 40.0
+        speed = min(speed, limit)
+        if limit < 0.0:
+            speed = limit
+    if speed > 0.0 and free_distance(obs, 0.0, 60.0) < 20.0:
+        speed = 0.0
+    if speed < 0.0 and free_distance(obs, pi, ROBOT_ROOM) < 30.0:
+        speed = 0.0
+    set_action(action, mind.speed * speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 0)
+
+
+@kernel
+def cruise(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
+    """Follow the route, or the free direction nearest to it if people or robots block it."""
+    bearing, free = obs.waypoint_bearing, False
+    for i in range(LOOKS):
+        lean = LEAN * ((i + 1) // 2)
+        turn = bearing + (lean if i % 2 else -lean)  # right first, so robots that meet head-on both keep right
+        if free_distance(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.waypoint_distance):
+            bearing, free = turn, True
+            break
+    bearing = turn_to(bearing)
+    ahead = free_distance(obs, 0.0, ROBOT_ROOM)
+    size = abs(bearing)
+    if size < 0.35:
+        speed = 1.0
+    elif size < 1.45:
+        speed = 1.0 - 0.9 * (size - 0.35)
+    elif size > 1.8 and obs.waypoint_distance > 80.0 and free_distance(obs, pi, ROBOT_ROOM) > BACK:
+        speed = -1.0 if size > 2.2 else -0.4
+    else:
+        speed = 0.0
+    if speed > 0.0:
+        if ahead < 40.0 or (not free and ahead < 80.0):
+            speed = 0.0
+        elif ahead < LOOK:
+            speed *= 0.5
+    speed *= mind.speed
+    if not ready and speed > 0.0:
+        speed = min(speed, max(0.25, (obs.goal_distance - obs.fork) / (260.0 * max(0.2, wait - 0.5))))
+    dash = mind.dash and ready and obs.waypoint_distance > DASH and obs.turbo > 0.02 and size < 0.3 and ahead > LOOK
+    set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)
+
+
+@kernel
+def near_person(obs: Any) -> int:
+    """1 + the nearest person within ASIDE px; 0 if there is none."""
+    found, nearest = 0, ASIDE
+    for w in range(WORKERS):
+        if obs.people[w].distance < nearest:
+            found, nearest = w + 1, obs.people[w].distance
+    return found

@@ -1,0 +1,232 @@
+"""The planner of Robot Factory: schedules of transports for the whole team, and driving without stops."""
+
+from typing import Any
+
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.factory.driving import back_out, detect_stuck, draw_back, make_detour, make_way, update_patience
+from pigaming_app.ai.factory.maneuvers import reach
+from pigaming_app.ai.factory.schedule import NEVER, Plan, play_out, promised, restart, survey, way
+from pigaming_app.ai.factory.task_allocation import cheapest_place, may_take, waiting_place
+from pigaming_app.games.factory.observation import Observation, Senses, observe, observe_waypoint
+from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, INPUT, MACHINES
+from pigaming_app.sim.action import set_action
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.rng import seeded, uniform
+from pigaming_app.sim.world import HZ
+
+PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
+PLAN = 25  # ticks between two plans
+SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
+START = 25  # upper limit of the random delay before the first job, ticks
+BLUNDER = 4.0  # s, error of a schedule's cost at `mind.noise` 1
+AWAY = 15.0  # s, cost of a slot that could not be reached
+
+
+@record
+class PlannerMind:
+    """Memory of the planner."""
+
+    senses: Senses
+    obs: Observation
+    plan: Plan
+    random: int
+    speed: float  # share of full speed
+    pause: int  # ticks of pause after each job
+    noise: float  # error of the cost of schedules, as a share of BLUNDER
+    dash: int  # 1: may use turbo
+    slip: float  # share of jobs to which it first sets out the wrong way
+    target: int  # slot number, -1: none
+    wait: float  # s until the fork can be used there
+    near: int  # 1: wait near the target, which is occupied
+    plan_in: int  # ticks until the next plan
+    resting: int  # ticks left of the pause
+    carried: int  # load at the last decision, as in `obs.carries`
+    pressed: int  # 1: fire was pressed at the last decision
+    waiting: int  # plans in a row without a job
+    anchor_x: float  # position at the last progress, px
+    anchor_y: float
+    stuck_ticks: int  # ticks since then
+    progress_target: int  # target to which `closest` and `progress_ticks` refer
+    closest: float  # shortest remaining route so far, px
+    progress_ticks: int  # ticks since then
+    avoided: int  # slot that could not be reached
+    avoid_ticks: int  # ticks left of avoiding it
+    via: int  # slot that a detour leads towards
+    detour: int  # ticks left of the detour
+    freeing: int  # ticks left of backing out
+    escape: float  # forward stick while backing out
+    escape_turn: float
+
+
+@kernel
+def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+    """Observe and decide every PERIOD ticks, and on the tick after a press; the action holds in between."""
+    if (match.tick + seat) % PERIOD and not mind.pressed:
+        return
+    elapsed = 0 if (match.tick + seat) % PERIOD else PERIOD
+    mind.pressed = 0
+    action = match.actions[seat]
+    observe(match, seat, mind.senses, mind.obs)
+    choose(mind.obs, mind, elapsed)
+    slot, route = mind.obs.slots[mind.target], mind.senses.route
+    if mind.detour <= 0 and (not route.active or route.goal_x != slot.x or route.goal_y != slot.y):
+        route.active, route.goal_x, route.goal_y = 1, slot.x, slot.y
+        observe_waypoint(match, match.robots[seat], mind.senses, mind.obs)
+    act(mind.obs, mind, action)
+    action.aim = mind.target + 1
+
+
+@kernel
+def choose(obs: Any, mind: Any, elapsed: int) -> None:
+    """Plan when due: when a job has ended, and every PLAN ticks."""
+    if obs.carries != mind.carried:
+        mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause
+        if mind.slip > 0.0 and uniform(mind) < mind.slip:
+            mind.detour, mind.via = SLIP, int(uniform(mind) * obs.slot_count)
+    mind.plan_in -= elapsed
+    mind.avoid_ticks -= elapsed
+    mind.resting -= elapsed
+    mind.wait -= elapsed * 0.02
+    if mind.plan_in <= 0 or mind.target < 0:
+        mind.plan_in = PLAN
+        choose_job(obs, mind)
+
+
+@kernel
+def choose_job(obs: Any, mind: Any) -> None:
+    """Set `mind.target`, and `mind.near` if it is only a place to wait at."""
+    mind.near, mind.wait = 0, 0.0
+    if obs.carries - 1 == DAMAGED:
+        best = cheapest_place(obs, mind)
+    else:
+        survey(obs, mind.plan)
+        best = best_place(obs, mind) if obs.carries else best_lot(obs, mind)
+    if best >= 0:
+        mind.target = best
+        mind.waiting = 0
+        return
+    mind.waiting += 1
+    if obs.carries:
+        best = cheapest_place(obs, mind)
+        if best >= 0:
+            mind.target = best
+            if may_take(obs.slots[best], obs.carries - 1):
+                mind.waiting = 0
+            return
+    mind.near = 1
+    mind.target = waiting_place(obs, mind)
+
+
+@kernel
+def adjusted(mind: Any, s: int, cost: float) -> float:
+    """The cost of a schedule that begins at slot s, with hysteresis, error of judgement and avoidance."""
+    if mind.target == s:
+        cost -= mind.plan.keep
+    if mind.avoid_ticks > 0 and mind.avoided == s:
+        cost += AWAY
+    if mind.noise > 0.0:
+        cost += mind.noise * BLUNDER * uniform(mind)
+    return cost
+
+
+@kernel
+def best_lot(obs: Any, mind: Any) -> int:
+    """Slot of the pallet to lift next; -1 if there is none."""
+    plan = mind.plan
+    best, least = -1, NEVER
+    for k in range(plan.lots):
+        lot = plan.now.lots[k]
+        if lot.ready >= NEVER or lot.lies < 0:
+            continue
+        restart(plan)
+        if promised(plan, k, 0):
+            continue
+        plan.then.hands[0].first = k + 1
+        cost = adjusted(mind, lot.lies, play_out(obs, plan))
+        if cost < least:
+            best, least = k, cost
+    if best < 0:
+        return -1
+    mind.wait = plan.now.lots[best].ready
+    return int(plan.now.lots[best].lies)
+
+
+@kernel
+def best_place(obs: Any, mind: Any) -> int:
+    """Slot for the carried pallet; -1 if there is none."""
+    plan = mind.plan
+    state = obs.carries - 1
+    if state == DONE:
+        return int(plan.exit) if obs.slots[plan.exit].put else -1
+    best, least = -1, NEVER
+    for m in range(MACHINES):
+        bench = plan.now.benches[m]
+        if bench.makes != state or bench.free >= NEVER:
+            continue
+        restart(plan)
+        plan.then.hands[0].into = bench.into + 1
+        cost = adjusted(mind, bench.into, play_out(obs, plan))
+        if cost < least:
+            best, least = m, cost
+    if best < 0:
+        return -1
+    bench = plan.now.benches[best]
+    mind.wait = bench.free
+    return int(bench.into)
+
+
+@kernel
+def act(obs: Any, mind: Any, action: Any) -> None:
+    """Work on the job."""
+    if obs.frozen or mind.resting > 0:
+        mind.stuck_ticks = 0
+        if obs.frozen:
+            set_action(action, 0.0, 0.0, 0, 0)
+        else:
+            draw_back(obs, action)
+        return
+    if mind.freeing > 0:
+        back_out(obs, mind, action)
+        return
+    if mind.detour > 0:
+        make_detour(obs, mind, action)
+        detect_stuck(obs, mind, action)
+        return
+    slot = obs.slots[mind.target]
+    ready = slot.put if obs.carries else (1 if slot.lift else 0)
+    if mind.near and obs.straight and obs.goal_distance < 150.0:
+        make_way(obs, mind, action)
+        return
+    reach(obs, mind, action, mind.wait, ready)
+    if ready or obs.goal_distance > 120.0:
+        update_patience(obs, mind)
+        detect_stuck(obs, mind, action)
+    else:
+        mind.stuck_ticks = 0
+
+
+def make_reset(
+    speed: float, pause: float, noise: float, delay: float, dash: int, slip: float, depth: int, **tuned: float
+) -> Any:
+    """A `reset` for a strength."""
+
+    def fill(mind: PlannerMind, seed: int) -> None:
+        mind.random, mind.target = seeded(seed), -1
+        mind.resting = int(uniform(mind) * START)  # staggered starts
+        mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
+        mind.slip, mind.senses.delay = slip, delay
+        plan = mind.plan
+        plan.depth = depth
+        plan.stage_bonus[0] = tuned.get("b0", 0.0)
+        plan.stage_bonus[1] = tuned.get("b1", 0.0)
+        plan.stage_bonus[2] = tuned.get("b2", -2.0)
+        plan.unblock = tuned.get("unblock", 2.0)
+        plan.carry = tuned.get("carry", 0.5)
+        plan.last = tuned.get("last", 0.5)
+        plan.keep = tuned.get("keep", 0.15)
+
+    return fill
+
+
+PLANNER = BrainKind("planner", PlannerMind, think, make_reset(1.0, 0.0, 0.0, 0.1, 1, 0.0, 14))
