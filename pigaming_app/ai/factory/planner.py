@@ -3,11 +3,12 @@
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.factory.driving import back_out, detect_stuck, draw_back, make_detour, make_way, update_patience
-from pigaming_app.ai.factory.maneuvers import reach
+from pigaming_app.ai.factory.driving import AVOID_TICKS, DETOUR, NEARER, PATIENCE, back_out, detect_stuck, draw_back, make_way
+from pigaming_app.ai.factory.maneuvers import cruise, reach
+from pigaming_app.ai.factory.navigation import Ways, find_way
 from pigaming_app.ai.factory.schedule import NEVER, Plan, play_out, promised, restart, survey, way
 from pigaming_app.ai.factory.task_allocation import cheapest_place, may_take, waiting_place
-from pigaming_app.games.factory.observation import Observation, Senses, observe, observe_waypoint
+from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, INPUT, MACHINES
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
@@ -30,6 +31,7 @@ class PlannerMind:
     senses: Senses
     obs: Observation
     plan: Plan
+    ways: Ways
     random: int
     speed: float  # share of full speed
     pause: int  # ticks of pause after each job
@@ -69,10 +71,8 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     action = match.actions[seat]
     observe(match, seat, mind.senses, mind.obs)
     choose(mind.obs, mind, elapsed)
-    slot, route = mind.obs.slots[mind.target], mind.senses.route
-    if mind.detour <= 0 and (not route.active or route.goal_x != slot.x or route.goal_y != slot.y):
-        route.active, route.goal_x, route.goal_y = 1, slot.x, slot.y
-        observe_waypoint(match, match.robots[seat], mind.senses, mind.obs)
+    slot = mind.obs.slots[mind.via if mind.detour > 0 else mind.target]
+    find_way(match, match.robots[seat], mind.obs, mind.ways, slot.x, slot.y)
     act(mind.obs, mind, action)
     action.aim = mind.target + 1
 
@@ -122,7 +122,7 @@ def choose_job(obs: Any, mind: Any) -> None:
 def adjusted(mind: Any, s: int, cost: float) -> float:
     """The cost of a schedule that begins at slot s, with hysteresis, error of judgement and avoidance."""
     if mind.target == s:
-        cost -= mind.plan.keep
+        cost -= mind.plan.keep_laden if mind.obs.carries else mind.plan.keep
     if mind.avoid_ticks > 0 and mind.avoided == s:
         cost += AWAY
     if mind.noise > 0.0:
@@ -190,7 +190,10 @@ def act(obs: Any, mind: Any, action: Any) -> None:
         back_out(obs, mind, action)
         return
     if mind.detour > 0:
-        make_detour(obs, mind, action)
+        mind.detour -= PERIOD
+        if obs.goal_distance < 150.0:
+            mind.detour = 0
+        cruise(obs, mind, action, 0.0, 1)
         detect_stuck(obs, mind, action)
         return
     slot = obs.slots[mind.target]
@@ -200,10 +203,30 @@ def act(obs: Any, mind: Any, action: Any) -> None:
         return
     reach(obs, mind, action, mind.wait, ready)
     if ready or obs.goal_distance > 120.0:
-        update_patience(obs, mind)
+        be_patient(obs, mind)
         detect_stuck(obs, mind, action)
     else:
         mind.stuck_ticks = 0
+
+
+@kernel
+def be_patient(obs: Any, mind: Any) -> None:
+    """Avoid the target for AVOID_TICKS ticks after PATIENCE ticks without progress on the way.
+
+    If that target fails again while it is avoided, for want of another, make a detour to approach from elsewhere.
+    """
+    if mind.near or mind.progress_target != mind.target:
+        mind.progress_target, mind.closest, mind.progress_ticks = mind.target, 1e9, 0
+    if mind.ways.to_go < mind.closest - NEARER:
+        mind.closest, mind.progress_ticks = mind.ways.to_go, 0
+    else:
+        mind.progress_ticks += PERIOD
+    if mind.progress_ticks <= PATIENCE:
+        return
+    if mind.avoid_ticks > 0 and mind.avoided == mind.target:
+        mind.detour, mind.via = DETOUR, int(uniform(mind) * obs.slot_count)
+    mind.avoided, mind.avoid_ticks = mind.target, AVOID_TICKS
+    mind.closest, mind.progress_ticks, mind.plan_in = 1e9, 0, 0
 
 
 def make_reset(
@@ -224,6 +247,8 @@ def make_reset(
         plan.unblock = tuned.get("unblock", 2.0)
         plan.carry = tuned.get("carry", 0.5)
         plan.last = tuned.get("last", 0.5)
+        plan.keep_laden = tuned.get("keep_laden", 0.6)
+        plan.turn = tuned.get("turn", 0.55)
         plan.keep = tuned.get("keep", 0.15)
 
     return fill

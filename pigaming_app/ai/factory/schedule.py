@@ -105,14 +105,17 @@ class Plan:
     carry: float  # weight of the loaded way and of waiting at its end
     last: float  # weight of the latest delivery, compared with the mean of all
     keep: float  # s, bonus of the present target
+    keep_laden: float  # s, the same while it carries a pallet
+    turn: float  # s lost on a way
+    weights: Annotated[list[float], 3]
     exit: int  # slot for done pallets
 
 
 @kernel
-def way(x: float, y: float, slot: Any) -> float:
+def way(plan: Any, x: float, y: float, slot: Any) -> float:
     """Time of a way from (x, y) to a slot, s."""
     dx, dy = slot.x - x, slot.y - y
-    return TURN + max(0.0, sqrt(dx * dx + dy * dy) - 90.0) / PACE
+    return plan.turn + max(0.0, sqrt(dx * dx + dy * dy) - 90.0) / PACE
 
 
 @kernel
@@ -280,14 +283,14 @@ def restart(plan: Any) -> None:
 
 
 @kernel
-def best_bench(obs: Any, then: Any, kind: int, x: float, y: float, leave: float) -> int:
+def best_bench(obs: Any, plan: Any, then: Any, kind: int, x: float, y: float, leave: float) -> int:
     """The machine of a kind that could start soonest on a pallet that leaves (x, y) at `leave`; -1 if all are full."""
     best, least = -1, NEVER
     for m in range(MACHINES):
         bench = then.benches[m]
         if bench.makes != kind or bench.free >= NEVER:
             continue
-        start = max(leave + way(x, y, obs.slots[bench.into]), bench.free)
+        start = max(leave + way(plan, x, y, obs.slots[bench.into]), bench.free)
         begin = max(start, bench.clear if bench.clear < NEVER else max(bench.idle, start) + 3.0, bench.idle)
         cost = 0.5 * (start + begin) - (4.0 if bench.fast else 0.0)
         if cost < least:
@@ -296,11 +299,11 @@ def best_bench(obs: Any, then: Any, kind: int, x: float, y: float, leave: float)
 
 
 @kernel
-def put_into(obs: Any, then: Any, hand: Any, k: int, m: int, leave: float) -> float:
+def put_into(obs: Any, plan: Any, then: Any, hand: Any, k: int, m: int, leave: float) -> float:
     """Let a hand bring lot k from where the hand is at `leave` into machine m; returns the time of putting down."""
     lot, bench = then.lots[k], then.benches[m]
     slot = obs.slots[bench.into]
-    put = max(leave + way(hand.x, hand.y, slot), bench.free)
+    put = max(leave + way(plan, hand.x, hand.y, slot), bench.free)
     hand.x, hand.y, hand.free, hand.lot = slot.x, slot.y, put, 0
     lot.state, lot.lies, lot.ready = lot.state + 1, bench.out, NEVER
     if bench.clear >= NEVER:
@@ -318,21 +321,21 @@ def begin_work(then: Any, bench: Any, k: int, at: float) -> None:
 
 
 @kernel
-def deliver(obs: Any, then: Any, hand: Any, k: int, s: int, leave: float) -> float:
+def deliver(obs: Any, plan: Any, then: Any, hand: Any, k: int, s: int, leave: float) -> float:
     """Let a hand bring lot k from where the hand is at `leave` to exit slot s; returns the time of the delivery."""
     slot, lot = obs.slots[s], then.lots[k]
-    put = leave + way(hand.x, hand.y, slot)
+    put = leave + way(plan, hand.x, hand.y, slot)
     hand.x, hand.y, hand.free, hand.lot = slot.x, slot.y, put, 0
     lot.state, lot.ready = DONE + 1, put
     return put
 
 
 @kernel
-def lift(obs: Any, then: Any, hand: Any, k: int) -> None:
+def lift(obs: Any, plan: Any, then: Any, hand: Any, k: int) -> None:
     """Let a hand drive to lot k and lift it; an emptied output lets its machine go on."""
     lot = then.lots[k]
     slot = obs.slots[lot.lies]
-    hand.free = max(hand.free + way(hand.x, hand.y, slot), lot.ready)
+    hand.free = max(hand.free + way(plan, hand.x, hand.y, slot), lot.ready)
     hand.x, hand.y, hand.lot, hand.first = slot.x, slot.y, k + 1, 0
     lot.ready = NEVER
     if slot.kind == OUTPUT:
@@ -356,7 +359,7 @@ def set_down(obs: Any, plan: Any, then: Any, hand: Any, wish: int) -> int:
         s = plan.exit
         if wish and obs.slots[wish - 1].kind == EXIT:
             s = wish - 1
-        deliver(obs, then, hand, k, s, hand.free)
+        deliver(obs, plan, then, hand, k, s, hand.free)
         return 1
     kind = lot.state  # RAW goes to A, HALF to B
     m = -1
@@ -365,10 +368,10 @@ def set_down(obs: Any, plan: Any, then: Any, hand: Any, wish: int) -> int:
         if then.benches[m].makes != kind or then.benches[m].free >= NEVER:
             m = -1
     if m < 0:
-        m = best_bench(obs, then, kind, hand.x, hand.y, hand.free)
+        m = best_bench(obs, plan, then, kind, hand.x, hand.y, hand.free)
     if m < 0:
         return 0
-    put_into(obs, then, hand, k, m, hand.free)
+    put_into(obs, plan, then, hand, k, m, hand.free)
     return 1
 
 
@@ -383,16 +386,16 @@ def next_lot(obs: Any, plan: Any, i: int) -> int:
         if lot.ready >= NEVER or lot.state > DONE or promised(plan, k, i):
             continue
         slot = obs.slots[lot.lies]
-        at = max(hand.free + way(hand.x, hand.y, slot), lot.ready)
+        at = max(hand.free + way(plan, hand.x, hand.y, slot), lot.ready)
         score = at - plan.stage_bonus[lot.state]
         if lot.state == DONE:
-            score += plan.carry * way(slot.x, slot.y, obs.slots[plan.exit])
+            score += plan.carry * way(plan, slot.x, slot.y, obs.slots[plan.exit])
         else:
-            m = best_bench(obs, then, lot.state, slot.x, slot.y, at)
+            m = best_bench(obs, plan, then, lot.state, slot.x, slot.y, at)
             if m < 0:
                 continue
             bench = then.benches[m]
-            score += plan.carry * (max(at + way(slot.x, slot.y, obs.slots[bench.into]), bench.free) - at)
+            score += plan.carry * (max(at + way(plan, slot.x, slot.y, obs.slots[bench.into]), bench.free) - at)
         if slot.kind == OUTPUT and then.benches[slot.machine].queue:
             score -= plan.unblock
         if score < least:
@@ -429,7 +432,7 @@ def play_out(obs: Any, plan: Any) -> float:
             if k < 0:
                 hand.free = next_change(plan, hand.free)
                 continue
-            lift(obs, then, hand, k)
+            lift(obs, plan, then, hand, k)
         if not set_down(obs, plan, then, hand, hand.into):
             hand.free += 2.0
         hand.into = 0
