@@ -89,7 +89,7 @@ def cruise(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
         elif ahead < LOOK:
             speed *= 0.5
     speed *= mind.speed
-    if not ready and speed > 0.0:
+    if not ready and speed > 0.0 and obs.straight:
         speed = min(speed, max(0.25, (obs.goal_distance - obs.fork) / (260.0 * max(0.2, wait - 0.5))))
     dash = mind.dash and ready and obs.waypoint_distance > DASH and obs.turbo > 0.02 and size < 0.3 and ahead > LOOK
     set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)

@@ -7,6 +7,7 @@ count. A side at which a person stands costs DETOUR px more.
 from math import atan2, sqrt
 from typing import Annotated, Any
 
+from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import MACHINE_SLOTS, MACHINES, WORKERS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.contact import in_wall
@@ -20,7 +21,9 @@ CORNER = 108.0  # px from the centre of a machine
 DETOUR = 200.0  # px, cost of a side at which a person stands
 STANDS = 80.0  # px between a person and the middle of such a side
 FAR = 1e6  # px
-CLEAR = RADIUS + 1.0  # px
+CLEAR = RADIUS + 1.0  # px, between corners
+SLIDE = RADIUS - 5.0  # px, from the robot: it slides round what it touches
+CROWDED = 140.0  # px between another robot and the middle of a side
 
 
 @record
@@ -66,6 +69,12 @@ def side_cost(obs: Any, ways: Any, i: int, j: int) -> float:
         dx, dy = person.x - x, person.y - y
         if not person.walking and dx * dx + dy * dy < STANDS * STANDS:
             return DETOUR
+    for i in range(OTHERS):
+        other = obs.others[i]
+        if other.present:
+            dx, dy = other.x - x, other.y - y
+            if dx * dx + dy * dy < CROWDED * CROWDED:
+                return DETOUR
     return 0.0
 
 
@@ -106,7 +115,7 @@ def find_way(match: Any, robot: Any, obs: Any, ways: Any, x: float, y: float) ->
     obs.goal_bearing = turn_to(atan2(dy, dx) - robot.heading)
     obs.waypoint_x, obs.waypoint_y, obs.straight = x, y, 1
     ways.to_go = obs.goal_distance
-    if not is_clear(match, robot.x, robot.y, x, y, CLEAR):
+    if not is_clear(match, robot.x, robot.y, x, y, SLIDE):
         measure_ways(match, obs, ways, x, y)
         best, first, shortest, beyond = -1, -1, FAR, -1.0
         while best < 0 and beyond < FAR:  # the corners in the order of their ways, until one is in sight
@@ -119,7 +128,7 @@ def find_way(match: Any, robot: Any, obs: Any, ways: Any, x: float, y: float) ->
             beyond = least
             if first < 0:
                 first, shortest = nearest, least
-            if nearest >= 0 and is_clear(match, robot.x, robot.y, ways.x[nearest], ways.y[nearest], CLEAR):
+            if nearest >= 0 and is_clear(match, robot.x, robot.y, ways.x[nearest], ways.y[nearest], SLIDE):
                 best, shortest = nearest, least
         if best < 0:  # it touches a wall
             best = first

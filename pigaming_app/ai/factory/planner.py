@@ -6,7 +6,7 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.factory.driving import AVOID_TICKS, DETOUR, NEARER, PATIENCE, back_out, detect_stuck, draw_back, make_way
 from pigaming_app.ai.factory.maneuvers import cruise, reach
 from pigaming_app.ai.factory.navigation import Ways, find_way
-from pigaming_app.ai.factory.schedule import NEVER, Plan, play_out, promised, restart, survey, way
+from pigaming_app.ai.factory.schedule import NEVER, Plan, play_out, restart, survey
 from pigaming_app.ai.factory.task_allocation import cheapest_place, may_take, waiting_place
 from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, INPUT, MACHINES
@@ -21,6 +21,7 @@ PLAN = 25  # ticks between two plans
 SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
 START = 25  # upper limit of the random delay before the first job, ticks
 BLUNDER = 4.0  # s, error of a schedule's cost at `mind.noise` 1
+SWAP = 100.0  # s, cost of taking what a mate has announced
 AWAY = 15.0  # s, cost of a slot that could not be reached
 
 
@@ -140,10 +141,13 @@ def best_lot(obs: Any, mind: Any) -> int:
         if lot.ready >= NEVER or lot.lies < 0:
             continue
         restart(plan)
-        if promised(plan, k, 0):
-            continue
+        swap = 0.0
+        for i in range(1, plan.hands):
+            if plan.then.hands[i].first == k + 1:
+                plan.then.hands[i].first = 0
+                swap = SWAP
         plan.then.hands[0].first = k + 1
-        cost = adjusted(mind, lot.lies, play_out(obs, plan))
+        cost = adjusted(mind, lot.lies, play_out(obs, plan)) + swap
         if cost < least:
             best, least = k, cost
     if best < 0:
