@@ -6,7 +6,7 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.factory.driving import AVOID_TICKS, DETOUR, NEARER, PATIENCE, back_out, detect_stuck, draw_back, make_way
 from pigaming_app.ai.factory.maneuvers import cruise, reach
 from pigaming_app.ai.factory.navigation import Ways, find_way
-from pigaming_app.ai.factory.schedule import NEVER, Plan, play_out, restart, survey
+from pigaming_app.ai.factory.schedule import NEVER, Plan, choose_rule, play_out, promised, restart, survey
 from pigaming_app.ai.factory.task_allocation import cheapest_place, may_take, waiting_place
 from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, INPUT, MACHINES
@@ -21,7 +21,6 @@ PLAN = 25  # ticks between two plans
 SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
 START = 25  # upper limit of the random delay before the first job, ticks
 BLUNDER = 4.0  # s, error of a schedule's cost at `mind.noise` 1
-SWAP = 100.0  # s, cost of taking what a mate has announced
 AWAY = 15.0  # s, cost of a slot that could not be reached
 
 
@@ -132,6 +131,17 @@ def adjusted(mind: Any, s: int, cost: float) -> float:
 
 
 @kernel
+def try_rules(obs: Any, plan: Any) -> float:
+    """The lowest cost of the schedules of all dispatch rules, s."""
+    least = NEVER
+    for rule in range(plan.rules):
+        restart(plan)
+        choose_rule(plan, rule)
+        least = min(least, play_out(obs, plan))
+    return least
+
+
+@kernel
 def best_lot(obs: Any, mind: Any) -> int:
     """Slot of the pallet to lift next; -1 if there is none."""
     plan = mind.plan
@@ -141,13 +151,11 @@ def best_lot(obs: Any, mind: Any) -> int:
         if lot.ready >= NEVER or lot.lies < 0:
             continue
         restart(plan)
-        swap = 0.0
-        for i in range(1, plan.hands):
-            if plan.then.hands[i].first == k + 1:
-                plan.then.hands[i].first = 0
-                swap = SWAP
-        plan.then.hands[0].first = k + 1
-        cost = adjusted(mind, lot.lies, play_out(obs, plan)) + swap
+        if promised(plan, k, 0):
+            continue
+        plan.now.hands[0].first = k + 1
+        cost = adjusted(mind, lot.lies, try_rules(obs, plan))
+        plan.now.hands[0].first = 0
         if cost < least:
             best, least = k, cost
     if best < 0:
@@ -168,9 +176,9 @@ def best_place(obs: Any, mind: Any) -> int:
         bench = plan.now.benches[m]
         if bench.makes != state or bench.free >= NEVER:
             continue
-        restart(plan)
-        plan.then.hands[0].into = bench.into + 1
-        cost = adjusted(mind, bench.into, play_out(obs, plan))
+        plan.now.hands[0].into = bench.into + 1
+        cost = adjusted(mind, bench.into, try_rules(obs, plan))
+        plan.now.hands[0].into = 0
         if cost < least:
             best, least = m, cost
     if best < 0:
@@ -244,7 +252,7 @@ def make_reset(
         mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
         mind.slip, mind.senses.delay = slip, delay
         plan = mind.plan
-        plan.depth = depth
+        plan.depth, plan.rules = depth, int(tuned.get("rules", 1))
         plan.stage_bonus[0] = tuned.get("b0", 0.0)
         plan.stage_bonus[1] = tuned.get("b1", 0.0)
         plan.stage_bonus[2] = tuned.get("b2", -2.0)

@@ -108,6 +108,8 @@ class Plan:
     keep_laden: float  # s, the same while it carries a pallet
     turn: float  # s lost on a way
     weights: Annotated[list[float], 3]
+    rules: int  # dispatch rules that are tried for each first transport
+    shift: Annotated[list[float], 3]  # s, added to the bonus by state in the rule being tried
     exit: int  # slot for done pallets
 
 
@@ -387,7 +389,7 @@ def next_lot(obs: Any, plan: Any, i: int) -> int:
             continue
         slot = obs.slots[lot.lies]
         at = max(hand.free + way(plan, hand.x, hand.y, slot), lot.ready)
-        score = at - plan.stage_bonus[lot.state]
+        score = at - plan.stage_bonus[lot.state] - plan.shift[lot.state]
         if lot.state == DONE:
             score += plan.carry * way(plan, slot.x, slot.y, obs.slots[plan.exit])
         else:
@@ -437,6 +439,17 @@ def play_out(obs: Any, plan: Any) -> float:
             hand.free += 2.0
         hand.into = 0
     return cost(plan)
+
+
+@kernel
+def choose_rule(plan: Any, rule: int) -> None:
+    """Set the shifts of a dispatch rule; rule 0 has none."""
+    for state in range(3):
+        plan.shift[state] = 0.0
+    if rule:
+        state = (rule - 1) // 2 % 3
+        size = 3.0 if rule < 7 else 8.0
+        plan.shift[state] = size if rule % 2 else -size
 
 
 @kernel
