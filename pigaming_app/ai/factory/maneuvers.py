@@ -19,6 +19,7 @@ WITHIN = 36.0  # px between fork and slot within which it presses fire
 HOLD = 18.0  # px between fork and slot at which it waits for a pallet
 ASIDE_ERROR = 26.0  # px by which the way may miss the slot without slowing down
 BACK = 90.0  # px that must be free behind it before it backs out of a turn
+KEEP_SIDE = 40  # ticks for which it passes obstacles on the same side
 DASH = 110.0  # px to the waypoint for turbo
 
 
@@ -68,10 +69,18 @@ def cruise(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
     bearing, free = obs.waypoint_bearing, False
     for i in range(LOOKS):
         lean = LEAN * ((i + 1) // 2)
-        turn = bearing + (lean if i % 2 else -lean)  # right first, so robots that meet head-on both keep right
+        side = 1 if i % 2 else -1  # right first, so robots that meet head-on both keep right
+        if mind.side < 0:
+            side = -side
+        turn = bearing + side * lean
         if free_distance(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.waypoint_distance):
             bearing, free = turn, True
+            if i:
+                mind.side, mind.sided = 1, KEEP_SIDE
             break
+    mind.sided -= PERIOD
+    if mind.sided <= 0:
+        mind.side = 1
     bearing = turn_to(bearing)
     ahead = free_distance(obs, 0.0, ROBOT_ROOM)
     size = abs(bearing)

@@ -23,6 +23,7 @@ STANDS = 80.0  # px between a person and the middle of such a side
 FAR = 1e6  # px
 CLEAR = RADIUS + 1.0  # px, between corners
 SLIDE = RADIUS - 5.0  # px, from the robot: it slides round what it touches
+KEEP = 30.0  # px by which a way on another side than before must be shorter
 CROWDED = 140.0  # px between another robot and the middle of a side
 
 
@@ -39,6 +40,7 @@ class Ways:
     last: Annotated[list[float], CORNERS]  # from a corner straight to the goal, FAR if something is in between
     left: Annotated[list[float], CORNERS]  # from a corner to the goal
     to_go: float  # from the robot to the goal
+    corner: int  # 1 + the corner it drives to, 0: to the goal itself
 
 
 @kernel
@@ -106,35 +108,58 @@ def measure_ways(match: Any, obs: Any, ways: Any, x: float, y: float) -> None:
 
 
 @kernel
+def leads_on(ways: Any, i: int, j: int) -> bool:
+    """True if the way from corner i to the goal leads over corner j."""
+    return bool(i == j or ways.edges[i * CORNERS + j] + ways.left[j] <= ways.left[i] + 1.0)
+
+
+@kernel
+def choose_waypoint(match: Any, robot: Any, obs: Any, ways: Any, x: float, y: float) -> None:
+    """Set the position of the waypoint on the shortest way to (x, y).
+
+    A way on another side than before must be KEEP px shorter.
+    """
+    obs.waypoint_x, obs.waypoint_y, obs.straight = x, y, 1
+    ways.to_go = obs.goal_distance
+    before = ways.corner - 1 if ways.goal_x == x and ways.goal_y == y else -1
+    ways.corner = 0
+    if is_clear(match, robot.x, robot.y, x, y, SLIDE):
+        return
+    measure_ways(match, obs, ways, x, y)
+    best, first, shortest, beyond = -1, -1, FAR, -1.0
+    while beyond < FAR:  # the corners in the order of their ways
+        nearest, least = -1, FAR
+        for i in range(CORNERS):
+            dx, dy = ways.x[i] - robot.x, ways.y[i] - robot.y
+            way = ways.left[i] + sqrt(dx * dx + dy * dy)
+            if beyond < way < least:
+                nearest, least = i, way
+        beyond = least
+        if nearest < 0 or least >= shortest:
+            break
+        if first < 0:
+            first = nearest
+        if is_clear(match, robot.x, robot.y, ways.x[nearest], ways.y[nearest], SLIDE):
+            if before >= 0 and not leads_on(ways, before, nearest):
+                least += KEEP
+            if least < shortest:
+                best, shortest = nearest, least
+    if best < 0:  # it touches a wall
+        best = first
+    if best >= 0:
+        obs.waypoint_x, obs.waypoint_y, obs.straight = ways.x[best], ways.y[best], 0
+        ways.corner, ways.to_go = best + 1, min(shortest, FAR)
+
+
+@kernel
 def find_way(match: Any, robot: Any, obs: Any, ways: Any, x: float, y: float) -> None:
-    """Set the waypoint of the observation on the shortest way to (x, y)."""
+    """Set goal and waypoint of the observation for the shortest way to (x, y)."""
     if not ways.built:
         build_ways(match, obs, ways)
     dx, dy = x - robot.x, y - robot.y
     obs.goal_distance = sqrt(dx * dx + dy * dy)
     obs.goal_bearing = turn_to(atan2(dy, dx) - robot.heading)
-    obs.waypoint_x, obs.waypoint_y, obs.straight = x, y, 1
-    ways.to_go = obs.goal_distance
-    if not is_clear(match, robot.x, robot.y, x, y, SLIDE):
-        measure_ways(match, obs, ways, x, y)
-        best, first, shortest, beyond = -1, -1, FAR, -1.0
-        while best < 0 and beyond < FAR:  # the corners in the order of their ways, until one is in sight
-            nearest, least = -1, FAR
-            for i in range(CORNERS):
-                dx, dy = ways.x[i] - robot.x, ways.y[i] - robot.y
-                way = ways.left[i] + sqrt(dx * dx + dy * dy)
-                if beyond < way < least:
-                    nearest, least = i, way
-            beyond = least
-            if first < 0:
-                first, shortest = nearest, least
-            if nearest >= 0 and is_clear(match, robot.x, robot.y, ways.x[nearest], ways.y[nearest], SLIDE):
-                best, shortest = nearest, least
-        if best < 0:  # it touches a wall
-            best = first
-        if best >= 0:
-            obs.waypoint_x, obs.waypoint_y, obs.straight = ways.x[best], ways.y[best], 0
-            ways.to_go = shortest
+    choose_waypoint(match, robot, obs, ways, x, y)
     dx, dy = obs.waypoint_x - robot.x, obs.waypoint_y - robot.y
     obs.waypoint_distance = sqrt(dx * dx + dy * dy)
     obs.waypoint_bearing = turn_to(atan2(dy, dx) - robot.heading)

@@ -39,6 +39,8 @@ class PlannerMind:
     dash: int  # 1: may use turbo
     slip: float  # share of jobs to which it first sets out the wrong way
     target: int  # slot number, -1: none
+    side: int  # on which it passes obstacles: 1 right, -1 left
+    sided: int  # ticks for which it keeps to that side
     wait: float  # s until the fork can be used there
     near: int  # 1: wait near the target, which is occupied
     plan_in: int  # ticks until the next plan
