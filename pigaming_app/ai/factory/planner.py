@@ -262,6 +262,7 @@ def make_reset(
         plan.carry = tuned.get("carry", 0.5)
         plan.last = tuned.get("last", 0.5)
         plan.keep_laden = tuned.get("keep_laden", 0.6)
+        plan.rush, plan.hurry = tuned.get("rush", 15.0), tuned.get("hurry", 3.0)
         plan.turn = tuned.get("turn", 0.55)
         plan.keep = tuned.get("keep", 0.15)
 

@@ -107,7 +107,8 @@ class Plan:
     keep: float  # s, bonus of the present target
     keep_laden: float  # s, the same while it carries a pallet
     turn: float  # s lost on a way
-    weights: Annotated[list[float], 3]
+    rush: float  # s, value of a rush order that is delivered in time
+    hurry: float  # s, bonus of a rush order that can still be in time
     rules: int  # dispatch rules that are tried for each first transport
     shift: Annotated[list[float], 3]  # s, added to the bonus by state in the rule being tried
     exit: int  # slot for done pallets
@@ -398,6 +399,8 @@ def next_lot(obs: Any, plan: Any, i: int) -> int:
                 continue
             bench = then.benches[m]
             score += plan.carry * (max(at + way(plan, slot.x, slot.y, obs.slots[bench.into]), bench.free) - at)
+        if lot.rush > RUSH_TIMES[lot.state] + at:
+            score -= plan.hurry
         if slot.kind == OUTPUT and then.benches[slot.machine].queue:
             score -= plan.unblock
         if score < least:
@@ -483,5 +486,7 @@ def cost(plan: Any) -> float:
             for state in range(lot.state + 1, DONE + 1):
                 at += STAGES[state]
         total += at
+        if at < lot.rush:
+            total -= plan.rush
         latest = max(latest, at)
     return total / max(1, plan.lots) + plan.last * latest
