@@ -10,7 +10,7 @@ from typing import Any
 from pigaming_app.ai.brain import baselines
 from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
-from pigaming_app.ai.factory import foreman, foreman_thoughts
+from pigaming_app.ai.factory import foreman, foreman_thoughts, levels
 from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner, gunner_thoughts
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.race import racer, racer_thoughts
@@ -38,6 +38,7 @@ KINDS: dict[str, dict[str, BrainKind]] = {
         "hand1": replace(foreman.HAND1, explain=foreman_thoughts.explain),
         "hand2": replace(foreman.HAND2, explain=foreman_thoughts.explain),
         "hand3": replace(foreman.HAND3, explain=foreman_thoughts.explain),
+        **{level.name: replace(level, explain=foreman_thoughts.explain) for level in levels.LEVELS},
     },
     "race": {
         "idle": baselines.IDLE,
@@ -53,8 +54,8 @@ NAMED_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}
 STRENGTHS = tuple(NAMED_LEVELS)
 BRAINS = {
     game: {
-        **kinds,
         **{level: kinds[name] for level, name in LEVELS.items()},
+        **kinds,
         **{name: kinds[LEVELS[level]] for name, level in NAMED_LEVELS.items()},
     }
     for game, kinds in KINDS.items()

@@ -54,6 +54,8 @@ def dock(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
     if not ready or short < 10.0:
         limit = short / 40.0
         speed = min(speed, limit)
+        if not ready and limit > 0.0:
+            speed = min(speed, pace(obs, wait))
         if limit < 0.0:
             speed = limit
     if speed > 0.0 and free_distance(obs, 0.0, 60.0) < 20.0:
@@ -61,6 +63,12 @@ def dock(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
     if speed < 0.0 and free_distance(obs, pi, ROBOT_ROOM) < 30.0:
         speed = 0.0
     set_action(action, mind.speed * speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 0)
+
+
+@kernel
+def pace(obs: Any, wait: float) -> float:
+    """Share of full speed at which it arrives in `wait` s."""
+    return max(0.12, (obs.goal_distance - obs.fork) / (260.0 * max(0.2, wait - 0.4)))  # type: ignore[no-any-return]
 
 
 @kernel
@@ -99,7 +107,7 @@ def cruise(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
             speed *= 0.5
     speed *= mind.speed
     if not ready and speed > 0.0 and obs.straight:
-        speed = min(speed, max(0.25, (obs.goal_distance - obs.fork) / (260.0 * max(0.2, wait - 0.5))))
+        speed = min(speed, pace(obs, wait))
     dash = mind.dash and ready and obs.waypoint_distance > DASH and obs.turbo > 0.02 and size < 0.3 and ahead > LOOK
     set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)
 

@@ -34,9 +34,10 @@ class PlannerMind:
     ways: Ways
     random: int
     speed: float  # share of full speed
-    pause: int  # ticks of pause after each job
     noise: float  # error of the cost of schedules, as a share of BLUNDER
     dash: int  # 1: may use turbo
+    last: float  # weight of the last delivery, but in party
+    hesitate: float  # s of pause after each job, on average
     slip: float  # share of jobs to which it first sets out the wrong way
     target: int  # slot number, -1: none
     side: int  # on which it passes obstacles: 1 right, -1 left
@@ -72,6 +73,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     mind.pressed = 0
     action = match.actions[seat]
     observe(match, seat, mind.senses, mind.obs)
+    mind.plan.last = 0.0 if match.rules.party else mind.last
     choose(mind.obs, mind, elapsed)
     slot = mind.obs.slots[mind.via if mind.detour > 0 else mind.target]
     find_way(match, match.robots[seat], mind.obs, mind.ways, slot.x, slot.y)
@@ -83,7 +85,8 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 def choose(obs: Any, mind: Any, elapsed: int) -> None:
     """Plan when due: when a job has ended, and every PLAN ticks."""
     if obs.carries != mind.carried:
-        mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause
+        mind.carried, mind.plan_in = obs.carries, 0
+        mind.resting = int(2.0 * HZ * mind.hesitate * uniform(mind))
         if mind.slip > 0.0 and uniform(mind) < mind.slip:
             mind.detour, mind.via = SLIP, int(uniform(mind) * obs.slot_count)
     mind.plan_in -= elapsed
@@ -244,29 +247,42 @@ def be_patient(obs: Any, mind: Any) -> None:
 
 
 def make_reset(
-    speed: float, pause: float, noise: float, delay: float, dash: int, slip: float, depth: int, **tuned: float
+    speed: float = 1.0,
+    hesitate: float = 0.0,
+    noise: float = 0.0,
+    delay: float = 0.1,
+    dash: int = 1,
+    slip: float = 0.0,
+    rules: int = 3,
+    form: float = 0.0,
+    depth: int = 40,
+    **tuned: float,
 ) -> Any:
-    """A `reset` for a strength."""
+    """A `reset` for a strength.
+
+    `speed`: share of full speed; `hesitate`: s of pause after each job, on average; `noise`: error of the cost of
+    schedules, as a share of BLUNDER; `delay`: reaction time to others, s; `dash`: 1 if it may use turbo; `slip`: share of
+    jobs that begin the wrong way; `rules`: dispatch rules that it tries; `form`: by how much a match's speed may differ,
+    as a share.
+    """
 
     def fill(mind: PlannerMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
         mind.resting = int(uniform(mind) * START)  # staggered starts
-        mind.speed, mind.pause, mind.noise, mind.dash = speed, round(pause * HZ), noise, dash
+        today = 1.0 + form * (2.0 * uniform(mind) - 1.0)
+        mind.speed, mind.hesitate, mind.noise, mind.dash = speed * today, hesitate / today, noise, dash
         mind.slip, mind.senses.delay = slip, delay
         plan = mind.plan
-        plan.depth, plan.rules = depth, int(tuned.get("rules", 1))
-        plan.stage_bonus[0] = tuned.get("b0", 0.0)
-        plan.stage_bonus[1] = tuned.get("b1", 0.0)
-        plan.stage_bonus[2] = tuned.get("b2", -2.0)
-        plan.unblock = tuned.get("unblock", 2.0)
-        plan.carry = tuned.get("carry", 0.5)
-        plan.last = tuned.get("last", 0.5)
-        plan.keep_laden = tuned.get("keep_laden", 0.6)
+        plan.depth, plan.rules = depth, rules
+        plan.stage_bonus[0] = tuned.get("b0", -0.97)
+        plan.stage_bonus[1] = tuned.get("b1", -0.33)
+        plan.stage_bonus[2] = tuned.get("b2", -1.74)
+        plan.unblock = tuned.get("unblock", 3.8)
+        plan.carry = tuned.get("carry", 0.54)
+        mind.last = tuned.get("last", 0.36)
+        plan.keep_laden = tuned.get("keep_laden", 1.1)
         plan.rush, plan.hurry = tuned.get("rush", 15.0), tuned.get("hurry", 3.0)
-        plan.turn = tuned.get("turn", 0.55)
-        plan.keep = tuned.get("keep", 0.15)
+        plan.turn = tuned.get("turn", 0.26)
+        plan.keep = tuned.get("keep", 0.17)
 
     return fill
-
-
-PLANNER = BrainKind("planner", PlannerMind, think, make_reset(1.0, 0.0, 0.0, 0.1, 1, 0.0, 14))

@@ -422,7 +422,7 @@ def promised(plan: Any, k: int, i: int) -> bool:
 def play_out(obs: Any, plan: Any) -> float:
     """Play the schedule in `plan.then` to its end; returns its cost, s."""
     then = plan.then
-    for _ in range(plan.depth):
+    for _ in range(min(plan.depth, 3 * plan.lots + 4)):
         i = 0
         for j in range(1, plan.hands):
             if then.hands[j].free < then.hands[i].free:
