@@ -8,8 +8,7 @@ from math import pi, sin
 from typing import Any
 
 from pigaming_app.ai.brain.steering import turn_stick
-from pigaming_app.ai.factory.driving import ASIDE, LEAN, LOOK, LOOKS, PERIOD, ROBOT_ROOM, free_distance
-from pigaming_app.games.factory.state import WORKERS
+from pigaming_app.ai.factory.driving import LEAN, LOOK, LOOKS, PERIOD, ROBOT_ROOM, free_distance
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
@@ -19,13 +18,12 @@ WITHIN = 36.0  # px between fork and slot within which it presses fire
 HOLD = 18.0  # px between fork and slot at which it waits for a pallet
 ASIDE_ERROR = 26.0  # px by which the way may miss the slot without slowing down
 BACK = 90.0  # px that must be free behind it before it backs out of a turn
-KEEP_SIDE = 40  # ticks for which it passes obstacles on the same side
 DASH = 110.0  # px to the waypoint for turbo
 
 
 @kernel
-def reach(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
-    """Drive to the target slot and use the fork there; `ready`: 1 if the fork can be used, else in `wait` s."""
+def reach(obs: Any, mind: Any, action: Any, ready: int) -> None:
+    """Drive to the target slot and use the fork there; `ready`: 1 if it can be used now, else in `mind.wait` s."""
     slot = obs.slots[mind.target]
     dx, dy = obs.fork_x - slot.x, obs.fork_y - slot.y
     gap2 = dx * dx + dy * dy
@@ -34,13 +32,13 @@ def reach(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
         mind.pressed = action.fire
         return
     if obs.straight and obs.goal_distance < NEAR:
-        dock(obs, mind, action, wait, ready)
+        dock(obs, mind, action, ready)
     else:
-        cruise(obs, mind, action, wait, ready)
+        cruise(obs, mind, action, ready)
 
 
 @kernel
-def dock(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
+def dock(obs: Any, mind: Any, action: Any, ready: int) -> None:
     """Steer straight to the slot; slow down only as far as the bearing asks for, or to wait."""
     bearing, distance = obs.goal_bearing, obs.goal_distance
     short = distance - obs.fork - (0.0 if ready else HOLD)
@@ -55,7 +53,7 @@ def dock(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
         limit = short / 40.0
         speed = min(speed, limit)
         if not ready and limit > 0.0:
-            speed = min(speed, pace(obs, wait))
+            speed = min(speed, pace(obs, mind.wait))
         if limit < 0.0:
             speed = limit
     if speed > 0.0 and free_distance(obs, 0.0, 60.0) < 20.0:
@@ -72,23 +70,15 @@ def pace(obs: Any, wait: float) -> float:
 
 
 @kernel
-def cruise(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
+def cruise(obs: Any, mind: Any, action: Any, ready: int) -> None:
     """Follow the route, or the free direction nearest to it if people or robots block it."""
     bearing, free = obs.waypoint_bearing, False
     for i in range(LOOKS):
         lean = LEAN * ((i + 1) // 2)
-        side = 1 if i % 2 else -1  # right first, so robots that meet head-on both keep right
-        if mind.side < 0:
-            side = -side
-        turn = bearing + side * lean
+        turn = bearing + (lean if i % 2 else -lean)  # right first, so robots that meet head-on both keep right
         if free_distance(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.waypoint_distance):
             bearing, free = turn, True
-            if i:
-                mind.side, mind.sided = 1, KEEP_SIDE
             break
-    mind.sided -= PERIOD
-    if mind.sided <= 0:
-        mind.side = 1
     bearing = turn_to(bearing)
     ahead = free_distance(obs, 0.0, ROBOT_ROOM)
     size = abs(bearing)
@@ -107,16 +97,6 @@ def cruise(obs: Any, mind: Any, action: Any, wait: float, ready: int) -> None:
             speed *= 0.5
     speed *= mind.speed
     if not ready and speed > 0.0 and obs.straight:
-        speed = min(speed, pace(obs, wait))
+        speed = min(speed, pace(obs, mind.wait))
     dash = mind.dash and ready and obs.waypoint_distance > DASH and obs.turbo > 0.02 and size < 0.3 and ahead > LOOK
     set_action(action, speed, turn_stick(bearing, obs.angular, obs.turn_rate, PERIOD), 0, 1 if dash else 0)
-
-
-@kernel
-def near_person(obs: Any) -> int:
-    """1 + the nearest person within ASIDE px; 0 if there is none."""
-    found, nearest = 0, ASIDE
-    for w in range(WORKERS):
-        if obs.people[w].distance < nearest:
-            found, nearest = w + 1, obs.people[w].distance
-    return found

@@ -1,407 +1,185 @@
-"""Schedules of the factory planner: the next transports of a team, simulated on a small model of the floor.
+"""Schedules of the factory planner: the transports of a whole team, played out on the model of the floor.
 
-A transport is one pallet's way from where it lies to the next machine, or to the exit. `plan` tries every transport
-that a robot could begin now. For each it plays the rest of the schedule: the robot that is free first takes the
-transport with the lowest score, until `depth` transports are planned. The transport whose schedule delivers earliest is
-chosen; announced targets of mates are kept. Times are in seconds from now.
+A transport is one pallet's way from where it lies to the next machine, or to the exit. The robot that is free first
+takes the transport with the lowest score, and so on until everything is delivered. The score is the time of lifting,
+less bonuses; a dispatch rule shifts the bonus of one state of pallets, so that several schedules can be compared.
 
-The model: robots drive straight at PACE and lose TURN a way; a machine works PROCESS s from the arrival of a worker,
-and only while its output is empty; an output is emptied when a planned transport lifts its pallet.
+In every function `obs` is the Observation and `plan` a Plan; all times are in seconds from now.
 """
 
 from math import sqrt
 from typing import Annotated, Any
 
-from pigaming_app.games.factory.observation import OTHERS
-from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, INPUT, MACHINE_SLOTS, MACHINES, OUTPUT, RAW, WORKERS, A
+from pigaming_app.ai.factory.floor_model import CLEARED, NEVER, PROCESS, Model, copy_model, survey, work
+from pigaming_app.games.factory.state import DONE, EXIT, INPUT, MACHINE_SLOTS, MACHINES, OUTPUT
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
-LOTS = 12  # pallets in the model, at most
-NEVER = 1e6  # s
-PACE = 270.0  # px/s
-TURN = 0.55  # s lost to turning and accelerating on a way
-PROCESS = 6.0  # s
-FAST_PROCESS = 2.0  # s, of the fast machine
-WALK = 130.0  # px/s, of workers
-SPOT = 62.0  # px from a machine's centre at which a worker is as good as there
-REST = 80.0  # px from the middle of the floor at which workers rest
-MIDDLE_X, MIDDLE_Y = 0.5 * WIDTH, 0.5 * HEIGHT
-BESIDE = 130.0  # px between a machine's centre and its worker, at most
-CLEARED = 5.0  # s after which others are expected to empty an output
-STAGES = 9.0, 9.0, 2.0  # s that a raw, half-done or done pallet still needs after the last planned transport
+PACE = 270.0  # px/s, mean speed of a robot on its way
+REACHED = 90.0  # px from a slot at which the fork can be used
+STAGES = 9.0, 9.0, 2.0  # s that a raw, half-done or done pallet still needs at the end of an unfinished schedule
 RUSH_TIMES = 22.0, 12.0, 3.0  # s that a raw, half-done or done pallet needs to be delivered
-
-
-@record
-class Lot:
-    """A pallet of the schedule."""
-
-    state: int
-    lies: int  # slot in which it lies, or will
-    ready: float  # s until it can be lifted; NEVER: in a robot, or not before an output is emptied
-    rush: float  # s left to its deadline, 0: none
-
-
-@record
-class Bench:
-    """A machine of the schedule."""
-
-    makes: int
-    into: int  # slot
-    out: int
-    x: float
-    y: float
-    free: float  # s until its input is free
-    clear: float  # s until its output is
-    idle: float  # s until it stops processing, negative if it has stopped
-    queue: int  # 1 + the lot that waits in its input for the output to be emptied; 0: none
-    fast: int
-
-
-@record
-class Hand:
-    """A robot of the schedule."""
-
-    x: float
-    y: float
-    free: float  # s until it can begin its next transport
-    lot: int  # 1 + the lot that it carries; 0: none
-    first: int  # 1 + the lot, of those that lie ready, that it has announced; 0: none
-    into: int  # 1 + the slot for the lot that it carries, if announced; 0: none
-
-
-@record
-class Helper:
-    """A worker of the schedule, who walks home from (x, y) from `free` on."""
-
-    x: float
-    y: float
-    free: float  # s until the worker has nothing to do
-
-
-@record
-class Stage:
-    """A state of the model."""
-
-    lots: Annotated[list[Lot], LOTS]
-    benches: Annotated[list[Bench], MACHINES]
-    hands: Annotated[list[Hand], ROBOTS]
-    helpers: Annotated[list[Helper], WORKERS]
+QUEUED = 3.0  # s for which a pallet is expected to wait behind another one
+FAST = 4.0  # s, bonus of the fast machine
+SHIFT, FAR_SHIFT = 3.0, 8.0  # s by which dispatch rules differ
+RULES = 13  # dispatch rules that exist
 
 
 @record
 class Plan:
-    """Memory of the planner: the present state, and that of the schedule being tried."""
+    """Memory of the planner."""
 
-    lots: int
-    hands: int
-    now: Stage
-    then: Stage
-    depth: int  # transports of a schedule
-    stage_bonus: Annotated[list[float], 3]  # s, by state of a pallet
-    unblock: float  # s, bonus of emptying an output for which a pallet waits
-    carry: float  # weight of the loaded way and of waiting at its end
-    last: float  # weight of the latest delivery, compared with the mean of all
-    keep: float  # s, bonus of the present target
-    keep_laden: float  # s, the same while it carries a pallet
-    turn: float  # s lost on a way
-    rush: float  # s, value of a rush order that is delivered in time
-    hurry: float  # s, bonus of a rush order that can still be in time
-    rules: int  # dispatch rules that are tried for each first transport
-    shift: Annotated[list[float], 3]  # s, added to the bonus by state in the rule being tried
+    now: Model
+    then: Model  # of the schedule being played out
+    shift: Annotated[list[float], 3]  # s, bonus of the present dispatch rule, by state of a pallet
     exit: int  # slot for done pallets
+    rules: int  # dispatch rules that are compared for each first transport
+    raw: float = -0.97  # s, bonus by state of a pallet
+    half: float = -0.33
+    done: float = -1.74
+    unblock: float = 3.8  # s, bonus of an output for which another pallet waits
+    hurry: float = 3.0  # s, bonus of a rush order that can still be in time
+    carry: float = 0.54  # weight of the loaded way and of waiting at its end
+    turn: float = 0.26  # s lost on a way by turning
+    last: float = 0.36  # weight of the last delivery, compared with the mean of all
+    rush: float = 15.0  # s, value of a rush order that is delivered in time
 
 
 @kernel
-def way(plan: Any, x: float, y: float, slot: Any) -> float:
-    """Time of a way from (x, y) to a slot, s."""
-    dx, dy = slot.x - x, slot.y - y
-    return plan.turn + max(0.0, sqrt(dx * dx + dy * dy) - 90.0) / PACE
-
-
-@kernel
-def survey(obs: Any, plan: Any) -> None:
-    """Fill in `plan.now` from the observation."""
+def look(obs: Any, plan: Any) -> None:
+    """Fill in the present, with the announced transports of laden mates carried out."""
     now = plan.now
-    lots = 0
-    survey_helpers(obs, now)
-    for m in range(MACHINES):
-        bench, into, out = now.benches[m], obs.slots[MACHINE_SLOTS + 2 * m], obs.slots[MACHINE_SLOTS + 2 * m + 1]
-        bench.makes, bench.fast = into.makes, into.fast
-        bench.into, bench.out = MACHINE_SLOTS + 2 * m, MACHINE_SLOTS + 2 * m + 1
-        bench.queue, bench.free, bench.clear, bench.idle = 0, 0.0, 0.0, 0.0
-        bench.x, bench.y = 0.5 * (into.x + out.x), 0.5 * (into.y + out.y)
-        if into.wait > 0.0:  # in process
-            bench.idle = into.wait
-            if into.ours and lots < LOTS:
-                add(now.lots[lots], HALF if into.makes == A else DONE, bench.out, into.wait, 0.0)
-                lots += 1
-                bench.clear = NEVER
-            else:
-                bench.clear = into.wait + CLEARED
-        elif out.holds:
-            if out.lift and out.holds - 1 != DAMAGED and lots < LOTS:
-                add(now.lots[lots], out.holds - 1, bench.out, 0.0, out.rush)
-                lots += 1
-                bench.clear = NEVER
-            else:
-                bench.clear = CLEARED
-        if into.holds:
-            fits = into.holds - 1 == (RAW if into.makes == A else HALF)
-            if not fits:
-                bench.free = CLEARED
-            elif bench.clear == NEVER:
-                bench.free = NEVER
-                if into.lift and lots < LOTS:
-                    add(now.lots[lots], into.holds, bench.out, NEVER, into.rush)
-                    lots += 1
-                    bench.queue = lots
-                else:
-                    bench.queue = -1
-            else:
-                done = work(now, bench, bench.clear)
-                if into.lift and lots < LOTS:
-                    add(now.lots[lots], into.holds, bench.out, done, into.rush)
-                    lots += 1
-                    bench.clear = NEVER
-                else:
-                    bench.clear = done + CLEARED
-    for s in range(obs.slot_count):
-        slot = obs.slots[s]
-        if slot.holds and slot.lift and slot.machine < 0 and lots < LOTS:
-            state = slot.holds - 1
-            if state <= DONE and not (slot.kind == EXIT and state == DONE):
-                add(now.lots[lots], state, s, 0.0, slot.rush)
-                lots += 1
-    hands = 1
-    hand = now.hands[0]
-    hand.x, hand.y, hand.free, hand.lot, hand.first, hand.into = obs.x, obs.y, obs.frozen * 0.02, 0, 0, 0
-    if obs.carries and lots < LOTS:
-        add(now.lots[lots], obs.carries - 1, -1, NEVER, obs.rush)
-        lots += 1
-        hand.lot = lots
-    for i in range(OTHERS):
-        other = obs.others[i]
-        if not other.present or not other.mate:
-            continue
-        hand = now.hands[hands]
-        hand.x, hand.y, hand.free, hand.lot, hand.first, hand.into = other.x, other.y, other.frozen * 0.02, 0, 0, 0
-        hands += 1
-        if other.carries:
-            if lots < LOTS and other.carries - 1 <= DONE:
-                add(now.lots[lots], other.carries - 1, -1, NEVER, 0.0)
-                lots += 1
-                hand.lot = lots
-                hand.into = other.aim
-        elif other.aim:
-            for k in range(lots):
-                if now.lots[k].lies == other.aim - 1 and now.lots[k].ready < NEVER:
-                    hand.first = k + 1
-    plan.lots, plan.hands = lots, hands
+    survey(obs, now)
     plan.exit = nearest_exit(obs)
-    for i in range(1, hands):
+    for i in range(1, now.hand_count):
         hand = now.hands[i]
         if hand.lot and hand.into:
-            set_down(obs, plan, now, hand, hand.into)
-            hand.into = 0
-
-
-@kernel
-def survey_helpers(obs: Any, now: Any) -> None:
-    """Fill in the workers: those at a machine are busy until it is done."""
-    for w in range(WORKERS):
-        person, helper = obs.people[w], now.helpers[w]
-        helper.x, helper.y, helper.free = person.x, person.y, 0.0
-        for m in range(MACHINES):
-            into, out = obs.slots[MACHINE_SLOTS + 2 * m], obs.slots[MACHINE_SLOTS + 2 * m + 1]
-            dx, dy = person.goal_x - 0.5 * (into.x + out.x), person.goal_y - 0.5 * (into.y + out.y)
-            if into.wait > 0.0 and dx * dx + dy * dy < BESIDE * BESIDE:
-                helper.free = into.wait
-
-
-@kernel
-def work(then: Any, bench: Any, at: float) -> float:
-    """Let the worker who is there first begin work at a machine, not before `at`; returns the time when it is done."""
-    if bench.fast:
-        bench.free, bench.idle = at, at + FAST_PROCESS
-        return bench.idle
-    best, soonest = 0, NEVER
-    for w in range(WORKERS):
-        helper = then.helpers[w]
-        leave = max(at, helper.free)
-        dx, dy = MIDDLE_X - helper.x, MIDDLE_Y - helper.y
-        off = sqrt(dx * dx + dy * dy)
-        share = min(WALK * (leave - helper.free), max(0.0, off - REST)) / (off + 1.0)
-        dx, dy = helper.x + share * dx - bench.x, helper.y + share * dy - bench.y
-        begin = leave + max(0.0, sqrt(dx * dx + dy * dy) - SPOT) / WALK
-        if begin < soonest:
-            best, soonest = w, begin
-    helper = then.helpers[best]
-    dx, dy = MIDDLE_X - bench.x, MIDDLE_Y - bench.y
-    off = SPOT / (sqrt(dx * dx + dy * dy) + 1.0)
-    bench.free, bench.idle = soonest, soonest + PROCESS
-    helper.x, helper.y, helper.free = bench.x + off * dx, bench.y + off * dy, bench.idle
-    return bench.idle
-
-
-@kernel
-def add(lot: Any, state: int, lies: int, ready: float, rush: float) -> None:
-    """Fill in a lot."""
-    lot.state, lot.lies, lot.ready, lot.rush = state, lies, ready, rush
+            set_down(obs, plan, now, hand)
 
 
 @kernel
 def nearest_exit(obs: Any) -> int:
-    """A free slot of the own exit, the one nearest to the middle of the floor's machines; any if none is free."""
+    """The nearest free slot of the own exit; a taken one if there is no other."""
     best, least = 0, 1e18
     for s in range(MACHINE_SLOTS):
         slot = obs.slots[s]
         if slot.kind == EXIT and slot.mine == 1:
             dx, dy = slot.x - obs.x, slot.y - obs.y
-            cost = dx * dx + dy * dy + (1e12 if slot.holds else 0.0)
-            if cost < least:
-                best, least = s, cost
+            far = dx * dx + dy * dy + (1e12 if slot.holds else 0.0)
+            if far < least:
+                best, least = s, far
     return best
 
 
 @kernel
-def restart(plan: Any) -> None:
-    """Set `plan.then` to the present."""
-    now, then = plan.now, plan.then
-    for k in range(plan.lots):
-        a, b = then.lots[k], now.lots[k]
-        a.state, a.lies, a.ready, a.rush = b.state, b.lies, b.ready, b.rush
-    for m in range(MACHINES):
-        c, d = then.benches[m], now.benches[m]
-        c.makes, c.into, c.out, c.fast, c.x, c.y = d.makes, d.into, d.out, d.fast, d.x, d.y
-        c.free, c.clear, c.idle, c.queue = d.free, d.clear, d.idle, d.queue
-    for i in range(plan.hands):
-        e, f = then.hands[i], now.hands[i]
-        e.x, e.y, e.free, e.lot, e.first, e.into = f.x, f.y, f.free, f.lot, f.first, f.into
-    for w in range(WORKERS):
-        g, h = then.helpers[w], now.helpers[w]
-        g.x, g.y, g.free = h.x, h.y, h.free
+def way(plan: Any, x: float, y: float, slot: Any) -> float:
+    """Time of a way from (x, y) to a slot."""
+    dx, dy = slot.x - x, slot.y - y
+    return plan.turn + max(0.0, sqrt(dx * dx + dy * dy) - REACHED) / PACE  # type: ignore[no-any-return]
 
 
 @kernel
-def best_bench(obs: Any, plan: Any, then: Any, kind: int, x: float, y: float, leave: float) -> int:
-    """The machine of a kind that could start soonest on a pallet that leaves (x, y) at `leave`; -1 if all are full."""
+def best_machine(obs: Any, plan: Any, model: Any, state: int, x: float, y: float, leave: float) -> int:
+    """The machine that could start soonest on a pallet in `state` that leaves (x, y) at `leave`; -1 if all are full."""
     best, least = -1, NEVER
     for m in range(MACHINES):
-        bench = then.benches[m]
-        if bench.makes != kind or bench.free >= NEVER:
+        bench = model.benches[m]
+        if bench.makes != state or bench.free >= NEVER:  # machines A take raw pallets, B half-done ones
             continue
-        start = max(leave + way(plan, x, y, obs.slots[bench.into]), bench.free)
-        begin = max(start, bench.clear if bench.clear < NEVER else max(bench.idle, start) + 3.0, bench.idle)
-        cost = 0.5 * (start + begin) - (4.0 if bench.fast else 0.0)
+        put = max(leave + way(plan, x, y, obs.slots[MACHINE_SLOTS + 2 * m]), bench.free)
+        begin = max(put, bench.idle) + QUEUED if bench.clear >= NEVER else max(put, bench.clear, bench.idle)
+        cost = 0.5 * (put + begin) - (FAST if bench.fast else 0.0)
         if cost < least:
             best, least = m, cost
     return best
 
 
 @kernel
-def put_into(obs: Any, plan: Any, then: Any, hand: Any, k: int, m: int, leave: float) -> float:
-    """Let a hand bring lot k from where the hand is at `leave` into machine m; returns the time of putting down."""
-    lot, bench = then.lots[k], then.benches[m]
-    slot = obs.slots[bench.into]
-    put = max(leave + way(plan, hand.x, hand.y, slot), bench.free)
-    hand.x, hand.y, hand.free, hand.lot = slot.x, slot.y, put, 0
-    lot.state, lot.lies, lot.ready = lot.state + 1, bench.out, NEVER
-    if bench.clear >= NEVER:
-        bench.queue, bench.free = k + 1, NEVER
-    else:
-        begin_work(then, bench, k, max(put, bench.clear))
-    return put
-
-
-@kernel
-def begin_work(then: Any, bench: Any, k: int, at: float) -> None:
-    """Let a machine begin work on lot k, not before `at`."""
-    then.lots[k].ready = work(then, bench, max(at, bench.idle))
-    bench.clear = NEVER
-
-
-@kernel
-def deliver(obs: Any, plan: Any, then: Any, hand: Any, k: int, s: int, leave: float) -> float:
-    """Let a hand bring lot k from where the hand is at `leave` to exit slot s; returns the time of the delivery."""
-    slot, lot = obs.slots[s], then.lots[k]
-    put = leave + way(plan, hand.x, hand.y, slot)
-    hand.x, hand.y, hand.free, hand.lot = slot.x, slot.y, put, 0
-    lot.state, lot.ready = DONE + 1, put
-    return put
-
-
-@kernel
-def lift(obs: Any, plan: Any, then: Any, hand: Any, k: int) -> None:
-    """Let a hand drive to lot k and lift it; an emptied output lets its machine go on."""
-    lot = then.lots[k]
+def lift(obs: Any, plan: Any, model: Any, hand: Any, k: int) -> None:
+    """Let a hand drive to lot k and lift it; a machine whose output this empties goes on."""
+    lot = model.lots[k]
     slot = obs.slots[lot.lies]
     hand.free = max(hand.free + way(plan, hand.x, hand.y, slot), lot.ready)
     hand.x, hand.y, hand.lot, hand.first = slot.x, slot.y, k + 1, 0
     lot.ready = NEVER
     if slot.kind == OUTPUT:
-        bench = then.benches[slot.machine]
+        bench = model.benches[slot.machine]
         bench.clear = hand.free
-        if bench.queue:
-            waits = bench.queue - 1
-            bench.queue = 0
-            if waits >= 0:
-                begin_work(then, bench, waits, hand.free)
-            else:
-                bench.free, bench.clear = hand.free + 1.0, hand.free + PROCESS + CLEARED
+        if bench.queue > 0:
+            begin_work(model, bench, bench.queue - 1, hand.free)
+        elif bench.queue < 0:
+            bench.free, bench.clear = hand.free + 1.0, hand.free + PROCESS + CLEARED
+        bench.queue = 0
 
 
 @kernel
-def set_down(obs: Any, plan: Any, then: Any, hand: Any, wish: int) -> int:
-    """Let a hand put its lot down, if announced in slot wish - 1; 0 if there is no place."""
-    k = hand.lot - 1
-    lot = then.lots[k]
+def begin_work(model: Any, bench: Any, k: int, at: float) -> None:
+    """Let a machine begin work on lot k, not before `at`."""
+    model.lots[k].ready = work(model, bench, max(at, bench.idle))
+    bench.clear = NEVER
+
+
+@kernel
+def set_down(obs: Any, plan: Any, model: Any, hand: Any) -> bool:
+    """Let a hand put down its lot, in the announced slot if it can; False if there is no place."""
+    k, wish = hand.lot - 1, hand.into - 1
+    lot = model.lots[k]
+    hand.into = 0
     if lot.state == DONE:
-        s = plan.exit
-        if wish and obs.slots[wish - 1].kind == EXIT:
-            s = wish - 1
-        deliver(obs, plan, then, hand, k, s, hand.free)
-        return 1
-    kind = lot.state  # RAW goes to A, HALF to B
-    m = -1
-    if wish and obs.slots[wish - 1].kind == INPUT:
-        m = obs.slots[wish - 1].machine
-        if then.benches[m].makes != kind or then.benches[m].free >= NEVER:
-            m = -1
-    if m < 0:
-        m = best_bench(obs, plan, then, kind, hand.x, hand.y, hand.free)
-    if m < 0:
-        return 0
-    put_into(obs, plan, then, hand, k, m, hand.free)
-    return 1
+        slot = obs.slots[wish if wish >= 0 and obs.slots[wish].kind == EXIT else plan.exit]
+        hand.free += way(plan, hand.x, hand.y, slot)
+        lot.state, lot.ready = DONE + 1, hand.free
+    else:
+        m = obs.slots[wish].machine if wish >= 0 and obs.slots[wish].kind == INPUT else -1
+        if m < 0 or model.benches[m].makes != lot.state or model.benches[m].free >= NEVER:
+            m = best_machine(obs, plan, model, lot.state, hand.x, hand.y, hand.free)
+        if m < 0:
+            return False
+        slot, bench = obs.slots[MACHINE_SLOTS + 2 * m], model.benches[m]
+        hand.free = max(hand.free + way(plan, hand.x, hand.y, slot), bench.free)
+        lot.state, lot.lies, lot.ready = lot.state + 1, MACHINE_SLOTS + 2 * m + 1, NEVER
+        if bench.clear >= NEVER:
+            bench.queue, bench.free = k + 1, NEVER
+        else:
+            begin_work(model, bench, k, max(hand.free, bench.clear))
+    hand.x, hand.y, hand.lot = slot.x, slot.y, 0
+    return True
+
+
+@kernel
+def promised(model: Any, k: int, i: int) -> bool:
+    """True if another hand than i has announced lot k."""
+    found = False
+    for j in range(model.hand_count):
+        if j != i and model.hands[j].first == k + 1:
+            found = True
+    return found
 
 
 @kernel
 def next_lot(obs: Any, plan: Any, i: int) -> int:
     """The lot with the lowest score for hand i; -1 if there is none."""
-    then = plan.then
-    hand = then.hands[i]
+    model = plan.then
+    hand = model.hands[i]
     best, least = -1, NEVER
-    for k in range(plan.lots):
-        lot = then.lots[k]
-        if lot.ready >= NEVER or lot.state > DONE or promised(plan, k, i):
+    for k in range(model.lot_count):
+        lot = model.lots[k]
+        if lot.ready >= NEVER or lot.state > DONE or promised(model, k, i):
             continue
         slot = obs.slots[lot.lies]
         at = max(hand.free + way(plan, hand.x, hand.y, slot), lot.ready)
-        score = at - plan.stage_bonus[lot.state] - plan.shift[lot.state]
+        score = at - plan.shift[lot.state]
         if lot.state == DONE:
             score += plan.carry * way(plan, slot.x, slot.y, obs.slots[plan.exit])
         else:
-            m = best_bench(obs, plan, then, lot.state, slot.x, slot.y, at)
+            m = best_machine(obs, plan, model, lot.state, slot.x, slot.y, at)
             if m < 0:
                 continue
-            bench = then.benches[m]
-            score += plan.carry * (max(at + way(plan, slot.x, slot.y, obs.slots[bench.into]), bench.free) - at)
+            there = at + way(plan, slot.x, slot.y, obs.slots[MACHINE_SLOTS + 2 * m])
+            score += plan.carry * (max(there, model.benches[m].free) - at)
         if lot.rush > RUSH_TIMES[lot.state] + at:
             score -= plan.hurry
-        if slot.kind == OUTPUT and then.benches[slot.machine].queue:
+        if slot.kind == OUTPUT and model.benches[slot.machine].queue:
             score -= plan.unblock
         if score < least:
             best, least = k, score
@@ -409,84 +187,76 @@ def next_lot(obs: Any, plan: Any, i: int) -> int:
 
 
 @kernel
-def promised(plan: Any, k: int, i: int) -> bool:
-    """True if another hand than i is to take lot k first."""
-    found = False
-    for j in range(plan.hands):
-        if j != i and plan.then.hands[j].first == k + 1:
-            found = True
-    return found
+def cheapest_schedule(obs: Any, plan: Any) -> float:
+    """The lowest cost of the schedules by all dispatch rules that are compared, from the present on."""
+    least = NEVER
+    for rule in range(plan.rules):
+        plan.shift[0], plan.shift[1], plan.shift[2] = plan.raw, plan.half, plan.done
+        if rule:
+            size = SHIFT if rule < 7 else FAR_SHIFT
+            plan.shift[(rule - 1) // 2 % 3] += size if rule % 2 else -size
+        copy_model(plan.then, plan.now)
+        play_out(obs, plan)
+        least = min(least, cost_of_schedule(plan))
+    return least
 
 
 @kernel
-def play_out(obs: Any, plan: Any) -> float:
-    """Play the schedule in `plan.then` to its end; returns its cost, s."""
-    then = plan.then
-    for _ in range(min(plan.depth, 3 * plan.lots + 4)):
+def play_out(obs: Any, plan: Any) -> None:
+    """Play the schedule out, until all lots are delivered or all hands have nothing more to do."""
+    model = plan.then
+    for _ in range(3 * model.lot_count + 4):
         i = 0
-        for j in range(1, plan.hands):
-            if then.hands[j].free < then.hands[i].free:
+        for j in range(1, model.hand_count):
+            if model.hands[j].free < model.hands[i].free:
                 i = j
-        hand = then.hands[i]
+        hand = model.hands[i]
         if hand.free >= NEVER:
-            break
+            return
         if not hand.lot:
             k = hand.first - 1
             if k < 0:
                 k = next_lot(obs, plan, i)
             if k < 0:
-                hand.free = next_change(plan, hand.free)
+                hand.free = next_free(model, hand.free)
                 continue
-            lift(obs, plan, then, hand, k)
-        if not set_down(obs, plan, then, hand, hand.into):
+            lift(obs, plan, model, hand, k)
+        if not set_down(obs, plan, model, hand):
             hand.free += 2.0
-        hand.into = 0
-    return cost(plan)
 
 
 @kernel
-def choose_rule(plan: Any, rule: int) -> None:
-    """Set the shifts of a dispatch rule; rule 0 has none."""
-    for state in range(3):
-        plan.shift[state] = 0.0
-    if rule:
-        state = (rule - 1) // 2 % 3
-        size = 3.0 if rule < 7 else 8.0
-        plan.shift[state] = size if rule % 2 else -size
-
-
-@kernel
-def next_change(plan: Any, at: float) -> float:
-    """Time at which a hand without a transport looks again: when another one is free; NEVER if none is."""
+def next_free(model: Any, at: float) -> float:
+    """Time at which a hand without a transport looks again, when another one is free; NEVER if none is."""
     soonest = NEVER
-    for j in range(plan.hands):
-        free = plan.then.hands[j].free
+    for j in range(model.hand_count):
+        free = model.hands[j].free
         if at < free < soonest:
             soonest = free
     return soonest + 0.01
 
 
 @kernel
-def cost(plan: Any) -> float:
-    """Mean time of delivery of the lots, and `plan.last` times the latest, s."""
-    total, latest = 0.0, 0.0
-    end = NEVER
-    for j in range(plan.hands):
-        end = min(end, plan.then.hands[j].free)
-    if end >= NEVER:
-        end = 0.0
-        for j in range(plan.hands):
-            free = plan.then.hands[j].free
-            end = max(end, free if free < NEVER else 0.0)
-    for k in range(plan.lots):
-        lot = plan.then.lots[k]
+def cost_of_schedule(plan: Any) -> float:
+    """Mean time of delivery of the lots, rush orders counting double, and `plan.last` times the latest, s."""
+    model = plan.then
+    total, latest, soonest, end = 0.0, 0.0, NEVER, 0.0
+    for j in range(model.hand_count):
+        free = model.hands[j].free
+        soonest = min(soonest, free)
+        if free < NEVER:
+            end = max(end, free)
+    if soonest < NEVER:
+        end = soonest
+    for k in range(model.lot_count):
+        lot = model.lots[k]
         at = lot.ready
         if lot.state <= DONE:
-            at = (end if at >= NEVER else max(end, at)) + STAGES[lot.state]
-            for state in range(lot.state + 1, DONE + 1):
+            at = end if at >= NEVER else max(end, at)
+            for state in range(lot.state, DONE + 1):
                 at += STAGES[state]
         total += at
         if at < lot.rush:
-            total -= plan.rush
+            total += at - plan.rush
         latest = max(latest, at)
-    return total / max(1, plan.lots) + plan.last * latest
+    return total / max(1, model.lot_count) + plan.last * latest  # type: ignore[no-any-return]
