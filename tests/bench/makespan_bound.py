@@ -141,9 +141,7 @@ class Search:
             if p < 0:
                 self.extend(start, begun + 1, tuple(sorted((*half, (m, stop)))), busy, others, end)
             else:
-                self.extend(
-                    start, begun, half[:p] + half[p + 1 :], busy, others, max(end, stop + floor.deliver[m])
-                )
+                self.extend(start, begun, half[:p] + half[p + 1 :], busy, others, max(end, stop + floor.deliver[m]))
 
     def starts(self, earliest: float, m: int, workers: tuple[tuple[int, float], ...]) -> list[tuple[int, float]]:
         """When each worker could begin at machine m."""

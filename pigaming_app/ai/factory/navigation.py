@@ -22,7 +22,7 @@ DETOUR = 200.0  # px, cost of a side at which a person stands
 STANDS = 80.0  # px between a person and the middle of such a side
 FAR = 1e6  # px
 CLEAR = RADIUS + 1.0  # px, between corners
-SLIDE = RADIUS - 5.0  # px, from the robot: it slides round what it touches
+SLIDE = RADIUS - 14.0  # px, from the robot: it slides round what it touches
 KEEP = 30.0  # px by which a way on another side than before must be shorter
 CROWDED = 140.0  # px between another robot and the middle of a side
 

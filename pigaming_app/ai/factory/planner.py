@@ -168,8 +168,8 @@ def make_reset(
     """A `reset` for a strength.
 
     `speed`: share of full speed; `hesitation`: s of pause after each job, on average; `noise`: error of the cost of
-    schedules, as a share of BLUNDER; `delay`: reaction time to others, s; `dash`: 1 if it may use turbo; `slip`: share of
-    jobs that begin the wrong way; `rules`: dispatch rules that it compares; `form`: by how much it may be faster or
+    schedules, as a share of BLUNDER; `delay`: reaction time to others, s; `dash`: 1 if it may use turbo; `slip`: share
+    of jobs that begin the wrong way; `rules`: dispatch rules that it compares; `form`: by how much it may be faster or
     slower in a match than in others, as a share.
     """
 
