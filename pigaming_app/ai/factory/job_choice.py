@@ -8,14 +8,16 @@ from typing import Any
 from pigaming_app.ai.factory.driving import AVOID_TICKS, STAND_OFF
 from pigaming_app.ai.factory.floor_model import NEVER
 from pigaming_app.ai.factory.schedule import cheapest_schedule, look, promised
-from pigaming_app.ai.factory.task_allocation import cheapest_place, waiting_place
-from pigaming_app.games.factory.state import DAMAGED, DONE, MACHINE_SLOTS, MACHINES
+from pigaming_app.ai.factory.task_allocation import cheapest_place, distance_to, waiting_place
+from pigaming_app.games.factory.observation import OTHERS
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, MACHINE_SLOTS, MACHINES
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
 
 BLUNDER = 4.0  # s, largest error of a cost at `mind.noise` 1
 AWAY = 15.0  # s, cost of a slot that could not be reached
 KEEP, KEEP_LADEN = 0.17, 1.1  # s, bonus of the present target, without and with a pallet
+ROOM, CROWDED = 250.0, 800.0  # px from a mate within which it does not park, and the cost of doing so
 PATIENT = 16  # plans, eight seconds, for which it waits with a pallet before it brings it back to the shelf
 
 
@@ -38,7 +40,26 @@ def plan_job(obs: Any, mind: Any) -> None:
         mind.target = best
         return
     mind.waiting += 1
-    mind.near, mind.target = 1, waiting_place(obs, mind)
+    mind.near, mind.target = 1, waiting_place(obs, mind) if obs.carries else parking_place(obs)
+
+
+@kernel
+def parking_place(obs: Any) -> int:
+    """Slot to wait at when there is nothing to do: of the own entry, the nearest that is not near a mate."""
+    best, least = 0, NEVER
+    for s in range(MACHINE_SLOTS):
+        slot = obs.slots[s]
+        if slot.kind != ENTRY or slot.mine != 1:
+            continue
+        cost = distance_to(obs, s)
+        for i in range(OTHERS):
+            other = obs.others[i]
+            dx, dy = other.x - slot.x, other.y - slot.y
+            if other.present and other.mate and dx * dx + dy * dy < ROOM * ROOM:
+                cost += CROWDED
+        if cost < least:
+            best, least = s, cost
+    return best
 
 
 @kernel

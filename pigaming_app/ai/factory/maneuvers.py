@@ -17,6 +17,8 @@ NEAR = 150.0  # px from the slot within which it steers to the slot itself
 WITHIN = 36.0  # px between fork and slot within which it presses fire
 HOLD = 18.0  # px between fork and slot at which it waits for a pallet
 ASIDE_ERROR = 26.0  # px by which the way may miss the slot without slowing down
+FAN = 17  # directions that it looks in when the first LOOKS are blocked
+ESCAPE = 40.0  # px that must be free in a direction to get out of the way
 BACK = 90.0  # px that must be free behind it before it backs out of a turn
 DASH = 110.0  # px to the waypoint for turbo
 
@@ -72,13 +74,16 @@ def pace(obs: Any, wait: float) -> float:
 @kernel
 def cruise(obs: Any, mind: Any, action: Any, ready: int) -> None:
     """Follow the route, or the free direction nearest to it if people or robots block it."""
-    bearing, free = obs.waypoint_bearing, False
-    for i in range(LOOKS):
+    bearing, free, widest = obs.waypoint_bearing, False, ESCAPE
+    for i in range(FAN):
         lean = LEAN * ((i + 1) // 2)
-        turn = bearing + (lean if i % 2 else -lean)  # right first, so robots that meet head-on both keep right
-        if free_distance(obs, turn, ROBOT_ROOM) >= min(LOOK, obs.waypoint_distance):
+        turn = obs.waypoint_bearing + (lean if i % 2 else -lean)  # right first, so robots that meet both keep right
+        gap = free_distance(obs, turn, ROBOT_ROOM)
+        if i < LOOKS and gap >= min(LOOK, obs.waypoint_distance):
             bearing, free = turn, True
             break
+        if gap > widest + 20.0:
+            bearing, widest = turn, gap
     bearing = turn_to(bearing)
     ahead = free_distance(obs, 0.0, ROBOT_ROOM)
     size = abs(bearing)
