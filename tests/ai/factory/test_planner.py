@@ -13,7 +13,19 @@ from pigaming_app.ai.factory.navigation import FAR
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
-from pigaming_app.games.factory.state import DONE, ENTRY, HALF, ICE, IN_SLOT, INPUT, MAX_PALLETS, ON_ROBOT, OUTPUT, A, B
+from pigaming_app.games.factory.state import (
+    DONE,
+    ENTRY,
+    HALF,
+    ICE,
+    IN_SLOT,
+    INPUT,
+    MACHINE_SLOTS,
+    MAX_PALLETS,
+    ON_ROBOT,
+    A,
+    B,
+)
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.kernel import can_compile
@@ -39,16 +51,16 @@ def begun(brains, floor="hall", seed=1, pallets=4, variant="standard"):
 
 @cache
 def alone(floor, seed=1):
-    """A match of two mates without rivals, and the distance of the nearer mate from each product when it was done, px."""
+    """A match of two mates without rivals, and the distance of the nearer one from each product when it is done, px."""
     match = begun(("level5", "off", "level5", "off"), floor, seed)
-    state, waits = match.state, []
+    state, gaps = match.state, []
     while not match.over:
         match.tick()
-        for slot in state.slots:
-            pallet = state.pallets[slot.pallet - 1] if slot.pallet else None
-            if slot.kind == OUTPUT and pallet and pallet.waited == 1:
-                waits.append(min(hypot(r.x - slot.x, r.y - slot.y) for r in (state.robots[0], state.robots[2])))
-    return match, waits
+        for m, machine in enumerate(state.machines):
+            if machine.pallet and machine.left == 1:
+                out = state.slots[MACHINE_SLOTS + 2 * m + 1]
+                gaps.append(min(hypot(state.robots[i].x - out.x, state.robots[i].y - out.y) for i in (0, 2)))
+    return match, gaps
 
 
 # --------------------------------------------------------------------------------------------------------------- alone
@@ -56,7 +68,7 @@ def alone(floor, seed=1):
 
 @pytest.mark.parametrize("floor", FLOORS)
 def test_two_alone_are_near_the_bound_and_never_below_it(floor):
-    match, _ = alone(floor)
+    match = alone(floor)[0]
     least = bound(floor, 2, 4)
     assert match.state.winner == 1 + ICE
     assert sum(load.spoiled for load in match.state.loads) == 0
@@ -64,10 +76,10 @@ def test_two_alone_are_near_the_bound_and_never_below_it(floor):
 
 
 def test_a_robot_is_there_when_the_product_is_done():
-    """At most of the eight products a robot is within reach."""
-    waits = [gap for floor in FLOORS for gap in alone(floor)[1]]
-    assert len(waits) == 8 * len(FLOORS)
-    assert np.mean([gap < 150.0 for gap in waits]) >= 0.5
+    """At half of the eight products at least a robot is within 150 px."""
+    gaps = [gap for floor in FLOORS for gap in alone(floor)[1]]
+    assert len(gaps) == 8 * len(FLOORS)
+    assert np.mean([gap < 150.0 for gap in gaps]) >= 0.5
 
 
 def test_the_bound_is_that_of_an_exhaustive_search():
@@ -95,7 +107,7 @@ def test_the_bound_is_that_of_an_exhaustive_search():
         assert Search(one).shortest() >= min(chains) - 1e-9
 
 
-# ------------------------------------------------------------------------------------------------------------ in company
+# ----------------------------------------------------------------------------------------------------------- in company
 
 
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
@@ -168,7 +180,7 @@ def test_the_way_round_a_machine_is_the_shorter_one():
 
 
 def test_the_levels_are_five_and_named_in_order():
-    assert NAMES == [f"level{number}" for number in range(1, 6)]
+    assert [f"level{number}" for number in range(1, 6)] == NAMES
     assert len({level.think for level in LEVELS}) == 1, "one compiled loop plays them all"
 
 
