@@ -34,15 +34,15 @@ class Plan:
     shift: Annotated[list[float], 3]  # s, bonus of the present dispatch rule, by state of a pallet
     exit: int  # slot for done pallets
     rules: int  # dispatch rules that are compared for each first transport
-    raw: float = -0.97  # s, bonus by state of a pallet
-    half: float = -0.33
-    done: float = -1.74
+    raw: float = -1.0  # s, bonus by state of a pallet
+    half: float = 0.25
+    done: float = -0.6
     unblock: float = 3.8  # s, bonus of an output for which another pallet waits
     hurry: float = 3.0  # s, bonus of a rush order that can still be in time
     carry: float = 0.54  # weight of the loaded way and of waiting at its end
     turn: float = 0.26  # s lost on a way by turning
     last: float = 0.36  # weight of the last delivery, compared with the mean of all
-    rush: float = 15.0  # s, value of a rush order that is delivered in time
+    rush: float = 30.0  # s, value of a rush order that is delivered in time
 
 
 @kernel
