@@ -32,7 +32,6 @@ from pigaming_app.sim.world import DT, HZ
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 PLAN = 25  # ticks between two plans
 SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
-START = 25  # upper limit of the random delay before the first job, ticks
 CLOSE = 120.0  # px from a slot that is not ready, within which waiting is not being stuck
 
 
@@ -164,18 +163,19 @@ def make_reset(
     slip: float = 0.0,
     rules: int = 3,
     form: float = 0.0,
+    start: float = 0.5,
 ) -> Any:
     """A `reset` for a strength.
 
     `speed`: share of full speed; `hesitation`: s of pause after each job, on average; `noise`: error of the cost of
     schedules, as a share of BLUNDER; `delay`: reaction time to others, s; `dash`: 1 if it may use turbo; `slip`: share
     of jobs that begin the wrong way; `rules`: dispatch rules that it compares; `form`: by how much it may be faster or
-    slower in a match than in others, as a share.
+    slower in a match than in others, as a share; `start`: upper limit of the random delay before the first job, s.
     """
 
     def fill(mind: PlannerMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
-        mind.resting = int(uniform(mind) * START)  # staggered starts
+        mind.resting = int(uniform(mind) * start * HZ)  # staggered starts
         today = 1.0 + form * (2.0 * uniform(mind) - 1.0)
         mind.speed, mind.hesitation = speed * today, hesitation / today
         mind.noise, mind.dash, mind.slip = noise, dash, slip
