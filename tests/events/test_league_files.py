@@ -5,7 +5,7 @@ import json
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.registry import BRAINS, STRENGTHS
+from pigaming_app.ai.registry import BRAINS, LEVELS
 from pigaming_app.events.league_files import file_name, ratings_of
 from pigaming_app.games.registry import games
 
@@ -20,7 +20,7 @@ def league(**changes):
 def test_the_shipped_ratings_name_all_levels(game):
     ratings, problems = ratings_of(game, [ASSETS / "brains"])
     assert problems == []
-    assert {*STRENGTHS} <= {one.brain for one in ratings.strengths} <= {*BRAINS[game]}
+    assert {*LEVELS} <= {one.brain for one in ratings.strengths} <= {*BRAINS[game]}
 
 
 def test_the_best_stands_first_and_the_first_folder_counts(tmp_path):

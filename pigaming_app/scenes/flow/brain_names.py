@@ -1,7 +1,7 @@
 """Names of AIs on the screen: levels as stars, the others in words."""
 
 from pigaming_app.ai.brain_files import display_name
-from pigaming_app.ai.registry import RIVALS, STRENGTHS, level_of
+from pigaming_app.ai.registry import LEVELS, RIVALS, level_of
 from pigaming_app.ui.draw.theme import STARS
 from pigaming_app.ui.i18n import Words
 
@@ -15,7 +15,7 @@ def lit_stars(brain: str) -> str:
 
 def stars_of(level: int) -> str:
     """A level as a row of as many stars as there are levels, of which the first are lit."""
-    return LIT * level + UNLIT * (len(STRENGTHS) - level)
+    return LIT * level + UNLIT * (len(LEVELS) - level)
 
 
 def brain_name(words: Words, game: str, brain: str) -> str:

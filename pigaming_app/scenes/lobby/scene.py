@@ -151,7 +151,7 @@ class Lobby:
         for style in registry.DRIVING[self.game]:
             for color in (*PLAYERS, None):
                 yield partial(card.driving, words(f"lobby.drive_{style}"), PICTURES[style], color)
-        for strength in registry.STRENGTHS:
+        for strength in registry.LEVELS:
             yield partial(card.strength, *level_words(words, strength), None)
 
     # ---- input
@@ -262,7 +262,7 @@ class Lobby:
 
     def _save_strength(self) -> None:
         """Save the AI strength as the default of the next lobby, unless only this game offers it."""
-        if self.seats.strength in registry.STRENGTHS:
+        if self.seats.strength in registry.LEVELS:
             self.context.settings.strength = self.seats.strength
 
     def _swap(self, seat: int) -> None:

@@ -5,7 +5,7 @@ FIRE takes the next empty seat, which determines the player number. The last AI 
 
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.ai.registry import NAMED_LEVELS, STRENGTHS
+from pigaming_app.ai.registry import LEVELS, NAMED_LEVELS
 from pigaming_app.games.game import ALLIES, FREE, PAIRS, Seat
 from pigaming_app.ui.input.events import Device
 
@@ -40,7 +40,7 @@ class Seats:
     strength: str = "level3"
     teams: bool = False
     team_mode: str = FREE
-    rivals: tuple[str, ...] = STRENGTHS
+    rivals: tuple[str, ...] = LEVELS
     mat: bool = False
     places: list[SeatState] = field(default_factory=lambda: [SeatState(team=i % 2) for i in range(PLACES)])
 

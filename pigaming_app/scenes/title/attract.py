@@ -10,7 +10,7 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.ai.registry import STRENGTHS, new_match
+from pigaming_app.ai.registry import LEVELS, new_match
 from pigaming_app.events.ladder import ALL, table_of
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
@@ -31,7 +31,7 @@ MINUTES = 1.0  # length of a match
 END_SECONDS = 2.5  # seconds for which the end of a match is shown
 PAGE = 12.0  # seconds per page
 PROMPT_Y, PAGE_PROMPT_Y = 984, 1020  # px; above PAGE_PROMPT_Y lies a page's own row
-LEVELS = 6  # brightnesses of the prompt
+GLOWS = 6  # brightnesses of the prompt
 
 
 class Attract:
@@ -74,8 +74,8 @@ class Attract:
         """Draw the show and the prompt."""
         if self.show:
             self.show.draw(screen)
-        level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
-        color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
+        level = round(GLOWS * abs((self.age % 1.0) * 2 - 1))
+        color = dim(FOCUS, 0.45 + 0.55 * level / GLOWS)
         text = self.context.words("attract.press")
         size, y = (LABEL, PROMPT_Y) if isinstance(self.show, DemoMatch | Clip) else (BODY, PAGE_PROMPT_Y)
         caption(text, color, color, size, face="head").draw(screen, 960, y)
@@ -134,7 +134,7 @@ class DemoMatch:
         teams = rules.default.teams
         if rules.default.team_mode == FREE and secrets.randbelow(3) == 0:
             teams = (0, 1, 0, 1)
-        one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
+        one, two, three, four = (Seat(secrets.choice(LEVELS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
         setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.default.name, rules.default.default_goal)
         self.runner = MatchRunner(context, new_match(setup), loud=False)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import STRENGTHS
+from pigaming_app.ai.registry import LEVELS
 from pigaming_app.events import climb_files
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength, file_name
@@ -232,6 +232,6 @@ def test_the_ratings_of_each_game_are_one_press_away_and_the_users_own_come_firs
 
 
 def test_of_many_ais_the_page_shows_all_levels_and_the_best_others() -> None:
-    names = [*(f"other{i}" for i in range(20)), *STRENGTHS]
+    names = [*(f"other{i}" for i in range(20)), *LEVELS]
     rated = tuple(Strength(name, 500.0 - 10.0 * i, 0.0, 600.0) for i, name in enumerate(names))
-    assert [row.brain for row in shown(Ratings("race", "party", 1, rated))] == [*names[:7], *STRENGTHS]
+    assert [row.brain for row in shown(Ratings("race", "party", 1, rated))] == [*names[:7], *LEVELS]

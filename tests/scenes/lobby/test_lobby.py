@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import POINT, RIVALS, STRENGTHS, TURN
+from pigaming_app.ai.registry import LEVELS, POINT, RIVALS, TURN
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.flow import match_choice
@@ -306,8 +306,8 @@ def test_a_kiosk_offers_party_rules_until_visitors_choose_others_and_again_after
 
 def test_levels_have_stars_and_the_other_ais_none() -> None:
     words = Words("en")
-    rows = [level_words(words, level) for level in STRENGTHS]
+    rows = [level_words(words, level) for level in LEVELS]
     assert rows[0] == ("Level 1", "★☆☆☆☆")
     assert rows[4] == ("Level 5", "★★★★★")
     assert [stars.count("★") for _, stars in rows] == [1, 2, 3, 4, 5]
-    assert {level_words(words, rival)[1] for rival in RIVALS["pitanks"] if rival not in STRENGTHS} == {""}
+    assert {level_words(words, rival)[1] for rival in RIVALS["pitanks"] if rival not in LEVELS} == {""}

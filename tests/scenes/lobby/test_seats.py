@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.ai.registry import STRENGTHS
+from pigaming_app.ai.registry import LEVELS
 from pigaming_app.games.game import ALLIES, ALONE, FREE, PAIRS, Seat
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, REAL, RIVALS, TEAM, Seats
 from pigaming_app.ui.input.events import Device
@@ -182,7 +182,7 @@ def test_in_a_race_everyone_drives_alone_against_three() -> None:
 
 
 def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
-    seats = Seats(rivals=(*STRENGTHS, "q1", "q2"))
+    seats = Seats(rivals=(*LEVELS, "q1", "q2"))
     seats.add_ai()
     for wanted in ("level4", "level5", "q1", "q2", "q2"):
         seats.change_strength(1)
