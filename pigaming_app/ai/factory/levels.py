@@ -1,8 +1,8 @@
 """The five levels of Robot Factory: one planner, five pairs of hands.
 
 They differ in numbers, never in rules: the lower ones drive more slowly, warm up in the first minute, pause longer
-after each job, misjudge schedules, see others later, and now and then set out the wrong way. `form` makes a level better
-in one match than in another, as with people.
+after each job, misjudge schedules, see others later, and now and then set out the wrong way. `form` makes a level
+better in one match than in another, as with people.
 """
 
 from pigaming_app.ai.brain.kind import BrainKind
