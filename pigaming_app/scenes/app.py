@@ -101,7 +101,7 @@ def opened(options: Options) -> "Iterator[App]":
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
     context.preloader.modules = MODULES
-    context.preloader.on_done = context.compiler.start
+    context.preloader.on_done = context.start_compilers
     old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
     try:
         yield App(options, context, [*damaged, *damaged_scores])
@@ -110,6 +110,7 @@ def opened(options: Options) -> "Iterator[App]":
         context.stop_all_robots()
         context.preloader.end()
         context.compiler.end()
+        context.network_compiler.end()
         gc.unfreeze()
         session.end()
         context.sounds.close()

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
+from pigaming_app.ai.brain import archive
 from pigaming_app.ai.networks import files as network_files
 from pigaming_app.ai.networks.files import NetworkError, TrainedNetwork
 from pigaming_app.ai.qlearning import table_files
@@ -45,6 +46,14 @@ def save_network(trained: TrainedNetwork, path: Path) -> None:
 def load_network(path: Path) -> TrainedNetwork:
     """Read and check a trained network. Raises NetworkError, whose text begins with the file name."""
     return _load(path, network_files.MAX_BYTES, network_files.decode, NetworkError)
+
+
+def is_network(path: Path) -> bool:
+    """True for the file of a network, damaged or not. False for what cannot be read."""
+    try:
+        return archive.names(read(path, network_files.MAX_BYTES)) == network_files.PARTS.keys()
+    except OSError:
+        return False
 
 
 def _load(path: Path, limit: int, decode: Callable[[bytes, str], T], error: type[ValueError]) -> T:

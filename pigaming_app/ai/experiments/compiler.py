@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from subprocess import Popen
 
 PATIENCE = 10  # POSIX nice value of the process
+BLAS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")  # threads of NumPy's matrix products
 
 COMMAND = (sys.executable, "-m", "pigaming_app.ai.experiments.evaluation")
 
@@ -33,7 +34,7 @@ class Compiler:
         """Start the process if numba is installed and it was never started. Raises OSError."""
         with self._lock:
             if self._process is None and not self._ended and can_compile():
-                self._process = _launch(self._command)
+                self._process = launch(self._command)
 
     def end(self) -> None:
         """Kill the process for good; later calls of `start` have no effect."""
@@ -49,14 +50,24 @@ class Compiler:
         return self._process.poll() if self._process else None
 
 
-def _launch(command: tuple[str, ...]) -> "Popen[bytes]":
+def launch(command: tuple[str, ...], answers: bool = False) -> "Popen[bytes]":
+    """Start a background process with a pipe as standard input, and with `answers` as standard output. Raises OSError.
+
+    NumPy's matrix products stay in the threads that call them.
+    """
     import subprocess  # late, for the start of the arcade
 
     null = subprocess.DEVNULL
     names = ("CREATE_NO_WINDOW", "BELOW_NORMAL_PRIORITY_CLASS")  # defined on Windows only
     flags: int = sum(getattr(subprocess, name, 0) for name in names)
     process = subprocess.Popen(
-        command, cwd=PACKAGE.parent, stdin=subprocess.PIPE, stdout=null, stderr=null, creationflags=flags
+        command,
+        cwd=PACKAGE.parent,
+        env=os.environ | dict.fromkeys(BLAS, "1"),
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE if answers else null,
+        stderr=null,
+        creationflags=flags,
     )
     if hasattr(os, "setpriority"):  # not on Windows
         with contextlib.suppress(OSError):

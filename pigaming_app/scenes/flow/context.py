@@ -1,6 +1,7 @@
 """The context shared by all scenes: settings, scores, texts, devices, sound and window."""
 
 import logging
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -17,6 +18,8 @@ from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.window import Canvas
+
+COMPILE_NETWORKS = (sys.executable, "-m", "pigaming_app.ai.ppo.lab.process", "compile")
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.session.robot_session import RobotSession
@@ -35,7 +38,8 @@ class Context:
     kiosk: bool = False
     idle: float = 0.0  # seconds since the last input
     session: "RobotSession | None" = None  # of real robots
-    compiler: Compiler = field(default_factory=Compiler)  # for training in the Lab
+    compiler: Compiler = field(default_factory=Compiler)  # for tables in the Lab
+    network_compiler: Compiler = field(default_factory=lambda: Compiler(COMPILE_NETWORKS))  # for networks in the Lab
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)
     highlights: Highlights = field(default_factory=Highlights)  # for attract mode
@@ -59,6 +63,11 @@ class Context:
     ) -> ButtonPrompts:
         """A page's row of button prompts, see `ButtonPrompts`."""
         return ButtonPrompts(self.words, self.controls, items, y, room, solid, device)
+
+    def start_compilers(self) -> None:
+        """Compile what the Lab needs, in the background. Raises OSError."""
+        self.compiler.start()
+        self.network_compiler.start()
 
     def hush(self) -> None:
         """Stop music and rumbling, for a page over a match."""

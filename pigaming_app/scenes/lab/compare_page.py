@@ -119,7 +119,7 @@ class ComparePage:
     def _play(self) -> None:
         first, second = self.pairs[0]
         if self.exam is None:
-            fast, arena = self.lab.trainer.fast, self.lab.trainer.training.arena
+            fast, arena = self.lab.trainer.fast, self.lab.trainer.arena
             self.exam = Evaluation(first.kind, second.kind, MATCHES[fast], SEED, MINUTES, arena, fast)
         self.exam.play(TICKS)
         if self.exam.over:

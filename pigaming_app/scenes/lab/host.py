@@ -4,7 +4,10 @@ from typing import Protocol
 
 import pygame
 
+from pigaming_app.ai.networks.files import TrainedNetwork
+from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.lab.network.trainer import NetworkTrainer
 from pigaming_app.scenes.lab.trainer import Trainer
 
 IDLE = 90.0  # s without input before the return to the Lab
@@ -15,8 +18,11 @@ class LabHost(Protocol):
     """The Lab below a page."""
 
     context: Context
-    trainer: Trainer
     name: str
+
+    @property
+    def trainer(self) -> Trainer | NetworkTrainer:
+        """The training that is shown."""
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the Lab."""
@@ -25,7 +31,10 @@ class LabHost(Protocol):
         """Show a message for a few seconds."""
 
     def begin(self) -> None:
-        """Restart from an empty table."""
+        """Start again with a robot that knows nothing."""
+
+    def open(self, robot: Trained | TrainedNetwork, name: str) -> None:
+        """Continue with a saved robot. Raises RobotFileError."""
 
 
 def dimmed_background(lab: LabHost) -> pygame.Surface:

@@ -4,7 +4,7 @@ import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
-from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, RobotFileError, names, proposal, save_robot
+from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, RobotFileError, names, proposal
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -126,7 +126,7 @@ class NamePage:
             return None
         words = self.context.words
         try:
-            self.lab.trainer.locked(lambda training: save_robot(training, name))
+            self.lab.trainer.save(name)
             self.lab.name = name
             self.lab.show_message(words("lab.saved", name=name))
         except RobotFileError as error:

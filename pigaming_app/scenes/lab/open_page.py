@@ -87,12 +87,11 @@ class OpenPage:
         return ([(Button.FIRE, "lab.hint_open")] if self.names else []) + more + [(Button.BACK, "lab.hint_lab")]
 
     def _open(self, name: str) -> StackOperation:
-        words, trainer = self.context.words, self.lab.trainer
+        words = self.context.words
         try:
-            training, other_engine = load_robot(name, trainer.fast)
-            trainer.replace_training(training)
-            self.lab.name = name
-            self.lab.show_message(words("lab.opened_other" if other_engine else "lab.opened", name=name))
+            robot = load_robot(name)
+            self.lab.open(robot, name)
+            self.lab.show_message(words("lab.opened_other" if robot.other_engine else "lab.opened", name=name))
         except RobotFileError as error:
             self.lab.show_message(words(str(error), name=name), wrong=True)
         return Pop()

@@ -2,12 +2,14 @@
 
 import errno
 import logging
+from collections.abc import Callable
 from pathlib import Path
 
-from pigaming_app.ai.experiments.training import Training, resumed
-from pigaming_app.ai.qlearning.table_files import TableError
-from pigaming_app.scenes.files import load_table, save_table
-from pigaming_app.sim.arena import ArenaError
+from pigaming_app.ai.brain.archive import BrainFileError
+from pigaming_app.ai.experiments.training import Training
+from pigaming_app.ai.networks.files import TrainedNetwork
+from pigaming_app.ai.qlearning.table_files import Trained
+from pigaming_app.scenes.files import is_network, load_network, load_table, save_network, save_table
 from pigaming_app.storage.settings import folders
 
 LENGTH = 6  # letters in a name
@@ -54,20 +56,29 @@ def proposal() -> str:
 
 
 def save_robot(training: Training, name: str) -> None:
-    """Save a robot under a name. Raises RobotFileError; an existing file is then left intact."""
+    """Save a robot with a table under a name. Raises RobotFileError; an existing file is then left intact."""
+    _save(lambda path: save_table(training.trained(name), path), name)
+
+
+def save_network_as(trained: TrainedNetwork, name: str) -> None:
+    """Save a robot with a network under a name. Raises RobotFileError; an existing file is then left intact."""
+    _save(lambda path: save_network(trained, path), name)
+
+
+def load_robot(name: str) -> Trained | TrainedNetwork:
+    """Load a robot. Raises RobotFileError."""
+    path = file_of(name)
     try:
-        save_table(training.trained(name), file_of(name))
+        return load_network(path) if is_network(path) else load_table(path)
+    except BrainFileError as error:
+        log.warning("%s", error)
+        raise RobotFileError("lab.broken") from error
+
+
+def _save(write: Callable[[Path], None], name: str) -> None:
+    try:
+        write(file_of(name))
     except OSError as error:
         log.warning("%s was not saved: %s", file_of(name), error)
         full = error.errno in (errno.ENOSPC, errno.EDQUOT)
         raise RobotFileError("lab.disk_full" if full else "lab.no_writing") from error
-
-
-def load_robot(name: str, fast: bool) -> tuple[Training, bool]:
-    """Load a robot. The flag is True if another engine version trained it. Raises RobotFileError."""
-    try:
-        trained = load_table(file_of(name))
-        return resumed(trained, fast), trained.other_engine
-    except (TableError, ArenaError) as error:
-        log.warning("%s", error)
-        raise RobotFileError("lab.broken") from error

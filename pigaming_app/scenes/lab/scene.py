@@ -1,22 +1,29 @@
 """The Lab scene. Any device controls it: directions move the focus, FIRE selects; a held knob is turned by directions.
 
-Training runs while the page is shown and pauses during a challenge match.
+The robot learns with a table or with a network; each of them trains while the page shows it, and pauses otherwise,
+as during a challenge match.
 """
 
 import math
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import pygame
 
+from pigaming_app.ai.networks.files import TrainedNetwork
+from pigaming_app.ai.ppo.lab.task import NetworkRecipe
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
+from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.scenes.lab.knob import LIMIT
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
 from pigaming_app.scenes.lab.learning_curve import EVEN
+from pigaming_app.scenes.lab.network.kind_switch import KINDS, NETWORK, TABLE, kind_at, kind_rect
+from pigaming_app.scenes.lab.network.trainer import NetworkProgress, NetworkTrainer
 from pigaming_app.scenes.lab.progress import Progress
+from pigaming_app.scenes.lab.saved_robots import RobotFileError
 from pigaming_app.scenes.lab.trainer import Trainer
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
 from pigaming_app.scenes.play.scene import new_seed
@@ -32,26 +39,28 @@ CONFIRM_SECONDS = 20.0  # s before the end of IDLE at which a confirmation promp
 MESSAGE_SECONDS = 4.0  # s, display time of a message
 COMPILE_NOTICE = 2.0  # s of compiling before a notice is shown
 MIN_SCALE = 2.0  # Q value that fills at least one petal
+AnyRecipe = TypeVar("AnyRecipe", Recipe, NetworkRecipe)
 TURNS = {Button.LEFT: -1, Button.DOWN: -1, Button.RIGHT: 1, Button.UP: 1}
 
 
 class Lab:
-    """A robot that learns from an empty table. `fast`: compiled; None: if numba is available."""
+    """Two robots that know nothing at first. `fast`: the table's kernels are compiled; None: if numba is available."""
 
     def __init__(self, context: Context, fast: bool | None = None) -> None:
         self.context = context
-        self.trainer = Trainer(FIRST, new_seed(), fast, context.compiler)
-        self.was_behind: Progress | None = None  # the training that has been behind the hand-made robot
-        self.celebrated: Progress | None = None  # the training whose overtaking was celebrated
-        self.name = ""  # under which it was saved or opened
+        self.table = Trainer(FIRST, new_seed(), fast, context.compiler)
+        self.network = NetworkTrainer(new_seed(), context.network_compiler)
+        self.kind = TABLE
+        self.names = dict.fromkeys(KINDS, "")  # under which each robot was saved or opened
+        self.was_behind: Progress | NetworkProgress | None = None  # the training behind the hand-made robot
+        self.celebrated: Progress | NetworkProgress | None = None  # the training whose overtaking was celebrated
         self.shown = LabState()
         self.page: LabPage | None = None
         self.seen = -1  # number of the last frame shown
         self.held = ""  # knob being adjusted
         self.age = self.message_left = self.compiling = 0.0
         self.sentence, self.wrong = "", False
-        self.focus = Focus([FocusSpot("speed", SPEED), FocusSpot("play", PLAY)]
-                           + [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)], "speed")  # fmt: skip
+        self.focus = Focus(self._spots(), "speed")
         self.prompts = context.prompts(
             [
                 (Button.FIRE, "lab.hint_choose"),
@@ -71,6 +80,7 @@ class Lab:
         self.context.sounds.music(True)
         if self.page and self.page.language != self.context.words.language:
             self.page = None
+            self.focus.set_spots(self._spots())
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Adjust the held knob, or select, play, change speed, open the menu, leave."""
@@ -103,10 +113,11 @@ class Lab:
         self.focus.update(seconds)
         self.trainer.feed(seconds)
         self.compiling = self.compiling + seconds if self.trainer.compiling else 0.0
+        if self.trainer.trouble:
+            self._report_trouble()
         self._follow(seconds)
         if self.context.idle > IDLE:
-            self.trainer.recipe, self.trainer.speed = FIRST, 0
-            self.begin()
+            self._reset()
             return self.leave(Home())
         return None
 
@@ -124,7 +135,7 @@ class Lab:
         if self.context.idle > IDLE - CONFIRM_SECONDS:
             caption(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
         elif self.compiling > COMPILE_NOTICE:
-            warming(words("lab.warming")).draw(screen)
+            warming(words("lab.warming" if self.kind == TABLE else "lab.preparing")).draw(screen)
 
     def on_leave(self) -> None:
         """Pause the training when the scene is removed."""
@@ -145,12 +156,44 @@ class Lab:
         driver = self.context.controls.last if device.kind == "mouse" else device
         robot = self.trainer.checkpoint(self.name or self.context.words("lab.robot"))
         self.trainer.close()
-        return Push(Challenge(self.context, robot.kind, driver, self.trainer.training.arena))
+        return Push(Challenge(self.context, robot.kind, driver, self.trainer.arena))
+
+    @property
+    def trainer(self) -> Trainer | NetworkTrainer:
+        """The training that is shown."""
+        return self.table if self.kind == TABLE else self.network
+
+    @property
+    def name(self) -> str:
+        """Name under which the robot was saved or opened, or ""."""
+        return self.names[self.kind]
+
+    @name.setter
+    def name(self, name: str) -> None:
+        self.names[self.kind] = name
 
     def begin(self) -> None:
-        """Restart from an empty table."""
+        """Start again with a robot that knows nothing."""
         self.trainer.begin(new_seed())
         self.name, self.seen = "", -1
+
+    def open(self, robot: Trained | TrainedNetwork, name: str) -> None:
+        """Continue with a saved robot, of whatever kind. Raises RobotFileError."""
+        if isinstance(robot, Trained):
+            self.table.open(robot)
+            self.show_kind(TABLE)
+        elif not self.network.available:
+            raise RobotFileError("lab.no_network")
+        else:
+            self.network.open(robot)
+            self.show_kind(NETWORK)
+        self.name = name
+
+    def show_kind(self, kind: str) -> None:
+        """Show the robot of this kind."""
+        if kind != self.kind:
+            self.trainer.close()
+            self.kind, self.page, self.held = kind, None, ""
 
     def leave(self, operation: StackOperation) -> StackOperation:
         """Pause the training and return `operation`."""
@@ -167,6 +210,9 @@ class Lab:
             at = event.at
             here = self.trainer.speed
             self._next_speed(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
+        elif chosen == "kind":
+            other = KINDS[1 - KINDS.index(self.kind)]
+            self._change_kind(kind_at(event.at[0], self.context.words) if event.at else other)
         elif chosen and event.at:
             self._set(chosen, self._value(chosen) + (1 if event.at[0] > self.focus.rect(chosen).centerx else -1))
         elif chosen:
@@ -187,6 +233,33 @@ class Lab:
         self.trainer.speed = speed
         self.context.sounds.play("move")
 
+    def _change_kind(self, kind: str) -> None:
+        """Change to the other kind, if it can learn here, and explain it in one sentence."""
+        if kind == NETWORK and not self.network.available:
+            self.show_message(self.context.words("lab.no_network"), wrong=True)
+        elif kind != self.kind:
+            self.show_kind(kind)
+            self.show_message(self.context.words(f"lab.{kind}_how"))
+
+    def _report_trouble(self) -> None:
+        """Show what has happened to the process of the network; without it, only the table is left."""
+        self.show_message(self.context.words(self.trainer.trouble), wrong=True)
+        self.trainer.trouble = ""
+        if not self.trainer.available:
+            self.show_kind(TABLE)
+
+    def _reset(self) -> None:
+        """Prepare the page for the next visitors."""
+        for trainer in (self.table, self.network):
+            trainer.reset(new_seed())
+        self.show_kind(TABLE)
+        self.names, self.seen = dict.fromkeys(KINDS, ""), -1
+
+    def _spots(self) -> list[FocusSpot]:
+        knobs = [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)]
+        kind = FocusSpot("kind", kind_rect(self.context.words))
+        return [kind, FocusSpot("speed", SPEED), FocusSpot("play", PLAY), *knobs]
+
     def _menu(self) -> StackOperation:
         from pigaming_app.scenes.lab.menu import LabMenu
 
@@ -200,7 +273,11 @@ class Lab:
         """Set a knob, clamped to its range."""
         value = max(-LIMIT, min(LIMIT, value))
         if value != self._value(knob):
-            self.trainer.recipe = turned(self.trainer.recipe, knob, value)
+            trainer = self.trainer
+            if isinstance(trainer, Trainer):
+                trainer.recipe = turned(trainer.recipe, knob, value)
+            else:
+                trainer.recipe = turned(trainer.recipe, knob, value)
             self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
@@ -213,6 +290,7 @@ class Lab:
             self.page.update(seconds)
         now.matches, now.knowing, now.measures = moment.matches, moment.knowing, trainer.progress.measures
         self._celebrate(trainer.progress)
+        now.kind, now.networks = self.kind, self.network.available
         now.speed, now.focus, now.held = trainer.speed, self.focus.name, self.held
         now.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = trainer.progress.plan
@@ -220,7 +298,7 @@ class Lab:
         now.levels = [level(entry.value / scale) if entry else 0 for entry in plan]
         now.signs = [entry.action if entry else SIGNS[-1] for entry in plan]
 
-    def _celebrate(self, progress: Progress) -> None:
+    def _celebrate(self, progress: Progress | NetworkProgress) -> None:
         """Celebrate once per training that it overtook the hand-made robot."""
         share = self.page.curve.share if self.page else None
         if share is not None and share < EVEN:
@@ -236,7 +314,7 @@ def level(share: float) -> int:
     return round(math.copysign(LEVELS * math.sqrt(abs(share)), share))
 
 
-def turned(recipe: Recipe, knob: str, value: int) -> Recipe:
+def turned(recipe: AnyRecipe, knob: str, value: int) -> AnyRecipe:
     """A recipe with one reward changed."""
     reward: dict[str, Any] = {knob: float(value)}
     return replace(recipe, **reward)

@@ -1,4 +1,4 @@
-"""Background training for the Lab; it never delays a frame.
+"""Background training of a table for the Lab; it never delays a frame.
 
 With numba it runs in its own thread, which releases the GIL. Without numba, or while numba compiles (in another
 process), the page grants it a few milliseconds per frame. The thread ends shortly after the last `feed`, even after
@@ -9,14 +9,16 @@ import gc
 import logging
 import sys
 import threading
-from collections.abc import Callable
 from time import monotonic, perf_counter, sleep
 
 from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.ai.experiments.evaluation import compile_all
-from pigaming_app.ai.experiments.training import Checkpoint, Training
+from pigaming_app.ai.experiments.training import Checkpoint, Training, resumed
 from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.lab.progress import Progress, TrainingState
+from pigaming_app.scenes.lab.saved_robots import RobotFileError, save_robot
+from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui import memory as heap
@@ -36,9 +38,12 @@ log = logging.getLogger("pigaming")
 class Trainer:
     """Runs one training. `recipe` and `speed` may be set at any time; `snapshot` is the published state."""
 
+    available, trouble = True, ""  # tables are learned on every machine
+
     def __init__(self, recipe: Recipe, seed: int, fast: bool | None = None, compiler: Compiler | None = None) -> None:
         """`fast`: compiled as soon as `compiler` is done; None: if numba is available."""
         self._compiler = compiler or Compiler()
+        self._first = recipe
         self.recipe, self.speed = recipe, 0
         self.may_compile = can_compile() if fast is None else fast
         self.training = Training(recipe, seed, fast=False)
@@ -58,6 +63,10 @@ class Trainer:
     @property
     def fast(self) -> bool:
         return self.training.fast
+
+    @property
+    def arena(self) -> str:
+        return self.training.arena
 
     def feed(self, seconds: float) -> None:
         """Called every frame, `seconds` after the last call: keep the training running."""
@@ -92,18 +101,28 @@ class Trainer:
         with self._lock:
             return dict(self.progress.checkpoints)
 
-    def locked(self, work: Callable[[Training], None]) -> None:
-        """Run `work` on the training under the lock. Exceptions of `work` propagate."""
-        with self._lock:
-            work(self.training)
-
     def begin(self, seed: int) -> None:
         """Restart from an empty table."""
         with self._lock:
             self._train(Training(self.recipe, seed, fast=self.training.fast))
 
-    def replace_training(self, training: Training) -> None:
-        """Continue with another training."""
+    def reset(self, seed: int) -> None:
+        """Start again as for the first visitor."""
+        self.recipe, self.speed = self._first, 0
+        self.begin(seed)
+
+    def save(self, name: str) -> None:
+        """Save the robot. Raises RobotFileError."""
+        with self._lock:
+            save_robot(self.training, name)
+
+    def open(self, trained: Trained) -> None:
+        """Continue with a saved table. Raises RobotFileError."""
+        try:
+            training = resumed(trained, self.fast)
+        except ArenaError as error:
+            log.warning("%s", error)
+            raise RobotFileError("lab.broken") from error
         with self._lock:
             self.recipe = training.recipe
             self._train(training)

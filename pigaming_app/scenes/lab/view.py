@@ -30,6 +30,7 @@ from pigaming_app.scenes.lab.layout import (
     knob_rect,
 )
 from pigaming_app.scenes.lab.learning_curve import LearningCurve, Measure
+from pigaming_app.scenes.lab.network.kind_switch import TABLE, kind_rect, kind_switch
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.ui.draw import (
     BLUE,
@@ -79,6 +80,8 @@ class LabState:
     signs: Sequence[str] = ("unknown",) * PETALS
     knowing: float = 0.0  # 0: only explores, 1: only exploits
     values: Mapping[str, int] = field(default_factory=dict)  # knob values
+    kind: str = TABLE
+    networks: bool = True  # networks can learn here
     speed: int = 0  # index into SPEEDS
     focus: str = ""
     held: str = ""  # knob being adjusted
@@ -115,6 +118,8 @@ class LabPage:
             held = name == now.held
             dial(now.values.get(name, 0), held).draw(screen, box.centerx, KNOB_Y)
             knob_name(self.words(f"lab.{name}"), name == now.focus).draw(screen, box.centerx, KNOB_Y)
+        box = kind_rect(self.words)
+        kind_switch(self.language, now.kind, now.networks).draw(screen, *box.topleft)
         speed(self.words("lab.max"), now.speed).draw(screen, *SPEED.topleft)
 
     # ---- inside
@@ -136,12 +141,10 @@ class LabPage:
 def ground(language: str) -> Steps[pygame.Surface]:
     """The static background."""
     words, canvas = Words(language), LayeredCanvas()
-    out = black_out(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, SPEED, PLAY)
+    out = black_out(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, kind_rect(words), SPEED, PLAY)
     yield
     title = words("lab.title")
-    canvas.text(title, TITLE, LEFT, TITLE_Y, ICE)
-    yield
-    _subtitle(canvas, words("lab.saying"), LEFT + text_width(title, TITLE) + 44)
+    canvas.text(title, fit_size(title, TITLE, kind_rect(words).left - LEFT - 28), LEFT, TITLE_Y, ICE)
     yield
     canvas.glow.line(outline(MATCH, 20), WALL, THIN, True)
     yield
@@ -168,14 +171,6 @@ def ground(language: str) -> Steps[pygame.Surface]:
 
 def _caption(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
     canvas.body(name, box.left + 32, box.top + 40, ICE, "l", fit_size(name, BODY + 4, box.w - 64, "body"))
-
-
-def _subtitle(canvas: LayeredCanvas, label: str, x: float) -> None:
-    """Subtitle in two lines beside the title, if it fits."""
-    lines = wrap_balanced(label, 2)
-    if all(text_width(line, BODY, "body") <= MATCH.right - x for line in lines):
-        for i, line in enumerate(lines):
-            canvas.body(line, x, TITLE_Y + 24 * (2 * i + 1 - len(lines)), MIST)
 
 
 def _legend(canvas: LayeredCanvas, words: Words) -> None:

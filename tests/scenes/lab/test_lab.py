@@ -49,14 +49,14 @@ def lab(arcade: Arcade) -> Lab:
 
 def learn(arcade: Arcade, matches: int) -> None:
     """Train for some matches at full speed."""
-    training = lab(arcade).trainer.training
+    training = lab(arcade).table.training
     arcade.until(lambda: training.matches >= matches, 600.0)
 
 
 def at_full_speed(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     """Full speed, with half a second per frame for interpreted training."""
     monkeypatch.setattr(trainer, "SLICE", 0.5)
-    lab(arcade).trainer.speed = trainer.FASTEST
+    lab(arcade).table.speed = trainer.FASTEST
 
 
 def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcade: Arcade) -> None:
@@ -69,8 +69,8 @@ def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcad
         assert lab(arcade) is title.lab
         arcade.wait(0.5)
         arcade.press(Button.BACK)
-    assert lab_of(arcade).trainer.training.match.tick > 0
-    assert lab_of(arcade).trainer.join()
+    assert lab_of(arcade).table.training.match.tick > 0
+    assert lab_of(arcade).table.join()
 
 
 def lab_of(arcade: Arcade) -> Lab:
@@ -81,8 +81,8 @@ def lab_of(arcade: Arcade) -> Lab:
 
 def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, home: Path) -> None:
     fresh = Lab(Arcade(controls).context, fast=False)
-    assert fresh.trainer.training.experiences == 0
-    assert fresh.trainer.snapshot.knowing == 0.0
+    assert fresh.table.training.experiences == 0
+    assert fresh.table.snapshot.knowing == 0.0
     fresh.on_enter()
     fresh.update(0.0)
     assert list(fresh.shown.signs) == ["unknown"] * PETALS
@@ -90,7 +90,7 @@ def test_it_begins_with_an_empty_table_and_knows_nothing(controls: Controls, hom
 
 
 def test_while_it_is_watched_it_plays_in_real_time_and_ten_times_as_fast(arcade: Arcade) -> None:
-    match = lab(arcade).trainer.training.match
+    match = lab(arcade).table.training.match
     before = match.tick
     arcade.wait(1.0)
     assert match.tick - before == pytest.approx(50, abs=2)
@@ -106,18 +106,18 @@ def test_as_fast_as_it_can_it_learns_is_examined_and_has_a_plan(
 ) -> None:
     at_full_speed(arcade, monkeypatch)
     learn(arcade, 2)
-    arcade.until(lambda: len(lab(arcade).trainer.progress.measures) >= 2, 600.0)
+    arcade.until(lambda: len(lab(arcade).table.progress.measures) >= 2, 600.0)
     arcade.wait(1.0)
     shown = lab(arcade).shown
     assert all(0.0 <= measure.share <= 1.0 for measure in shown.measures)
     assert [measure.matches for measure in shown.measures] == sorted(measure.matches for measure in shown.measures)
     assert shown.knowing > 0.0
     assert any(shown.levels)
-    assert sum(direction.seen for direction in lab(arcade).trainer.progress.plan if direction) > 1000
+    assert sum(direction.seen for direction in lab(arcade).table.progress.plan if direction) > 1000
 
 
 def test_painting_changes_nothing_of_what_is_learned(arcade: Arcade) -> None:
-    table, match = lab(arcade).trainer.training.table, lab(arcade).trainer.training.match
+    table, match = lab(arcade).table.training.table, lab(arcade).table.training.match
     before = digest(table), digest(match)
     for _ in range(5):
         lab(arcade)
@@ -131,15 +131,15 @@ def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
     for _ in range(3):
         arcade.press(Button.LEFT)
     arcade.press(Button.UP)
-    assert here.trainer.recipe.still == -2.0
+    assert here.table.recipe.still == -2.0
     assert lab(arcade).held == "still"
     arcade.press(Button.BACK)
     assert lab(arcade).held == "", "BACK releases the knob without leaving"
     arcade.press(Button.LEFT)
-    assert here.trainer.recipe.still == -2.0
+    assert here.table.recipe.still == -2.0
     arcade.frame()
-    assert here.trainer.training.recipe.still == -2.0
-    assert here.trainer.training.table.knobs.still == -2.0
+    assert here.table.training.recipe.still == -2.0
+    assert here.table.training.table.knobs.still == -2.0
 
 
 def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
@@ -155,23 +155,23 @@ def test_a_knob_stops_at_its_ends(arcade: Arcade, button: Button, end: float) ->
     arcade.press(Button.FIRE)
     for _ in range(25):
         arcade.press(button)
-    assert lab(arcade).trainer.recipe.miss == end
+    assert lab(arcade).table.recipe.miss == end
 
 
 def test_what_it_has_learned_stays_when_a_knob_is_turned(arcade: Arcade) -> None:
-    before = lab(arcade).trainer.training.experiences
-    lab(arcade).trainer.recipe = RECIPES[2]
+    before = lab(arcade).table.training.experiences
+    lab(arcade).table.recipe = RECIPES[2]
     arcade.wait(0.5)
-    assert lab(arcade).trainer.training.experiences > before > 0
+    assert lab(arcade).table.training.experiences > before > 0
 
 
 def test_a_pad_reaches_everything(arcade: Arcade) -> None:
     here = lab(arcade)
     visited = {here.focus.name}
-    for button in (Button.DOWN, *[Button.LEFT] * 3, Button.UP, Button.RIGHT):
+    for button in (Button.DOWN, *[Button.LEFT] * 3, Button.UP, *[Button.RIGHT] * 2):
         arcade.press(button)
         visited.add(here.focus.name)
-    assert visited == {"speed", "play", *KNOB_NAMES}
+    assert visited == {"kind", "speed", "play", *KNOB_NAMES}
 
 
 def test_a_mouse_chooses_a_speed_and_turns_a_knob(arcade: Arcade) -> None:
@@ -184,13 +184,13 @@ def test_a_mouse_chooses_a_speed_and_turns_a_knob(arcade: Arcade) -> None:
     arcade.click(knob.left + 20, knob.centery)
     arcade.click(knob.left + 20, knob.centery)
     arcade.click(knob.right - 20, knob.centery)
-    assert here.trainer.recipe.hit == 9.0
+    assert here.table.recipe.hit == 9.0
 
 
 def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     here = lab(arcade)
     here.name = "ZUMI"
-    experiences = here.trainer.training.experiences
+    experiences = here.table.training.experiences
     arcade.press(Button.X, KEYS[1])
     fight = arcade.shown(Challenge)
     assert fight.inner.devices[0] == KEYS[1]
@@ -203,14 +203,14 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
         fight.inner.match.tick()
     arcade.wait(3.0)
     arcade.shown(ChallengeResult)
-    assert here.trainer.training.experiences == experiences, "training is paused"
-    assert here.trainer.join()
+    assert here.table.training.experiences == experiences, "training is paused"
+    assert here.table.join()
     for kind, seconds in ((pygame.KEYDOWN, 0.2), (pygame.KEYUP, 5.0), (pygame.KEYDOWN, 0.8), (pygame.KEYUP, 0.1)):
         pygame.event.post(pygame.Event(kind, key=0, scancode=pygame.KSCAN_ESCAPE, mod=0))
         arcade.wait(seconds)
     assert lab(arcade) is here
     arcade.wait(0.5)
-    assert here.trainer.training.experiences > experiences
+    assert here.table.training.experiences > experiences
 
 
 def test_one_can_look_into_the_brain_that_one_plays_against(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -258,9 +258,9 @@ def test_forgetting_everything_takes_two_presses(arcade: Arcade) -> None:
     arcade.shown(LabMenu).focus.move_to("anew")
     arcade.press(Button.FIRE)
     arcade.shown(LabMenu)
-    assert here.trainer.training.experiences > 0
+    assert here.table.training.experiences > 0
     arcade.press(Button.FIRE)
-    assert here.trainer.training.experiences == 0
+    assert here.table.training.experiences == 0
     assert lab(arcade) is here
 
 
@@ -286,27 +286,27 @@ def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monk
 
 
 def test_what_it_knew_is_kept_at_the_start(arcade: Arcade) -> None:
-    checkpoints = lab(arcade).trainer.checkpoints()
+    checkpoints = lab(arcade).table.checkpoints()
     assert set(checkpoints) == {0}
     assert (checkpoints[0].matches, checkpoints[0].experiences) == (0, 0)
 
 
 def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade: Arcade) -> None:
     here = lab(arcade)
-    here.trainer.recipe = RECIPES[2]
+    here.table.recipe = RECIPES[2]
     arcade.context.idle = scene.IDLE + 1.0
     arcade.frame()
     assert arcade.stack.top is arcade.title
-    assert here.trainer.training.experiences == 0
-    assert here.trainer.recipe == scene.FIRST
-    assert here.trainer.join()
+    assert here.table.training.experiences == 0
+    assert here.table.recipe == scene.FIRST
+    assert here.table.join()
 
 
 def test_the_moment_in_which_it_beats_the_hand_made_robot_is_cheered_once(arcade: Arcade) -> None:
     here = lab(arcade)
     for share in (1.0, 0.0, 0.2, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0):
-        measures = here.trainer.progress.measures
-        here.trainer.progress.measures = [*measures, Measure(len(measures), share)]
+        measures = here.table.progress.measures
+        here.table.progress.measures = [*measures, Measure(len(measures), share)]
         lab(arcade)
         arcade.frame()
     assert arcade.sounds.heard.count("win") == 1

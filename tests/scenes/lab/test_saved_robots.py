@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.lab import saved_robots as robots
 from pigaming_app.scenes.lab.menu import LabMenu
 from pigaming_app.scenes.lab.name_page import NamePage, middle
@@ -74,16 +75,17 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
     assert here.name == "B9"
     assert here.sentence == arcade.context.words("lab.saved", name="B9")
     assert robots.names() == ["B9"]
-    saved, _ = robots.load_robot("B9", fast=False)
-    assert saved.experiences > 0
+    saved = robots.load_robot("B9")
+    assert isinstance(saved, Trained)
+    assert saved.rows["experiences"][0] > 0
     here.begin()
     menu(arcade, "open")
     arcade.shown(OpenPage)
     arcade.press(Button.FIRE)
     assert lab(arcade) is here
-    assert (here.name, here.trainer.training.experiences) == ("B9", saved.experiences)
-    assert digest(here.trainer.training.table) == digest(saved.table)
-    assert here.trainer.recipe == saved.recipe
+    assert (here.name, here.table.training.experiences) == ("B9", saved.rows["experiences"][0])
+    assert digest(here.table.training.table) == digest(saved.rows[0])
+    assert here.table.recipe == saved.recipe
 
 
 def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> None:
@@ -139,11 +141,11 @@ def test_a_full_disk_is_one_sentence_and_the_training_goes_on(
 
     arcade.context.words.switch(language)
     monkeypatch.setattr("pigaming_app.scenes.lab.saved_robots.save_table", fail)
-    experiences = lab(arcade).trainer.training.experiences
+    experiences = lab(arcade).table.training.experiences
     save(arcade, "ROBI")
     here = lab(arcade)
     assert (here.wrong, here.sentence) == (True, arcade.context.words(key))
-    assert here.trainer.training.experiences >= experiences > 0
+    assert here.table.training.experiences >= experiences > 0
     assert here.name == ""
 
 
@@ -159,12 +161,12 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     save(arcade, "PIXI")
     path = robots.file_of("PIXI")
     path.write_bytes(path.read_bytes()[:200])
-    before = lab(arcade).trainer.training
+    before = lab(arcade).table.training
     menu(arcade, "open")
     arcade.press(Button.FIRE)
     here = lab(arcade)
     assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.broken"))
-    assert here.trainer.training is before
+    assert here.table.training is before
 
 
 @pytest.mark.parametrize("language", ["en", "pt"])
@@ -176,7 +178,7 @@ def test_a_robot_of_an_older_version_is_opened_and_that_is_said(arcade: Arcade, 
     arcade.press(Button.FIRE)
     here = lab(arcade)
     assert (here.wrong, here.sentence) == (False, arcade.context.words("lab.opened_other", name="ROBI"))
-    assert here.trainer.training.matches >= 2
+    assert here.table.training.matches >= 2
 
 
 def test_an_empty_shelf_leads_back(arcade: Arcade) -> None:

@@ -1,0 +1,1 @@
+"""The network that learns in the Lab, in a process of its own."""
