@@ -81,7 +81,7 @@ class Lesson:
         experiences = self._play(policy, pool, decisions)
         for experience in experiences:
             inputs = experience.inputs[:-1][experience.valid]
-            values = self.training.learner.value.forward(inputs)[:, 0]
+            values = self.training.learner.value.forward(inputs)[0][0]
             self.habits.add(inputs, experience.choices[experience.valid], values)
         return experiences
 
