@@ -26,18 +26,20 @@ MAY = {
     "jobs": {"boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
     "cli": {"jobs"},
 }
-MODULES, FLOORS = 15, 7  # at most: in a folder, between the rooms
+MODULES, FLOORS = 15, 8  # at most: in a folder, between the rooms (gym lies between scenes and jobs)
 ONLY_IN = {
     "pygame": {"ui", "scenes"},
     "cv2": {"hardware"},
     "serial": {"hardware"},
     "onnxruntime": {"ai"},
+    "ray": {"ai"},
+    "pymunk": {"jobs"},
     "gymnasium": {"gym"},
     "pettingzoo": {"gym"},
     "torch": set(),
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
-DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo"}
+DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray"}
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 

@@ -15,6 +15,7 @@ from pigaming_app.ai.brain_files import is_path, read_brain
 from pigaming_app.ai.factory import foreman, foreman_thoughts
 from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner, gunner_thoughts
 from pigaming_app.ai.qlearning import table_files
+from pigaming_app.ai.race import levels as race_levels
 from pigaming_app.ai.race import racer, racer_thoughts
 from pigaming_app.ai.race.steering_help import with_help
 from pigaming_app.games.game import Setup
@@ -48,17 +49,18 @@ KINDS: dict[str, dict[str, BrainKind]] = {
         "hand1": replace(racer.HAND1, explain=racer_thoughts.explain),
         "hand2": replace(racer.HAND2, explain=racer_thoughts.explain),
         "hand3": replace(racer.HAND3, explain=racer_thoughts.explain),
+        **{kind.name: kind for kind in race_levels.LEVELS},
     },
 }
 
-LEVELS = {"level1": "hand1", "level2": "hand1", "level3": "hand2", "level4": "hand2", "level5": "hand3"}
+LEVELS = {"level1": "hand1", "level2": "hand1", "level3": "hand2", "level4": "hand2", "level5": "hand3"}  # without own
 NAMED_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}
 STRENGTHS = tuple(NAMED_LEVELS)
 BRAINS = {
     game: {
         **kinds,
-        **{level: kinds[name] for level, name in LEVELS.items()},
-        **{name: kinds[LEVELS[level]] for name, level in NAMED_LEVELS.items()},
+        **{level: kinds.get(level, kinds[name]) for level, name in LEVELS.items()},
+        **{name: kinds.get(level, kinds[LEVELS[level]]) for name, level in NAMED_LEVELS.items()},
     }
     for game, kinds in KINDS.items()
 }  # by game; brains answer to their own names and to those of their levels

@@ -1,8 +1,8 @@
-"""Batches of matches for external policies: one call steps all matches by one tick, compiled.
+"""Batches of matches for external policies: one call steps all matches, compiled.
 
 rows = matches([setup_1, setup_2, ...])
 while not rows["over"].all():
-    step_all(rows, policy(rows))
+    step_all(rows, policy(rows), ticks=5)
 """
 
 from collections.abc import Callable, Sequence
@@ -35,38 +35,42 @@ def matches(setups: Sequence[Setup]) -> Any:
     return packed(initial_states(setups))
 
 
-def step_all(matches: Any, actions: Any) -> None:
-    """Advance every match by one tick: `matches` from `matches()`, `actions` a float array (n, 4, 4).
+def step_all(matches: Any, actions: Any, ticks: int = 1) -> None:
+    """Advance every match by `ticks` ticks: `matches` from `matches()`, `actions` a float array (n, 4, 4).
 
-    The last axis is linear and angular in [-1, 1], fire and turbo as 0 or 1. A list of plain records, with nested lists
-    of actions, also works, uncompiled. Raises ImportError without numba, TypeError for records of no game.
+    The last axis is linear and angular in [-1, 1], fire and turbo as 0 or 1; all ticks have the same actions. The
+    result is that of `ticks` calls, but a large batch is faster, since each match stays in the processor's cache.
+
+    A list of plain records, with nested lists of actions, also works, uncompiled. Raises ImportError without numba,
+    TypeError for records of no game.
     """
     if not len(matches):
         return
     for name, game in games().items():
         if isinstance(matches, list):
             if isinstance(matches[0], game.state):
-                return make_step_all(game.judge)(matches, actions)
+                return make_step_all(game.judge)(matches, actions, ticks)
         elif matches.dtype is dtype(game.state) or matches.dtype == dtype(game.state):
-            return _compiled_step(name)(matches, actions)
+            return _compiled_step(name)(matches, actions, ticks)
     raise TypeError("these are not matches of any game")
 
 
-def make_step_all(judge: Callable[[Any], None]) -> Callable[[Any, Any], None]:
+def make_step_all(judge: Callable[[Any], None]) -> Callable[[Any, Any, int], None]:
     """The loop over matches, plain or to be compiled."""
 
-    def step(matches: Any, actions: Any) -> None:
+    def step(matches: Any, actions: Any, ticks: int) -> None:
         for i in range(len(matches)):
             match = matches[i]
             for seat in range(ROBOTS):
                 action = actions[i][seat]
                 set_action(match.actions[seat], action[0], action[1], int(action[2] > 0.5), int(action[3] > 0.5))
-            judge(match)
-            drive(match)
+            for _ in range(ticks):
+                judge(match)
+                drive(match)
 
     return step
 
 
 @cache
-def _compiled_step(game: str) -> Callable[[Any, Any], None]:
+def _compiled_step(game: str) -> Callable[[Any, Any, int], None]:
     return compiled(make_step_all(games()[game].judge))

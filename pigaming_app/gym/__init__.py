@@ -11,18 +11,27 @@ Environments: PiTanks-v0, RobotRace-v0, RobotFactory-v0; games of `parallel_env`
 is the game's `Encoding` (see ai/networks) in [-1, 1]; an action is a choice for each of its heads. Options:
 
 - agents: seats of learners in a match, the first ones; 1 by default, in `parallel_env` 2. `make` has one.
-- opponents: names of brains for the seats after them, mates included; ("level3",) by default if there is one agent.
+- opponents: brains on the seats after them, mates included, by name or by the path of a file; ("level3",) by default
+  if there is one agent.
 - arena: a name, the path of a .toml file, several of them, or "all"; the game's first by default.
 - variant, minutes, goal, teams: as in the lobby, with its defaults. `teams` has a number for each of the four seats.
 - ticks: of 1/50 s between decisions; 5 by default, as networks play.
 - continuous: actions are linear and angular stick in [-1, 1], then fire and turbo, on above 0.5.
-- rewards: weights of the game's tallies by name (see rewards.py); a tally's change since the last decision counts.
+- rewards: weights of the game's tallies by name (see rewards.py); a tally's change since the last decision counts. By
+  default PiTanks has hits 1, taken -1, win 5; Robot Race progress 10 (a lap), win 5; Robot Factory steps 1,
+  delivered 2, spoiled -1, bumps -0.5, win 5. A win is 1, a defeat -1, at the end; the last `info` has all tallies.
 - starts: number of different matches that are played; 128 by default.
 - compiled: False to run as plain Python. By default compiled if numba is installed; both give the same bits.
 - max_episode_steps: decisions after which an episode is truncated.
 - render_mode: "rgb_array" draws with the game's own pictures, 1920 x 1080.
+
+An episode is a match. It is terminated when the match is over, and in the race also when all its agents have finished.
+The clock belongs to the rules and is observed, so the end of the time terminates as well; only max_episode_steps
+truncates. Vector environments start the next match at the next step (AutoresetMode.NEXT_STEP). `reset(seed=...)`
+determines all matches from then on; each is one that `main.py play --seed` plays too, with a seed below `starts`.
 """
 
+from itertools import accumulate
 from typing import Any
 
 try:
@@ -33,10 +42,11 @@ except ImportError as error:
         f"pigaming_app.gym needs {error.name}: pip install 'pigaming-app[gym]'", name=error.name
     ) from None
 
+from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.gym.options import OptionError
 from pigaming_app.gym.parallel import MatchEnv
 
-__all__ = ["ENVIRONMENTS", "OptionError", "parallel_env"]
+__all__ = ["ENVIRONMENTS", "OptionError", "groups", "parallel_env"]
 
 ENVIRONMENTS = {"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v0": "factory"}  # names of the games
 
@@ -44,6 +54,14 @@ ENVIRONMENTS = {"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v
 def parallel_env(game: str, **options: Any) -> MatchEnv:
     """A match as a PettingZoo ParallelEnv. Raises OptionError."""
     return MatchEnv(game, **options)
+
+
+def groups(game: str) -> dict[str, slice]:
+    """The parts of a game's observation by name. Raises OptionError."""
+    if game not in ENCODINGS:
+        raise OptionError(f"no game '{game}'; there are {', '.join(ENCODINGS)}")
+    ends = accumulate(length for _, length in ENCODINGS[game].groups)
+    return {name: slice(end - length, end) for (name, length), end in zip(ENCODINGS[game].groups, ends, strict=True)}
 
 
 for _name, _game in ENVIRONMENTS.items():

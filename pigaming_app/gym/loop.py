@@ -15,7 +15,6 @@ from pigaming_app.gym.rewards import TALLIES, Tallies
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled, kernel
-from pigaming_app.sim.world import ROBOTS
 
 Loop = Callable[..., None]
 SCALE = 1.0 / UNIT
@@ -31,9 +30,9 @@ def make_loop(judge: Any, think: Think, act: Any, encoding: Encoding, tallies: T
     """The loop over matches of a game.
 
     Of each match (n) and learner (a): `actions` (n, a, choices), `senses` (n, a), `observations` (n, a, inputs),
-    `totals` (n, a, tallies), `rewards` (n, a). `minds` (n, 4) and `weights` are those of the cast, `worth` (tallies)
-    the weights of the reward. Learners sit on the first seats. A match that is `fresh` (n) is only observed. `over` (n)
-    receives 1 if the match is over, or nothing more is at stake for its learners.
+    `totals` (n, a, tallies), `rewards` (n, a). `minds` (n, opponents) and `weights` are those of the cast, `worth`
+    (tallies) the weights of the reward. Learners sit on the first seats, opponents on those after them. A match that is
+    `fresh` (n) is only observed. `over` (n) receives 1 if the match is over, or nothing is at stake for learners.
     """
     encode, size = encoding.encode, encoding.size
     tally, is_done, count = tallies.tally, tallies.is_done, len(tallies.names)
@@ -61,8 +60,8 @@ def make_loop(judge: Any, think: Think, act: Any, encoding: Encoding, tallies: T
                 for _ in range(ticks):
                     if match.over:
                         break
-                    for seat in range(learners, ROBOTS):
-                        think(match, seat, seated[seat], weights)
+                    for k in range(len(seated)):
+                        think(match, learners + k, seated[k], weights)
                     judge(match)
                     drive(match)
             done = 1

@@ -33,14 +33,14 @@ class Matches:
         self.start_of = np.zeros(count, np.int64)  # number of the match that each plays
         self.episodes = np.zeros(count, np.int64)  # that each has begun
         self._streams = np.zeros(count, np.uint64)
-        self._pool: dict[int, Any] = {}  # prepared matches: state, and minds of the four seats
+        self._pool: dict[int, Any] = {}  # prepared matches: state, and minds of the opponents
         shape = (count, task.learners)
         self.fresh = np.ones(count, np.bool_)
         self.totals = np.zeros((*shape, len(TALLIES[task.game].names)))
         self._worth = np.array(task.weights)
         if task.fast:
             self.states: Any = np.zeros(count, dtype(games()[task.game].state))
-            self.minds: Any = np.zeros((count, ROBOTS), dtype(self.cast.mind))
+            self.minds: Any = np.zeros((count, len(task.opponents)), dtype(self.cast.mind))
             self.senses: Any = np.zeros(shape, dtype(self.encoding.senses))
         else:
             self.states, self.minds = [None] * count, [None] * count
@@ -60,7 +60,7 @@ class Matches:
         for i, start in zip(chosen.tolist(), self.start_of[chosen].tolist(), strict=True):
             state, minds = self._prepared(start)
             if self.task.fast:
-                self.states[i], self.minds[i] = state, minds
+                raw(self.states)[i], raw(self.minds)[i] = state, minds
             else:
                 self.states[i], self.minds[i] = copy(state), [copy(mind) for mind in minds]
                 self.senses[i] = [self.encoding.senses() for _ in range(self.task.learners)]
@@ -117,13 +117,20 @@ class Matches:
         if start not in self._pool:
             setup = self.task.setup_of(start)
             (state,) = initial_states([setup])
-            minds = [self.cast.mind() for _ in range(ROBOTS)]
-            for mind in minds:
-                mind.family = -1  # nobody: learners, and empty seats
-            for seat, kind in enumerate(self.task.opponents, self.task.learners):
-                minds[seat] = self.cast.mind_of(kind, setup.seed * ROBOTS + seat)
-            self._pool[start] = (packed([state])[0], packed(minds)) if self.task.fast else (state, minds)
+            minds: Any = [
+                self.cast.mind_of(kind, setup.seed * ROBOTS + seat)
+                for seat, kind in enumerate(self.task.opponents, self.task.learners)
+            ]
+            if self.task.fast:
+                state = raw(packed([state]))[0]
+                minds = raw(packed(minds) if minds else np.zeros(0, self.minds.dtype))
+            self._pool[start] = state, minds
         return self._pool[start]
+
+
+def raw(rows: Any) -> Any:
+    """A view of NumPy records as bytes, which are copied at once instead of field by field."""
+    return rows.view(f"V{rows.dtype.itemsize}")
 
 
 def action_shape(task: Task) -> tuple[int]:

@@ -2,17 +2,17 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import ALLIES, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import make_setup
+from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.gym.rewards import TALLIES
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
@@ -20,6 +20,7 @@ from pigaming_app.sim.world import HZ, ROBOTS
 
 OPPONENT = "level3"  # unless others are named
 STARTS = 128  # different matches that an environment plays, unless another number is named
+INSTALL = "pip install 'pigaming-app[train]'"
 LEARNER = "human"  # in a setup: a seat without a brain
 
 
@@ -59,7 +60,7 @@ def task_of(
     game: str,
     learners: int,
     *,
-    opponents: Sequence[str] | None = None,
+    opponents: str | Sequence[str] | None = None,
     arena: str | Sequence[str] | None = None,
     variant: str | None = None,
     minutes: float | None = None,
@@ -70,44 +71,49 @@ def task_of(
     rewards: Mapping[str, float] | None = None,
     starts: int = STARTS,
     compiled: bool | None = None,
+    **unknown: Any,
 ) -> Task:
     """A task from the options of an environment (see `pigaming_app.gym`). Raises OptionError."""
+    if unknown:
+        raise OptionError(f"no option '{next(iter(unknown))}' here; see help(pigaming_app.gym)")
     if game not in ENCODINGS:
         raise OptionError(f"no game '{game}'; there are {', '.join(ENCODINGS)}")
-    rules = games()[game].variants.get(variant or games()[game].default.name, games()[game].default)
+    rules = games()[game].variants.get(variant or "", games()[game].default)
     if opponents is None:
         opponents = () if learners > 1 or rules.team_mode == ALLIES else (OPPONENT,)
-    names = (opponents,) if isinstance(opponents, str) else tuple(opponents)
-    number_from("agents", learners, 1)
-    number_from("ticks", ticks, 1)
-    number_from("starts", starts, 1)
+    names = words("opponents", opponents)
+    number("agents", learners, least=1)
+    number("ticks", ticks, least=1)
+    number("starts", starts, least=1)
     if learners + len(names) > ROBOTS:
         raise OptionError(f"{learners} agents and {len(names)} opponents, but there are {ROBOTS} seats")
-    kinds = tuple(brain_of(game, name) for name in names)
-    if compiled and not can_compile():
-        raise OptionError("compiled: numba is not installed: pip install 'pigaming-app[train]'")
+    if minutes is not None:
+        number("minutes", minutes, (int, float))
+    if goal is not None:
+        number("goal", goal)
+    for team in teams or ():
+        number("teams", team)
     found = arenas_of(game, arena)
+    players = [LEARNER] * learners + list(names)
     try:
-        setup = make_setup(game, [LEARNER] * learners + list(names), found[0], minutes, 0, variant, teams, names, goal)
-    except ValueError as error:
-        raise OptionError(str(error)) from None
+        kinds = tuple(find_brain(game, name) for name in names)
+        setup = make_setup(game, players, found[0], minutes, 0, variant, teams, names, goal)
+    except ChoiceError as error:
+        raise OptionError(str(error).removeprefix("--")) from None
     weights = weights_of(game, rewards)
-    fast = can_compile() if compiled is None else bool(compiled)
+    may_compile = can_compile() and not any(kind.plain for kind in kinds)
+    if compiled and not may_compile:
+        reason = "an opponent runs only uncompiled" if can_compile() else "numba is missing: " + INSTALL
+        raise OptionError(f"compiled: {reason}")
+    fast = may_compile if compiled is None else bool(compiled)
     return Task(setup, found, learners, kinds, ticks, bool(continuous), weights, starts, fast)
-
-
-def brain_of(game: str, name: str) -> BrainKind:
-    """The brain of a game with a name. Raises OptionError."""
-    if name not in BRAINS[game]:
-        raise OptionError(f"no opponent '{name}'; there are {', '.join(BRAINS[game])}")
-    return BRAINS[game][name]
 
 
 def arenas_of(game: str, arena: str | Sequence[str] | None) -> tuple[str, ...]:
     """Arenas by name or path, several, or "all"; None: the game's first. Raises OptionError."""
-    if arena == "all":
-        return tuple(arenas(game))
-    names = tuple(arenas(game)[:1] if arena is None else [arena] if isinstance(arena, str) else arena)
+    if arena is None or arena == "all":
+        return tuple(arenas(game)[: 1 if arena is None else None])
+    names = words("arena", arena)
     if not names:
         raise OptionError("arena: none is named")
     try:
@@ -122,15 +128,25 @@ def weights_of(game: str, rewards: Mapping[str, float] | None) -> tuple[float, .
     """The weights of a game's tallies, its default ones if None. Raises OptionError."""
     tallies = TALLIES[game]
     named = tallies.weights if rewards is None else rewards
+    if not isinstance(named, Mapping):
+        raise OptionError(f"rewards: weights by name are needed, not {named!r}")
     for name, weight in named.items():
         if name not in tallies.names:
             raise OptionError(f"no reward '{name}' in {game}; there are {', '.join(tallies.names)}")
-        if not isinstance(weight, (int, float)) or not isfinite(weight):
-            raise OptionError(f"rewards: the weight of {name} is no number: {weight!r}")
+        number(f"rewards, {name}", weight, (int, float))
     return tuple(float(named.get(name, 0.0)) for name in tallies.names)
 
 
-def number_from(name: str, value: Any, least: int) -> None:
-    """Raises OptionError unless a value is a whole number of at least `least`."""
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise OptionError(f"{name}: a whole number from {least} is needed, not {value!r}")
+def words(name: str, value: Any) -> tuple[str, ...]:
+    """One word or several. Raises OptionError."""
+    found = (value,) if isinstance(value, str) else tuple(value) if isinstance(value, Sequence) else (value,)
+    if not all(isinstance(word, str) for word in found):
+        raise OptionError(f"{name}: names are needed, not {value!r}")
+    return found
+
+
+def number(name: str, value: Any, kinds: Any = int, least: float = -inf) -> None:
+    """Raises OptionError unless a value is a finite number, by default a whole one, of at least `least`."""
+    if isinstance(value, bool) or not isinstance(value, kinds) or not isfinite(value) or value < least:
+        noun = "whole number" if kinds is int else "number"
+        raise OptionError(f"{name}: a {noun}{f' from {least:g}' if least > -inf else ''} is needed, not {value!r}")

@@ -7,7 +7,7 @@ from pettingzoo import ParallelEnv
 
 from pigaming_app.gym.environment import SEEDS
 from pigaming_app.gym.matches import Matches
-from pigaming_app.gym.options import number_from, task_of
+from pigaming_app.gym.options import number, task_of
 from pigaming_app.gym.picture import Camera, checked_mode
 from pigaming_app.gym.spaces import action_space, observation_space
 
@@ -32,7 +32,7 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
         self.render_mode = checked_mode(render_mode)
         self.task = task_of(game, agents, **options)
         if max_episode_steps is not None:
-            number_from("max_episode_steps", max_episode_steps, 1)
+            number("max_episode_steps", max_episode_steps, least=1)
         self.max_episode_steps, self._steps = max_episode_steps, 0
         self.metadata = {**self.metadata, "name": f"{game}_v0", "render_fps": self.task.decisions_a_second}  # type: ignore[misc]
         self.possible_agents = [f"player_{seat}" for seat in range(agents)]

@@ -9,7 +9,7 @@ from gymnasium.vector.utils import batch_space
 
 from pigaming_app.gym.environment import SEEDS
 from pigaming_app.gym.matches import Matches
-from pigaming_app.gym.options import OptionError, number_from, task_of
+from pigaming_app.gym.options import OptionError, number, task_of
 from pigaming_app.gym.picture import Camera, checked_mode
 from pigaming_app.gym.spaces import action_space, observation_space
 
@@ -41,9 +41,9 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
         self.render_mode = checked_mode(render_mode)
         self.task = task_of(game, agents, **options)
         self.metadata = {**self.metadata, "render_fps": self.task.decisions_a_second}  # type: ignore[misc]
-        number_from("num_envs", num_envs, 1)
+        number("num_envs", num_envs, least=1)
         if max_episode_steps is not None:
-            number_from("max_episode_steps", max_episode_steps, 1)
+            number("max_episode_steps", max_episode_steps, least=1)
         if num_envs % agents:
             raise OptionError(f"num_envs: {num_envs} is no multiple of {agents} agents a match")
         self.num_envs, self.max_episode_steps = num_envs, max_episode_steps

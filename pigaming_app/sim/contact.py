@@ -28,6 +28,8 @@ SLOP = 1e-6  # px by which a robot may overlap a wall, for rounding
 CRUSH = 0.5  # px of overlap above which ROUNDS is exceeded
 OVERLAP = 1.5  # px, permitted between two robots
 BERTH = 2.0 * RADIUS + 8.0  # px between the centres of a robot that is put back and any other
+ALL = (1 << ROBOTS) - 1  # a bit for each robot
+TOUCHED, MOVED = 1, 2  # by a wall
 APART = 4.0 * RADIUS * RADIUS  # px^2 between centres, from which two robots do not overlap
 TOO_CLOSE = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)  # px^2, below which OVERLAP is exceeded
 
@@ -46,21 +48,29 @@ def drive(world: Any) -> None:
         if robot.present:
             integrate(robot)
     touched = 0
+    shifted, unsettled = 0, ALL  # a bit for each robot: moved by contact; perhaps still in a wall
     for n in range(MAX_ROUNDS):
         deepest = separate(robots)
+        if deepest > 0.0:
+            shifted = unsettled = ALL
         moved = deepest > SLOP
-        for robot in robots:
-            if robot.present and push_out_of_walls(world, robot):
-                moved = True
+        checked, unsettled = unsettled, 0
+        for k in range(ROBOTS):
+            if checked & 1 << k and robots[k].present:
+                push = push_out_of_walls(world, robots[k])
+                if push:
+                    unsettled |= 1 << k
+                    moved = moved or push == MOVED
+        shifted |= unsettled
         if not moved or (n >= ROUNDS and deepest < CRUSH):
             break
         touched = 1
     if not touched:
         return
-    limit_step(world, r0, x0, y0)
-    limit_step(world, r1, x1, y1)
-    limit_step(world, r2, x2, y2)
-    limit_step(world, r3, x3, y3)
+    limit_step(world, r0, x0, y0, shifted & 1)
+    limit_step(world, r1, x1, y1, shifted & 2)
+    limit_step(world, r2, x2, y2, shifted & 4)
+    limit_step(world, r3, x3, y3, shifted & 8)
     back = 1
     while back:
         back = undo_overlap(r0, x0, y0, r1, x1, y1)
@@ -124,20 +134,23 @@ def separate(robots: Any) -> float:
 
 @kernel
 def push_out_of_walls(world: Any, robot: Any) -> int:
-    """Move a robot that overlaps a wall straight out of it. Returns 1 if it moved."""
+    """Move a robot that overlaps a wall straight out of it. Returns 0, MOVED, or TOUCHED if by no more than SLOP.
+
+    A robot exactly on the centre line of a wall stays there, TOUCHED.
+    """
     moved = 0
     if robot.x < RADIUS:
         robot.x = RADIUS
-        moved = 1
+        moved = MOVED
     elif robot.x > WIDTH - RADIUS:
         robot.x = WIDTH - RADIUS
-        moved = 1
+        moved = MOVED
     if robot.y < RADIUS:
         robot.y = RADIUS
-        moved = 1
+        moved = MOVED
     elif robot.y > HEIGHT - RADIUS:
         robot.y = HEIGHT - RADIUS
-        moved = 1
+        moved = MOVED
     if world.grid[node_at(robot.x, robot.y)] < NEAR_UNIT:
         return moved
     for i in range(world.wall_count):
@@ -148,11 +161,13 @@ def push_out_of_walls(world: Any, robot: Any) -> int:
             gap2 = dx * dx + dy * dy
             if gap2 < reach * reach:
                 gap = sqrt(gap2)
+                moved = moved or TOUCHED
                 if gap > 1e-9:
                     robot.x += dx / gap * (reach - gap)
                     robot.y += dy / gap * (reach - gap)
-                    moved = moved or reach - gap > SLOP
-    return 1 if moved else 0
+                    if reach - gap > SLOP:
+                        moved = MOVED
+    return moved
 
 
 @kernel
@@ -173,15 +188,19 @@ def in_wall(world: Any, x: float, y: float) -> int:
 
 
 @kernel
-def limit_step(world: Any, robot: Any, from_x: float, from_y: float) -> None:
-    """Limit a robot's step from (from_x, from_y) to SHOVE px, and undo it if it ends in a wall."""
+def limit_step(world: Any, robot: Any, from_x: float, from_y: float, shifted: int = 1) -> None:
+    """Limit a robot's step from (from_x, from_y) to SHOVE px, and undo it if it ends in a wall.
+
+    One that contact has not `shifted` ends in none.
+    """
     dx, dy = robot.x - from_x, robot.y - from_y
     way2 = dx * dx + dy * dy
     if way2 > SHOVE * SHOVE:
         share = SHOVE / sqrt(way2)
         robot.x = from_x + share * dx
         robot.y = from_y + share * dy
-    if in_wall(world, robot.x, robot.y):
+        shifted = 1
+    if shifted and in_wall(world, robot.x, robot.y):
         robot.x = from_x
         robot.y = from_y
 

@@ -11,6 +11,7 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
 
 FAR = 2.0
+ROUNDING = 1e-6  # px, of a distance
 
 
 @kernel
@@ -111,6 +112,7 @@ def is_clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: f
     right -= slack
     top += slack
     bottom -= slack
+    length = sqrt(dx * dx + dy * dy)
     for i in range(world.wall_count):
         wall = world.walls[i]
         if (
@@ -119,7 +121,15 @@ def is_clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: f
             and right >= wall.left
             and top <= wall.bottom
             and bottom >= wall.top
+            and not is_aside(x, y, dx, dy, wall, (wall.half + radius + ROUNDING) * length)
             and wall_contact(x, y, dx, dy, wall, radius) <= 1.0
         ):
             return 0
     return 1
+
+
+@kernel
+def is_aside(x: float, y: float, dx: float, dy: float, wall: Any, reach: float) -> bool:
+    """True if a wall is on one side of the line from (x, y) along (dx, dy), `reach` / |(dx, dy)| or more px from it."""
+    a, b = dx * (wall.ay - y) - dy * (wall.ax - x), dx * (wall.by - y) - dy * (wall.bx - x)
+    return bool((a > reach and b > reach) or (a < -reach and b < -reach))

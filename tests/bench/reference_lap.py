@@ -40,14 +40,14 @@ BENDS = (-3.0, -2.0, -1.4, -1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0, 
 MUDDY = 40.0  # px off the course, limit of the search
 NEVER = 1e6
 LAPS = 3  # of dynamic programming, until the cost of a further lap is the same from all states
-TARGETS = {"easy": (0.62, 0.85), "normal": (0.82, 0.95), "hard": (0.94, 1.01)}
+TARGETS = {"hand1": (0.62, 0.85), "hand2": (0.82, 0.95), "hand3": (0.94, 1.01)}
 SOLO = 8  # races of a driver alone
 MIXTURES = (
-    ("easy", "normal", "hard", "hard"),
-    ("hard", "hard", "easy", "easy"),
-    ("normal", "easy", "hard", "normal"),
-    ("easy", "hard", "normal", "easy"),
-    ("hard", "easy", "hard", "normal"),
+    ("hand1", "hand2", "hand3", "hand3"),
+    ("hand3", "hand3", "hand1", "hand1"),
+    ("hand2", "hand1", "hand3", "hand2"),
+    ("hand1", "hand3", "hand2", "hand1"),
+    ("hand3", "hand1", "hand3", "hand2"),
 )
 LOOK = 5  # ticks between two checks of a race
 STUCK, STUCK_PX = 3 * HZ, 10.0  # ticks with the stick pushed, and px within which a robot is stuck

@@ -1,5 +1,7 @@
 """A batch of matches gives the same results as single matches, plain or compiled."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
+from pigaming_app.sim.world import HZ
 
 TICKS = 400
 VARIANTS = ("pickups", "plain", "classic", "pickups", "plain")
@@ -60,11 +63,26 @@ def test_plain_matches_at_once_are_the_same_matches_alone(alone):
     assert [digest(state) for state in states] == alone
 
 
-def test_compiled_matches_at_once_are_the_same_matches_alone(alone):
+@pytest.mark.parametrize("ticks", [1, 5, 10])
+def test_compiled_matches_at_once_are_the_same_matches_alone(alone, ticks):
     rows = matches(setups())
-    for tick in range(TICKS):
-        step_all(rows, actions_at(tick))
+    for tick in range(0, TICKS, ticks):
+        step_all(rows, actions_at(tick), ticks)
     assert [digest(row) for row in rows] == alone
+
+
+def test_many_ticks_at_once_are_as_many_calls_even_past_the_end():
+    end = 150  # ticks: each match ends within the second call
+    short = [replace(setup, minutes=end / HZ / 60) for setup in setups()]
+    states, rows, once = initial_states(short), matches(short), matches(short)
+    for tick in range(0, 2 * end, 100):
+        step_all(states, actions_at(tick).tolist(), 100)
+        step_all(rows, actions_at(tick), 100)
+        for _ in range(100):
+            step_all(once, actions_at(tick))
+    assert once["over"].all()
+    assert (once["tick"] == end).all()
+    assert [digest(row) for row in rows] == [digest(row) for row in once] == [digest(state) for state in states]
 
 
 def test_an_empty_batch_is_accepted():

@@ -6,11 +6,13 @@ import pytest
 
 pytest.importorskip("cv2")
 
+from pigaming_app.ai.networks.files import encode
 from pigaming_app.cli import main
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.proof import testbed, trials
 from pigaming_app.jobs.bench import robots as bench_robots
 from pigaming_app.jobs.bench.robots import TARGETS, Job, jobs, on_mat, reached
+from tests.ai.networks.random_network import random_network
 from tests.cases import one_in
 
 
@@ -21,9 +23,10 @@ def ground():
 
 
 @pytest.mark.parametrize("game", one_in(3, games()))
-def test_a_match_on_the_mat_plays_to_its_end(game, ground):
-    arena = jobs()[list(games()).index(game)].arena
-    run = on_mat(Job(game, arena, 30.0, 7, 0.05, brain="hand2", carried=True), ground)
+def test_a_match_of_networks_on_the_mat_plays_to_its_end(game, ground, tmp_path):
+    arena, path = jobs()[list(games()).index(game)].arena, tmp_path / "mine.npz"
+    path.write_bytes(encode(random_network(1, game)))
+    run = on_mat(Job(game, arena, 30.0, 7, 0.05, brain=str(path), carried=True), ground)
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
     assert 3.0 <= run.seconds - run.paused < 4.0
 

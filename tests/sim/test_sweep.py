@@ -119,3 +119,24 @@ def test_a_wall_hides_what_is_behind_it_until_it_is_gone():
     assert not is_clear(world, 700.0, 250.0, 900.0, 250.0, 36.0)
     world.walls[0].health = 0
     assert is_clear(world, 700.0, 450.0, 900.0, 450.0, 36.0)
+
+
+FLOOR = st.tuples(st.floats(0.0, 1600.0), st.floats(0.0, 900.0))
+LINES = st.lists(st.tuples(FLOOR, FLOOR).map(lambda ends: (*ends[0], *ends[1])), min_size=1, max_size=6)
+
+
+@settings(max_examples=150, deadline=None)
+@given(LINES, FLOOR, FLOOR, st.sampled_from([0.0, 6.0, 36.0]))
+def test_a_way_is_clear_exactly_if_it_touches_no_wall(walls, start, end, radius):
+    world, (x, y), (to_x, to_y) = floor(walls), start, end
+    contacts = [wall_contact(x, y, to_x - x, to_y - y, made, radius) for made in world.walls[: len(walls)]]
+    assert is_clear(world, x, y, to_x, to_y, radius) == (min(contacts) > 1.0)
+
+
+@pytest.mark.parametrize("gap", [-1e-5, -1e-8, -1e-12, 0.0, 1e-12, 1e-8, 1e-5])
+@pytest.mark.parametrize("end", [400.0, 470.0])  # parallel to the wall, or towards it
+def test_a_way_that_grazes_a_wall_is_as_clear_as_its_contact_is_far(gap, end):
+    world = floor(walls=[(800.0, 421.0 + gap, 1000.0, 421.0 + gap)])
+    for to_y in (end, 2 * 421.0 - end):
+        contact = wall_contact(600.0, 400.0, 700.0, to_y - 400.0, world.walls[0], 6.0)
+        assert is_clear(world, 600.0, 400.0, 1300.0, to_y, 6.0) == (contact > 1.0)

@@ -26,7 +26,14 @@ MAX_HEAD, MAX_MATRIX, MAX_BIAS = 400_000, 100_000, 2_000  # limits of unpacked s
 MATRICES, BIASES = ("first", "second", "last"), ("first_bias", "second_bias", "last_bias")
 PARTS = {HEAD: MAX_HEAD, **dict.fromkeys(MATRICES, MAX_MATRIX), **dict.fromkeys(BIASES, MAX_BIAS)}
 MAX_TEXT, MAX_ENTRIES, MAX_ROWS, MAX_COLUMNS = 4_000, 100, 1_000, 20
-LIMITS = {"delay": (0.0, 1.0), "error": (0.0, 1.0), "sharpness": (0.0, 10.0)}  # of handicaps
+LIMITS = {
+    "delay": (0.0, 1.0),
+    "error": (0.0, 1.0),
+    "sharpness": (0.0, 10.0),
+    "thrift": (0.0, 1.0),
+    "speed": (0.1, 1.0),
+    "form": (0.0, 0.9),
+}  # of handicaps
 
 
 class NetworkError(BrainFileError):
@@ -208,9 +215,9 @@ def _curve(table: Any) -> Curve:
 
 def _handicap(table: Any) -> Handicap:
     """Raises KeyError, TypeError, ValueError."""
-    if not isinstance(table, dict) or table.keys() != {one.name for one in fields(Handicap)}:
+    if not isinstance(table, dict) or not table.keys() <= {one.name for one in fields(Handicap)}:
         raise ValueError("handicap")
     numbers = {name: _number(value) for name, value in table.items()}
-    if any(not low <= numbers[name] <= high for name, (low, high) in LIMITS.items()):
+    if any(not LIMITS[name][0] <= number <= LIMITS[name][1] for name, number in numbers.items()):
         raise ValueError("handicap")
     return Handicap(**numbers)

@@ -1,4 +1,4 @@
-"""PiTanks as a network sees it: 122 inputs, and four heads of choices.
+"""PiTanks as a network sees it: 124 inputs, and four heads of choices.
 
 Directions are given as cosine and sine relative to the own heading. The other robots are sorted by how much they matter
 now, so that the first of them is nearly always the one to fight. Aiming errors are measured in angular sizes of the
@@ -12,13 +12,13 @@ from pigaming_app.ai.networks.encoding import Encoding, saturating, whole
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime, lead
 from pigaming_app.games.pitanks.state import MINES, OWN_BULLETS, OWN_MINES
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.flow_field import Route, update_route
+from pigaming_app.sim.flow_field import Route, descend, free_node, update_route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, HEIGHT, HZ, ROBOTS, WIDTH
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, HZ, ROBOTS, WIDTH
 
 GROUPS = (
     ("motion", 5),
@@ -26,7 +26,7 @@ GROUPS = (
     ("powers", 6),
     ("score", 8),
     ("place", 4),
-    ("way", 5),
+    ("way", 8),
     ("first", 17),
     ("second", 17),
     ("third", 17),
@@ -34,11 +34,11 @@ GROUPS = (
     ("bullets", 15),
     ("mine", 3),
     ("room", 12),
-    ("rules", 4),
+    ("rules", 3),
     ("habits", 2),
 )
 MOTION, GUN, POWERS, SCORE, PLACE, WAY, OTHERS, PICKUP, BULLETS, MINE, ROOM, RULES, HABITS, SIZE = (
-    0, 5, 9, 15, 23, 27, 32, 83, 86, 101, 104, 116, 120, 122
+    0, 5, 9, 15, 23, 27, 35, 86, 89, 104, 107, 119, 122, 124
 )  # first input of each group  # fmt: skip
 OTHER = 17  # inputs for each of the others
 HEADS = (("drive", 3), ("turn", 7), ("fire", 2), ("turbo", 2))
@@ -49,6 +49,7 @@ MATE = 5000.0  # px; team mates come last
 SOON = 1.6  # s; bullets that pass later are left out
 PASSING = 130.0  # px; so are those that pass farther away
 STEP, STEPS = 40.0, 8  # px and number of the steps by which it looks for room
+FURTHER = 3  # nodes down the field at which the further way points, whatever lies in between
 COS30, SIN30 = 0.8660254037844386, 0.5
 MINE_NEAR = 250.0  # px
 
@@ -107,9 +108,8 @@ def encode_self(match: Any, seat: int, inputs: Any) -> None:
     inputs[SCORE + 5] = whole(tank.camped / (rules.camping + 1.0) if rules.camping else 0.0)
     inputs[SCORE + 6], inputs[SCORE + 7] = whole(tank.lit), whole(tank.bounty)
     inputs[RULES] = whole(rules.protection / 37.0)
-    inputs[RULES + 1] = whole(rules.penalty)
-    inputs[RULES + 2] = whole(1.0 if rules.knockout else 0.0)
-    inputs[RULES + 3] = whole(rules.pickups)
+    inputs[RULES + 1] = whole(1.0 if rules.knockout else 0.0)
+    inputs[RULES + 2] = whole(rules.pickups)
 
 
 @kernel
@@ -153,16 +153,26 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
     route = senses.route
     route.active, route.goal_x, route.goal_y = 1, match.robots[target].x, match.robots[target].y
     update_route(match, route, me.x, me.y)
-    dx, dy = route.waypoint_x - me.x, route.waypoint_y - me.y
-    distance = sqrt(dx * dx + dy * dy) + 1e-9
-    inputs[WAY] = whole((ahead_x * dx + ahead_y * dy) / distance)
-    inputs[WAY + 1] = whole((ahead_x * dy - ahead_y * dx) / distance)
-    inputs[WAY + 2], inputs[WAY + 3] = whole(route.straight), whole(distance / 400.0)
-    length = sqrt(target2)
+    towards(me, route.waypoint_x, route.waypoint_y, ahead_x, ahead_y, WAY, inputs)
+    length, further_x, further_y = sqrt(target2), route.goal_x, route.goal_y
     if not route.straight:
-        steps = route.reach[node_at(me.x, me.y)]
-        length = CELL * steps if steps else 2.0 * length
-    inputs[WAY + 4] = whole(length / 1600.0 - 1.0)
+        node = free_node(match, me.x, me.y)
+        length = CELL * route.reach[node]
+        for _ in range(FURTHER):
+            node = descend(route, node)
+        further_x, further_y = node % COLUMNS * CELL, node // COLUMNS * CELL
+    towards(me, further_x, further_y, ahead_x, ahead_y, WAY + 3, inputs)
+    inputs[WAY + 6], inputs[WAY + 7] = whole(route.straight), whole(length / 1600.0 - 1.0)
+
+
+@kernel
+def towards(me: Any, x: float, y: float, ahead_x: float, ahead_y: float, k: int, inputs: Any) -> None:
+    """Direction and distance of a point, in three inputs from k on."""
+    dx, dy = x - me.x, y - me.y
+    distance = sqrt(dx * dx + dy * dy) + 1e-9
+    inputs[k] = whole((ahead_x * dx + ahead_y * dy) / distance)
+    inputs[k + 1] = whole((ahead_x * dy - ahead_y * dx) / distance)
+    inputs[k + 2] = whole(distance / 400.0)
 
 
 @kernel

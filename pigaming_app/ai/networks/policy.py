@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT, Encoding
+from pigaming_app.sim.action import quantise
 from pigaming_app.sim.kernel import kernel, kernel_with_loops
 from pigaming_app.sim.record import dtype, record
 from pigaming_app.sim.rng import bell, seeded, uniform
@@ -35,6 +36,8 @@ class Handicap:
     error: float = 0.0  # rad, standard deviation of the bearing of others, redrawn every half second
     sharpness: float = 1.0  # factor of the logits: below 1 it chooses less surely
     thrift: float = 0.0  # cost of a shot that it has in mind, in points
+    speed: float = 1.0  # share of full speed that it drives at most
+    form: float = 0.0  # share of that which it may lack on a bad day; drawn for each match
 
 
 NO_HANDICAP = Handicap()
@@ -63,6 +66,7 @@ def mind_record(encoding: Encoding) -> type:
         "random": int,
         "error": float,  # see Handicap
         "sharpness": float,
+        "speed": float,  # share of full speed in this match
         "error_left": int,  # ticks until the aiming error is redrawn
         "inputs": Annotated[list[float], encoding.size, "f"],
         "hidden": Annotated[list[float], 2 * HIDDEN, "f"],  # scratch space of compiled code, else 0
@@ -179,6 +183,8 @@ def make_think(encoding: Encoding) -> Callable[[Any, int, Any, Any], None]:
             mind.choices[head] = draw(mind, first, counts[head])
             first += counts[head]
         act(match, seat, mind.choices)
+        if mind.speed < 1.0:
+            match.actions[seat].linear = quantise(mind.speed * match.actions[seat].linear)
 
     return kernel(think)
 
@@ -219,5 +225,6 @@ def network_brain(
         mind.random, mind.sharpness, mind.error = seeded(seed), handicap.sharpness, handicap.error
         mind.senses.delay, mind.senses.thrift = handicap.delay, handicap.thrift
         mind.wait = 1 + int(uniform(mind) * PERIOD)
+        mind.speed = handicap.speed * (1.0 - handicap.form * uniform(mind))
 
     return BrainKind(name, mind_record(encoding), make_think(encoding), reset, weights)

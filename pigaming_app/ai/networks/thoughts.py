@@ -6,26 +6,23 @@ it is largest. It is exact for this one decision, but blind to topics that repla
 2014, section 4.2). It costs one forward pass a topic, all of them in one call.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from math import pi
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import PETALS, Percept, Thoughts, behaviour_of, blend, towards
-from pigaming_app.ai.networks import pitanks_thoughts
+from pigaming_app.ai.brain.thoughts import Thoughts, behaviour_of, blend, towards
 from pigaming_app.ai.networks.encoding import Encoding
+from pigaming_app.ai.networks.percepts import SUBJECTS, Subject, perceived
 from pigaming_app.ai.networks.policy import LOGIT
 
 Explain = Callable[[Any, int, Any, Any], Thoughts]
-Percepts = Callable[[Any, Any], Iterator[tuple[str, Percept]]]
 
-REST = "rest"  # the topic of groups that are in no table
-TOPICS: dict[str, dict[str, tuple[str, ...]]] = {"pitanks": pitanks_thoughts.TOPICS}
-PERCEPTS: dict[str, Percepts] = {"pitanks": pitanks_thoughts.percepts}
 REASONS = {
     "near": "looks_near", "others": "looks_others", "bullets": "looks_bullets", "mines": "looks_mines",
     "pickups": "looks_pickups", "walls": "looks_walls", "self": "looks_self", "score": "looks_score",
-    REST: "looks_rest",
+    "target": "looks_target", "choices": "looks_choices", "machines": "looks_machines", "people": "looks_people",
+    "load": "looks_load", "course": "looks_course", "oil": "looks_oil", "pads": "looks_pads",
 }  # text keys  # fmt: skip
 MATTERS = 0.05  # share of the choice from which on a topic counts
 TILTED = 0.3  # deflection above which the stick counts as held
@@ -34,8 +31,9 @@ TILTED = 0.3  # deflection above which the stick counts as held
 @cache
 def make_explain(encoding: Encoding) -> Explain:
     """The explanation of a game's networks."""
-    topics = topics_of(encoding)
-    percepts = PERCEPTS.get(encoding.game, _none)
+    topics, subject = topics_of(encoding), SUBJECTS[encoding.game]
+    shoots = subject.fire == "shoot"  # elsewhere a press may be without effect
+    names = [subject.fire if name == "fire" else name for name, _ in encoding.heads]
 
     def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
         if not any(mind.inputs):
@@ -44,16 +42,18 @@ def make_explain(encoding: Encoding) -> Explain:
         shares = _shares(encoding, topics, chances, mind, weights)
         first = max(shares, key=lambda topic: shares[topic])
         action = match.actions[seat]
-        heads = dict(zip((name for name, _ in encoding.heads), chances, strict=True))
+        heads = dict(zip(names, chances, strict=True))
         return Thoughts(
-            behaviour=behaviour_of(_step(action.linear), _step(action.angular), int(action.fire)),
+            behaviour=behaviour_of(_step(action.linear), _step(action.angular), int(action.fire and shoots)),
             reason=REASONS[first] if shares[first] >= MATTERS else "looks_nothing",
-            percepts=tuple(sight for topic, sight in percepts(match, mind.inputs) if shares[topic] >= MATTERS),
-            rose=_rose(heads),
+            percepts=tuple(
+                sight for topic, sight in perceived(subject, match, seat, mind.inputs) if shares[topic] >= MATTERS
+            ),
+            rose=_rose(subject, heads),
             utilities=shares,
             chosen=first if shares[first] >= MATTERS else "",
             heads=heads,
-            choices={name: int(mind.choices[k]) for k, (name, _) in enumerate(encoding.heads)},
+            choices=dict(zip(names, map(int, mind.choices), strict=True)),
         )
 
     return explain
@@ -61,14 +61,11 @@ def make_explain(encoding: Encoding) -> Explain:
 
 def topics_of(encoding: Encoding) -> dict[str, list[range]]:
     """Places of the inputs of each topic."""
-    known = TOPICS.get(encoding.game, {})
-    topic_of = {group: topic for topic, groups in known.items() for group in groups}
-    places: dict[str, list[range]] = {topic: [] for topic in known}
-    first = 0
+    places, first = {}, 0
     for group, length in encoding.groups:
-        places.setdefault(topic_of.get(group, REST), []).append(range(first, first + length))
+        places[group] = range(first, first + length)
         first += length
-    return places
+    return {topic: [places[group] for group in groups] for topic, groups in SUBJECTS[encoding.game].topics.items()}
 
 
 def probabilities(encoding: Encoding, logits: Sequence[float], sharpness: float) -> list[list[float]]:
@@ -107,20 +104,15 @@ def _distance(chances: Sequence[Sequence[float]], others: Sequence[Sequence[floa
     )
 
 
-def _rose(heads: dict[str, list[float]]) -> Sequence[float]:
-    """Probability of each direction of driving; positions of a stick are evenly spaced from -1 to 1."""
-    if not {"drive", "turn"} <= heads.keys():
-        return [0.0] * PETALS
-    back, _, ahead = heads["drive"]
-    turns = heads["turn"]
-    sides = [2.0 * k / (len(turns) - 1) - 1.0 for k in range(len(turns))]
-    roses = [towards(0.5 * pi * side, ahead * chance) for side, chance in zip(sides, turns, strict=True)]
-    return blend(*roses, *(towards(pi - 0.5 * pi * side, back * p) for side, p in zip(sides, turns, strict=True)))
+def _rose(subject: Subject, heads: Mapping[str, Sequence[float]]) -> Sequence[float]:
+    """Expected speed in each direction; a full turn of the stick leads to the side."""
+    roses = []
+    for speed, driven in zip(subject.drives, heads["drive"], strict=True):
+        for side, turned in zip(subject.turns, heads["turn"], strict=True):
+            bearing = 0.5 * pi * side if speed > 0.0 else pi - 0.5 * pi * side
+            roses.append(towards(bearing, abs(speed) * driven * turned))
+    return blend(*roses)
 
 
 def _step(deflection: float) -> int:
     return int(deflection > TILTED) - int(deflection < -TILTED)
-
-
-def _none(match: Any, inputs: Any) -> Iterator[tuple[str, Percept]]:
-    return iter(())

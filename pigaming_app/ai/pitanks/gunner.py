@@ -9,14 +9,22 @@ does: it aims at where the target is and not where it will be, slows down to aim
 dodges nothing.
 """
 
-from math import cos, sin
+from math import cos, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.steering import approach, turn_stick
 from pigaming_app.ai.brain.unstick import escape
 from pigaming_app.ai.pitanks.fsm import BREAK_FREE, detect_stuck, dodge, draw_error, go_to
-from pigaming_app.games.pitanks.observation import OTHERS, Observation, Senses, observe
+from pigaming_app.games.pitanks.observation import (
+    OTHERS,
+    Observation,
+    Senses,
+    aim_at_other,
+    locate_other,
+    observe_self,
+    observe_surroundings,
+)
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
@@ -24,7 +32,7 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 NEAR, FAR = 300.0, 480.0  # px; in a fight it opens the distance within NEAR and closes in beyond FAR
@@ -40,6 +48,7 @@ SNATCH = 150.0  # px; it fetches these even in a fight, and in the finale
 INVULNERABLE = 20  # ticks of protection left above which a shot is wasted
 HIDDEN = 400.0  # px by which an opponent out of sight counts as farther away than it is
 WAITING = 4.0  # px for each tick for which it cannot be hit
+ROUNDING = 1e-6  # px
 EXPOSED = 300.0  # px by which a lit opponent counts as nearer, and for each point of bounty
 
 WATCH, SWING_ASIDE, AIM = range(3)  # parts of a fight
@@ -82,7 +91,9 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     if mind.wait > 0:
         return
     mind.wait = PERIOD
-    observe(match, seat, mind.senses, mind.obs)
+    observe_self(match, seat, mind.obs)
+    choose_target(match, seat, mind)
+    observe_surroundings(match, seat, mind.senses, mind.obs)
     act(match, mind.obs, mind, match.actions[seat])
 
 
@@ -91,7 +102,6 @@ def act(match: Any, obs: Any, mind: Any, action: Any) -> None:
     """One step of the machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
     mind.shot += PERIOD
-    choose_target(obs, mind)
     draw_error(mind)
     if obs.knocked_out:
         set_action(action, 0.0, 0.0, 0, 0)
@@ -171,22 +181,46 @@ def break_free(obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def choose_target(obs: Any, mind: Any) -> None:
-    """Choose the most rewarding opponent, and count for how long it has been in sight."""
-    best, least = -1, 1e9
-    for i in range(OTHERS):
-        other = obs.others[i]
-        if other.present and not other.mate:
-            cost = price(other)
-            if i == mind.target:
-                cost -= mind.loyalty
-            if cost < least:
-                best, least = i, cost
+def choose_target(match: Any, seat: int, mind: Any) -> None:
+    """Choose the most rewarding opponent, observe it, and count for how long it has been in sight.
+
+    The present target comes first, since it mostly stays the best: of the others no more is observed than it takes to
+    show that they are not better.
+    """
+    robot, delay = match.robots[seat], mind.senses.delay
+    best, least, vx, vy = -1, 1e9, 0.0, 0.0
+    for n in range(OTHERS):
+        i = (mind.target + n) % OTHERS
+        j, other = (seat + 1 + i) % ROBOTS, mind.obs.others[i]
+        seen = match.robots[j]
+        if not seen.present or seen.team == robot.team:
+            continue
+        dx, dy, tank = seen.x - robot.x, seen.y - robot.y, match.tanks[j]
+        nearest = sqrt(dx * dx + dy * dy) - delay * abs(seen.linear) - ROUNDING  # at most the distance observed
+        if i != mind.target and price(nearest, tank) > least:
+            continue
+        other_vx, other_vy = locate_other(robot, seen, delay, other)
+        cost, bonus = price(other.distance, tank), mind.loyalty if i == mind.target else 0.0
+        if not is_better(cost - bonus, i, least, best):
+            continue
+        other.clear = is_clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
+        if not other.clear:
+            cost += HIDDEN
+        if is_better(cost - bonus, i, least, best):
+            best, least, vx, vy = i, cost - bonus, other_vx, other_vy
     if best != mind.target:
         mind.target, mind.seen = best, 0
-    if best >= 0 and obs.others[best].clear:
+    if best < 0:
+        mind.seen = 0
+        mind.unseen += PERIOD
+        return
+    other, tank = mind.obs.others[best], match.tanks[(seat + 1 + best) % ROBOTS]
+    other.protected, other.lit, other.bounty = tank.protected, tank.lit, tank.bounty
+    if other.clear or mind.state == FIGHT:  # else nothing points at it
+        aim_at_other(match, robot, vx, vy, delay, other)
+    if other.clear:
         mind.seen += PERIOD
-        if mind.seen * DT >= mind.senses.delay:  # noticed
+        if mind.seen * DT >= delay:  # noticed
             mind.unseen = 0
     else:
         mind.seen = 0
@@ -194,10 +228,15 @@ def choose_target(obs: Any, mind: Any) -> None:
 
 
 @kernel
-def price(other: Any) -> float:
-    """Cost of an opponent as a target: its distance in px, less what makes it rewarding."""
-    cost = other.distance + WAITING * other.protected - EXPOSED * (other.lit + other.bounty)
-    return cost if other.clear else cost + HIDDEN  # type: ignore[no-any-return]
+def is_better(cost: float, i: int, least: float, best: int) -> bool:
+    """True if opponent `i` costs less than the best so far; of equal ones the first is better."""
+    return cost < least or (cost == least and i < best)
+
+
+@kernel
+def price(distance: float, tank: Any) -> float:
+    """Cost of an opponent in sight as a target: its distance in px, less what makes it rewarding."""
+    return distance + WAITING * tank.protected - EXPOSED * (tank.lit + tank.bounty)  # type: ignore[no-any-return]
 
 
 @kernel

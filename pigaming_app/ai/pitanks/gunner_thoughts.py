@@ -9,6 +9,7 @@ from typing import Any
 from pigaming_app.ai.brain.thoughts import Thoughts, blend, clamp, towards
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.pitanks.fsm_thoughts import SOON, dodges, percepts
+from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS
 
@@ -26,7 +27,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
         behaviour=behaviour,
         reason=_reason(obs, mind, behaviour),
         names={"player": (seat + 1 + mind.target) % ROBOTS + 1},
-        facts=_facts(obs, mind),
+        facts=_facts(match, seat, mind),
         percepts=tuple(percepts(match, obs, mind, behaviour)),
         rose=_rose(obs, mind, behaviour),
         utilities=_utilities(match, obs, mind),
@@ -98,10 +99,11 @@ def _utilities(match: Any, obs: Any, mind: Any) -> dict[str, float]:
     return utilities
 
 
-def _facts(obs: Any, mind: Any) -> dict[str, float]:
+def _facts(match: Any, seat: int, mind: Any) -> dict[str, float]:
+    obs = mind.obs
     return {
         "state": mind.state,
-        "lead": obs.lead,
+        "lead": lead(match, seat),
         "target": mind.target,
         "seen": mind.seen * DT,
         "unseen": mind.unseen * DT,

@@ -14,6 +14,7 @@ from pigaming_app.ai.networks.policy import HIDDEN
 F = np.float32
 SLOPE, SMOOTHNESS, TINY = F(0.1), F(0.001), F(1e-5)  # Adam: 1 - beta1, 1 - beta2, epsilon
 
+Trail = list[tuple[Any, Any]]  # inputs of each layer, and its bends
 LIMITS = {  # of hyper-parameters; the others are shares
     "matches": (1, 10_000),
     "decisions": (1, 1_000),
@@ -71,41 +72,40 @@ class Network:
         self.means = [np.zeros_like(matrix) for matrix in self.weights]
         self.squares = [np.zeros_like(matrix) for matrix in self.weights]
         self.steps = 0
-        self._trail: list[tuple[Any, Any]] = []
 
-    def forward(self, x: Any) -> Any:
-        """The outputs (n, outputs) for inputs (n, inputs)."""
-        self._trail = []
+    def forward(self, x: Any) -> tuple[Any, Trail]:
+        """The outputs (outputs, n) for inputs (n, inputs + 1), whose last column is 1; and a trail for `gradient`.
+
+        Activations lie in rows (units + 1, n), whose last is 1 for the biases.
+        """
+        trail: Trail = []
+        x = x.T
         for matrix in self.weights[:-1]:
-            y = x @ matrix[:-1]
-            y += matrix[-1]
-            y *= F(1 / 3)
-            np.clip(y, F(-1), F(1), out=y)
-            square = y * y
-            below = F(3) * square
-            below += F(1)
-            self._trail.append((x, (square, below)))
+            y = np.empty((HIDDEN + 1, x.shape[1]), x.dtype)
+            y[HIDDEN] = 1
+            z = np.matmul(matrix.T, x, out=y[:HIDDEN])
+            np.clip(z, F(-3), F(3), out=z)
+            bend = z * z  # tanh z = z (27 + z^2) / (27 + 9 z^2) = z (1/9 + 8/3 / (3 + z^2))
+            bend += F(3)
+            np.divide(F(8 / 3), bend, out=bend)
+            bend += F(1 / 9)
+            z *= bend
+            trail.append((x, bend))
             x = y
-            x *= square + F(3)
-            x /= below
-        self._trail.append((x, None))
-        outputs = x @ self.weights[-1][:-1]
-        outputs += self.weights[-1][-1]
-        return outputs
+        return self.weights[-1].T @ x, [*trail, (x, None)]
 
-    def gradient(self, slopes: Any) -> list[Any]:
-        """The gradient of a loss by the weights, from its derivative by the outputs of the last `forward`."""
+    def gradient(self, slopes: Any, trail: Trail) -> list[Any]:
+        """The gradient of a loss by the weights, from its derivative by the outputs; overwrites both arguments."""
         gradients: list[Any] = []
-        for matrix, (x, bend) in zip(reversed(self.weights), reversed(self._trail), strict=True):
+        for matrix, (x, bend) in zip(reversed(self.weights), reversed(trail), strict=True):
             if bend is not None:
-                square, below = bend  # dx/dy / 3 = ((1 - y^2) / (1 + 3 y^2))^2, 0 where y was clipped to 1
-                square -= F(1)
-                square /= below
-                square *= square
-                slopes *= square
-            gradients.append(np.vstack([x.T @ slopes, slopes.sum(0)]))
+                bend *= F(-1.5)  # the derivative of tanh is ((1 - 3 bend) / 2)^2, and 0 where z is clipped
+                bend += F(0.5)
+                bend *= bend
+                slopes *= bend
+            gradients.append(x @ slopes.T)
             if len(gradients) < len(self.weights):
-                slopes = slopes @ matrix[:-1].T
+                slopes = matrix[:-1] @ slopes
         return gradients[::-1]
 
     def descend(self, gradients: Sequence[Any], rate: float, steepest: float) -> None:
@@ -151,32 +151,34 @@ def advantages(rewards: Any, values: Any, valid: Any, over: Any, discount: float
 def policy_slopes(
     logits: Any, counts: Sequence[int], choices: Any, before: Any, gains: Any, clip: float, entropy: float
 ) -> tuple[Any, float]:
-    """Derivative of the clipped objective less the entropy's share by the logits (n, outputs), and mean entropy.
+    """Derivative of the clipped objective less the entropy's share by the logits (outputs, n), and mean entropy.
 
-    `before`: (n,) log odds of the choices when they were made; `gains`: (n,) advantages.
+    `choices`: (heads, n); `before`: (n,) log odds of the choices when they were made; `gains`: (n,) advantages.
     """
-    rows, first, total = np.arange(len(logits)), 0, np.zeros(len(logits), F)
+    n = logits.shape[1]
+    columns, heads = np.arange(n), []
     odds, logs = np.empty_like(logits), np.empty_like(logits)
-    for head, count in enumerate(counts):
-        part = logits[:, first : first + count]
-        part = part - part.max(1, keepdims=True)
-        powers = np.exp(part)
-        sums = powers.sum(1, keepdims=True)
-        odds[:, first : first + count] = powers / sums
-        logs[:, first : first + count] = part - np.log(sums)
-        total += logs[rows, first + choices[:, head]]
-        first += count
-    ratio = np.exp(total - before)
+    for first, count in zip(np.cumsum([0, *counts]), counts, strict=False):
+        head = slice(first, first + count)
+        heads.append(head)
+        np.subtract(logits[head], logits[head].max(0), out=logs[head])
+        np.exp(logs[head], out=odds[head])
+        sums = odds[head].sum(0)
+        odds[head] /= sums
+        logs[head] -= np.log(sums)
+    rows = [head.start + choice for head, choice in zip(heads, choices, strict=True)]
+    ratio = np.exp(sum(logs[row, columns] for row in rows) - before)
     clipped = ((gains > 0) & (ratio > 1 + clip)) | ((gains < 0) & (ratio < 1 - clip))
-    pull = np.where(clipped, F(0), -gains * ratio / F(len(logits))).astype(F)[:, None]
-    slopes, first, mean = -pull * odds, 0, 0.0
-    for head, count in enumerate(counts):
-        slopes[rows, first + choices[:, head]] += pull[:, 0]
-        part, log = odds[:, first : first + count], logs[:, first : first + count]
-        disorder = -(part * log).sum(1, keepdims=True)
+    pull = np.where(clipped, F(0), gains * ratio / F(n))
+    slopes, mean = pull * odds, 0.0
+    for row, head in zip(rows, heads, strict=True):
+        slopes[row, columns] -= pull
+        part = odds[head] * logs[head]
+        disorder = -part.sum(0)
         mean += float(disorder.mean())
-        slopes[:, first : first + count] += F(entropy / len(logits)) * part * (log + disorder)
-        first += count
+        part += odds[head] * disorder
+        part *= F(entropy / n)
+        slopes[head] += part
     return slopes, mean
 
 
@@ -191,7 +193,7 @@ class Learner:
     def update(self, data: Sequence[Any], share: float, threads: Executor) -> float:
         """Improve both networks on a set of decisions; returns the mean entropy of the policy.
 
-        `data`: inputs (n, inputs), choices (n, heads), log odds (n,), advantages (n,), returns (n,).
+        `data`: inputs (n, inputs + 1), choices (n, heads), log odds (n,), advantages (n,), returns (n,).
         """
         orders = [self.random.permutation(len(data[0])) for _ in range(self.hyper.epochs)]
         estimating = threads.submit(self._estimate, data[0], data[4], orders, share)
@@ -208,16 +210,17 @@ class Learner:
                 rows = order[first : first + hyper.minibatch]
                 gain = gains[rows]
                 gain = (gain - gain.mean()) / (gain.std() + F(1e-8))
+                logits, trail = self.policy.forward(inputs[rows])
                 slopes, found = policy_slopes(
-                    self.policy.forward(inputs[rows]),
+                    logits,
                     self.counts,
-                    choices[rows],
+                    choices[rows].T,
                     before[rows],
                     gain,
                     hyper.clip,
                     hyper.entropy_at(share),
                 )
-                self.policy.descend(self.policy.gradient(slopes), hyper.rate_at(share), hyper.steepest)
+                self.policy.descend(self.policy.gradient(slopes, trail), hyper.rate_at(share), hyper.steepest)
         return found
 
     def _estimate(self, inputs: Any, returns: Any, orders: list[Any], share: float) -> None:
@@ -225,6 +228,7 @@ class Learner:
         for order in orders:
             for first in range(0, len(order), self.hyper.minibatch):
                 rows = order[first : first + self.hyper.minibatch]
-                errors = self.value.forward(inputs[rows])[:, 0] - returns[rows]
-                slopes = (errors / F(len(rows)))[:, None]
-                self.value.descend(self.value.gradient(slopes), self.hyper.rate_at(share), self.hyper.steepest)
+                errors, trail = self.value.forward(inputs[rows])
+                errors -= returns[rows]
+                errors /= F(len(rows))
+                self.value.descend(self.value.gradient(errors, trail), self.hyper.rate_at(share), self.hyper.steepest)

@@ -15,13 +15,14 @@ from pigaming_app.sim.kernel import kernel
 
 POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
 CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of the training on
-SHAPING, SHAPED = 0.5, 0.1  # weight of the potential, at the begin and at the end of the training
-FAR = 3.0  # potential of 1600 px on the way to the nearest opponent
+SHAPING, SHAPED = 0.5, 0.3  # weight of the potential, at the begin and at the end of the training
+FAR = 10.0  # by which 1600 px more on the way to an opponent out of sight lower the potential
 BLIND = 0.05  # cost of a shot with nobody in the line of fire
 THRIFTY, MOST_THRIFT = 0.4, 0.33  # share of matches in which a shot has a cost, and the highest
 LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
 WIN = 2.0  # reward of a win; a tie costs half of it
 PAIRS = (0, 1, 0, 1)
+WALLED = ("labyrinth", "trenches")  # arenas in which somebody who waits must be looked for
 
 
 @kernel
@@ -30,8 +31,10 @@ def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
     tank = match.tanks[seat]
     gauges[POINTS] = match.robots[seat].score + match.rules.penalty * tank.taken
     gauges[TAKEN], gauges[SHOTS] = tank.taken, tank.shots
-    clear, towards, length = inputs[OTHERS + 11] / UNIT, inputs[OTHERS + 4] / UNIT, inputs[WAY + 4] / UNIT
-    gauges[POTENTIAL] = clear * (0.5 * towards + 0.3) - FAR * length
+    if inputs[OTHERS + 11] > 0.0:
+        gauges[POTENTIAL] = 0.5 * inputs[OTHERS + 4] / UNIT + 0.3
+    else:
+        gauges[POTENTIAL] = -0.5 * FAR * (inputs[WAY + 7] / UNIT + 1.0)
 
 
 @kernel
@@ -65,23 +68,24 @@ def habits(random: Any) -> dict[str, float]:
     return {"thrift": thrift, "delay": delay}
 
 
-def duel(share: int, rival: str) -> LineUp:
+def duel(share: int, rival: str, arenas: tuple[str, ...] = ()) -> LineUp:
     """The learner against one rival."""
-    return LineUp(share, (LEARNER, rival, OFF, OFF))
+    return LineUp(share, (LEARNER, rival, OFF, OFF), arenas=arenas)
 
 
 TASK = Task(
     encoding=ENCODING,
-    arenas=("classic", "courtyard", "islands", "labyrinth", "labyrinth", "trenches", "trenches"),
+    arenas=("classic", "courtyard", "islands", "labyrinth", "trenches"),
     variants=("pickups", "pickups", "party", "party", "plain", "classic", "original"),
     minutes=(2.0,),
     line_ups=(
         duel(4, "hand3"),
         duel(1, "hand2"),
-        duel(3, "classic"),
-        duel(2, "idle"),
+        duel(2, "classic", WALLED),
+        duel(2, "idle", WALLED),
         duel(1, "q1"),
         duel(1, "q2"),
+        duel(1, "q2", WALLED),
         duel(3, LEARNER),
         duel(2, POOL),
         LineUp(1, (LEARNER, "hand3", "hand3", "hand3")),

@@ -5,6 +5,7 @@ from typing import Any
 
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import Curve, TrainedNetwork
+from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.ai.ppo.task import LineUp, Task
 from pigaming_app.ai.ppo.training import Training, columns
 
@@ -23,6 +24,7 @@ def trained_network(training: Training, name: str) -> TrainedNetwork:
         seed=training.seed,
         updates=training.updates,
         decisions=training.decisions,
+        handicap=Handicap(sharpness=training.task.sharpness),
         curve=Curve(columns(training.task), tuple(points[:: -(-len(points) // POINTS) or 1])),
     )
 
@@ -41,6 +43,7 @@ def recipe(training: Training) -> dict[str, Any]:
         "match_minutes": list(task.minutes),
         "line_ups": [described(line_up) for line_up in task.line_ups],
         "cut": task.cut,
+        "sharpness": task.sharpness,
     }
 
 
@@ -54,4 +57,8 @@ def constants(task: Task) -> dict[str, float]:
 def described(line_up: LineUp) -> str:
     """A line-up in words, such as "4 learner hand3"."""
     teams = f" teams {' '.join(map(str, line_up.teams))}" if line_up.teams else ""
-    return " ".join([str(line_up.share), *line_up.seats]) + teams + "".join(f" {name}" for name in line_up.variants)
+    return (
+        " ".join([str(line_up.share), *line_up.seats])
+        + teams
+        + "".join(f" {name}" for name in (*line_up.variants, *line_up.arenas))
+    )

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai.networks.race import ENCODING
+from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import ROBOTS
@@ -78,4 +79,6 @@ TASK = Task(
     rivals=("hand3",),
     habits=habits,
     cut=0.03,
+    hyper=Hyper(matches=160, discount=0.985, last_entropy=0.001),
+    sharpness=4.0,
 )

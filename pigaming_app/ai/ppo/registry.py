@@ -1,6 +1,6 @@
 """Tasks by game: the games that PPO learns."""
 
-from pigaming_app.ai.ppo import pitanks
+from pigaming_app.ai.ppo import pitanks, race
 from pigaming_app.ai.ppo.task import Task
 
-TASKS: dict[str, Task] = {task.game: task for task in (pitanks.TASK,)}
+TASKS: dict[str, Task] = {task.game: task for task in (pitanks.TASK, race.TASK)}

@@ -1,11 +1,13 @@
 """A task: a game as PPO learns it."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from pigaming_app.ai.networks.encoding import Encoding
+from pigaming_app.ai.ppo.learner import STANDARD, Hyper
 
+SHARDS = 4  # independent parts of a training's matches
 LEARNER, POOL, OFF = "learner", "pool", "off"  # on a seat: the network in training, an earlier copy of it, nobody
 
 
@@ -16,6 +18,7 @@ class LineUp(NamedTuple):
     seats: tuple[str, ...]  # LEARNER, POOL, OFF or the name of a brain
     teams: tuple[int, ...] | None = None  # None: those of the variant
     variants: tuple[str, ...] = ()  # empty: those of the task
+    arenas: tuple[str, ...] = ()  # empty: those of the task
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +41,13 @@ class Task:
     rivals: tuple[str, ...]  # brains against which win rates are measured
     habits: Callable[[Any], Mapping[str, float]]  # habits(generator): fields of a network's senses, for a whole match
     cut: float = 0.0  # probability that a match is replaced by a fresh one after each update
+    hyper: Hyper = STANDARD
+    sharpness: float = 1.0  # of the trained network as a brain; see Handicap
 
     @property
     def game(self) -> str:
         return self.encoding.game
+
+    def against(self, rival: str) -> "Task":
+        """The same task with duels against one brain only: what it takes to beat that one."""
+        return replace(self, line_ups=(LineUp(1, (LEARNER, rival, OFF, OFF)),), rivals=(rival,))

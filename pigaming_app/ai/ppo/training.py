@@ -15,12 +15,11 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.learner import STANDARD, Hyper, Learner, advantages
+from pigaming_app.ai.ppo.learner import Hyper, Learner, advantages
 from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
-from pigaming_app.ai.ppo.task import LEARNER, LineUp, Task
+from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
 from pigaming_app.ai.ppo.win_rates import Score, win_rates
 
-SHARDS = 4
 POOL, POOLED_EVERY = 40, 15  # earlier copies at most, and updates between two of them
 LARGEST = 32767  # of a 16-bit weight
 NUMBERS = ("updates", "decisions", "entropy", "seconds")  # counted by a training
@@ -35,12 +34,13 @@ class Training:
     """A network in training."""
 
     def __init__(
-        self, task: Task, seed: int, updates: int, hyper: Hyper = STANDARD, minutes: float | None = None
+        self, task: Task, seed: int, updates: int, hyper: Hyper | None = None, minutes: float | None = None
     ) -> None:
-        """`updates`: of the whole training, unless its time, `minutes`, is planned.
+        """`updates`: of the whole training, unless its time, `minutes`, is planned. `hyper`: None for the task's.
 
         Raises ImportError without numba, ValueError for too few matches.
         """
+        hyper = hyper or task.hyper
         self.task, self.seed, self.planned, self.minutes, self.hyper = task, seed, updates, minutes, hyper
         seeds = np.random.SeedSequence(abs(seed)).generate_state(SHARDS + 1, np.uint64).tolist()
         self.shards = [Shard(task, line_ups, seeds[k]) for k, line_ups in enumerate(dealt(task, hyper.matches))]
@@ -64,7 +64,7 @@ class Training:
         """Gather experience and learn from it."""
         began, share = perf_counter(), min(1.0, self.share)
         experiences = gather(self.learner.policy.weights, self.pool, self.hyper.decisions)
-        data = [self._digested(experience, share) for experience in experiences]
+        data = threads.map(lambda experience: self._digested(experience, share), experiences)
         joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
         self.entropy = self.learner.update(joined, share, threads)
         self.updates += 1
@@ -89,7 +89,7 @@ class Training:
         rewards = np.where(valid, self.task.reward(gains, inputs[:-1], choices, share), np.float32(0))
         last = np.maximum(valid.sum(0) - 1, 0)
         rewards[last, np.arange(len(last))] += np.where(over, results, np.float32(0))
-        values = self.learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[:, 0].reshape(inputs.shape[:2])
+        values = self.learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[0].reshape(inputs.shape[:2])
         gained = advantages(rewards, values, valid, over, self.hyper.discount, self.hyper.trace)
         returns = gained + values[:-1]
         return inputs[:-1][valid], choices[valid], log_odds[valid], gained[valid], returns[valid]

@@ -9,7 +9,7 @@ from pigaming_app.ai.experiments.cast import family_of
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.ppo.shard import cast_of, empty_experience, loop_of, nobody
 from pigaming_app.ai.ppo.task import OFF, Task
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.batch import matches as new_matches
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -40,7 +40,7 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
     rules, arenas = games()[task.game], [*dict.fromkeys(task.arenas)]
     variants = [rules.variants[name] for name in dict.fromkeys(task.variants)]
     cast, player = cast_of(task)
-    kinds = player, BRAINS[task.game][rival]
+    kinds, number = (player, find_brain(task.game, rival)), cast.families.index(family_of(player))
     setups, seated = [], []
     for i in range(matches):
         lap, stop = divmod(i // 2, len(arenas))
@@ -51,10 +51,12 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
             Setup(task.game, arena, (one, two, three, four), minutes, seed, variant.name, variant.default_goal)
         )
         minds = [cast.mind_of(kinds[k ^ i % 2], seed * ROBOTS + k) for k in range(2)]
+        getattr(minds[i % 2], f"mind{number}").sharpness = task.sharpness
         seated.append([*minds, nobody(cast), nobody(cast)])
     states = new_matches(setups)
-    number = cast.families.index(family_of(player))
-    weights = tuple(network if k == number else row for k, row in enumerate(cast.weights))
+    networks = cast.weights[number].copy()
+    networks[cast.mind_of(player, 0).row] = network[0]
+    weights = tuple(networks if k == number else row for k, row in enumerate(cast.weights))
     longest = max(round((task.minutes[0] * 60 + variant.overtime) * HZ) for variant in variants)
     nothing = empty_experience(task, 0, -(-longest // PERIOD))
     policy = [np.zeros((1, 1), np.float32)] * 3

@@ -98,15 +98,8 @@ class Observation:
 @kernel
 def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     """Fill in the observation of one seat."""
-    robot, tank = match.robots[seat], match.tanks[seat]
-    obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
-    obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, match.rules.turn_rate
-    obs.finale, obs.overtime = 1 if is_finale(match) else 0, 1 if is_overtime(match) else 0
-    obs.seconds_left = (match.rules.ticks + obs.overtime * match.rules.overtime - match.tick) * 0.02
-    obs.loaded = 0 if tank.cooldown else 1
-    obs.turbo, obs.protected = robot.turbo, tank.protected
-    obs.shield, obs.mine = tank.powers[SHIELD], tank.powers[MINE]
-    obs.knocked_out, obs.camped, obs.lit, obs.bounty = tank.knocked_out, tank.camped, tank.lit, tank.bounty
+    robot = match.robots[seat]
+    observe_self(match, seat, obs)
     nearest = -1
     for i in range(OTHERS):
         j = (seat + 1 + i) % ROBOTS
@@ -118,6 +111,27 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     obs.cover = 0
     if nearest >= 0 and senses.cover:
         observe_cover(match, robot, obs.others[nearest].x, obs.others[nearest].y, obs)
+    observe_surroundings(match, seat, senses, obs)
+
+
+@kernel
+def observe_self(match: Any, seat: int, obs: Any) -> None:
+    """Fill in the seat's own robot, and the time left."""
+    robot, tank = match.robots[seat], match.tanks[seat]
+    obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
+    obs.linear, obs.angular, obs.turn_rate = robot.linear, robot.angular, match.rules.turn_rate
+    obs.finale, obs.overtime = 1 if is_finale(match) else 0, 1 if is_overtime(match) else 0
+    obs.seconds_left = (match.rules.ticks + obs.overtime * match.rules.overtime - match.tick) * 0.02
+    obs.loaded = 0 if tank.cooldown else 1
+    obs.turbo, obs.protected = robot.turbo, tank.protected
+    obs.shield, obs.mine = tank.powers[SHIELD], tank.powers[MINE]
+    obs.knocked_out, obs.camped, obs.lit, obs.bounty = tank.knocked_out, tank.camped, tank.lit, tank.bounty
+
+
+@kernel
+def observe_surroundings(match: Any, seat: int, senses: Any, obs: Any) -> None:
+    """Fill in the first bullet that would hit, the nearest pick-up and the waypoint."""
+    robot = match.robots[seat]
     observe_threat(match, seat, robot, senses.delay, obs)
     obs.prize = 0
     if match.rules.pickups:
@@ -132,19 +146,34 @@ def observe_other(match: Any, seat: int, j: int, delay: float, other: Any) -> No
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
     if not seen.present:
         return
-    vx, vy = seen.linear * cos(seen.heading), seen.linear * sin(seen.heading)
-    other.x, other.y = seen.x - delay * vx, seen.y - delay * vy
-    dx, dy = other.x - robot.x, other.y - robot.y
-    other.distance = sqrt(dx * dx + dy * dy)
-    way = atan2(dy, dx)
-    other.bearing = turn_to(way - robot.heading)
-    flight_time = other.distance / match.rules.bullet_speed + delay
-    other.aim = turn_to(atan2(dy + flight_time * vy, dx + flight_time * vx) - robot.heading)
+    vx, vy = locate_other(robot, seen, delay, other)
+    way = aim_at_other(match, robot, vx, vy, delay, other)
     other.facing = turn_to(seen.heading - delay * seen.angular - way - 3.141592653589793)
     other.clear = is_clear(match, robot.x, robot.y, seen.x, seen.y, match.rules.bullet_radius)
     other.protected, other.knocked_out = tank.protected, tank.knocked_out
     other.lit, other.bounty, other.worth = tank.lit, tank.bounty, worth(match, seat, j)
     other.score = seen.score
+
+
+@kernel
+def locate_other(robot: Any, seen: Any, delay: float, other: Any) -> tuple[float, float]:
+    """Fill in position and distance of the robot `seen`. Returns its velocity, px/s."""
+    vx, vy = seen.linear * cos(seen.heading), seen.linear * sin(seen.heading)
+    other.x, other.y = seen.x - delay * vx, seen.y - delay * vy
+    dx, dy = other.x - robot.x, other.y - robot.y
+    other.distance = sqrt(dx * dx + dy * dy)
+    return vx, vy
+
+
+@kernel
+def aim_at_other(match: Any, robot: Any, vx: float, vy: float, delay: float, other: Any) -> float:
+    """Fill in bearing and aim of a robot that `locate_other` has located. Returns the direction to it, rad."""
+    dx, dy = other.x - robot.x, other.y - robot.y
+    way = atan2(dy, dx)
+    other.bearing = turn_to(way - robot.heading)
+    flight_time = other.distance / match.rules.bullet_speed + delay
+    other.aim = turn_to(atan2(dy + flight_time * vy, dx + flight_time * vx) - robot.heading)
+    return way
 
 
 @kernel
@@ -182,9 +211,9 @@ def observe_cover(match: Any, robot: Any, from_x: float, from_y: float, obs: Any
 @kernel
 def observe_threat(match: Any, seat: int, robot: Any, delay: float, obs: Any) -> None:
     """Fill in the first bullet that would hit if nobody moved; those fired less than `delay` ago are not visible."""
-    obs.threat, obs.threat_bearing, obs.threat_side = 9.0, 0.0, 0.0
-    reach = RADIUS + match.rules.bullet_radius
-    speed2 = match.rules.bullet_speed * match.rules.bullet_speed
+    first, first_side, at = 9.0, 0.0, -1
+    x, y, speed = robot.x, robot.y, match.rules.bullet_speed
+    reach, speed2 = RADIUS + match.rules.bullet_radius, speed * speed
     for k in range(ROBOTS):
         owner = match.robots[k]
         if not owner.present or owner.team == robot.team:
@@ -193,16 +222,18 @@ def observe_threat(match: Any, seat: int, robot: Any, delay: float, obs: Any) ->
             bullet = match.bullets[i]
             if not bullet.alive:
                 continue
-            px, py = robot.x - bullet.x, robot.y - bullet.y
+            px, py = x - bullet.x, y - bullet.y
             ahead = (px * bullet.vx + py * bullet.vy) / speed2
-            if ahead <= 0.0 or ahead >= obs.threat:
+            if ahead <= 0.0 or ahead >= first:
                 continue
-            side = (bullet.vx * py - bullet.vy * px) / match.rules.bullet_speed
+            side = (bullet.vx * py - bullet.vy * px) / speed
             if -reach < side < reach:
                 ox, oy = bullet.x - owner.x, bullet.y - owner.y
                 if ox * ox + oy * oy >= delay * delay * speed2:
-                    obs.threat, obs.threat_side = ahead, side
-                    obs.threat_bearing = turn_to(atan2(-bullet.vy, -bullet.vx) - robot.heading)
+                    first, first_side, at = ahead, side, i
+    obs.threat, obs.threat_side, obs.threat_bearing = first, first_side, 0.0
+    if at >= 0:
+        obs.threat_bearing = turn_to(atan2(-match.bullets[at].vy, -match.bullets[at].vx) - robot.heading)
 
 
 @kernel

@@ -21,7 +21,7 @@ from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, R
 from pigaming_app.sim.grid import NEAR_UNIT, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
-from pigaming_app.sim.sweep import bounds_contact, disc_contact, offset_from_wall, wall_contact
+from pigaming_app.sim.sweep import ROUNDING, bounds_contact, disc_contact, offset_from_wall, wall_contact
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
 ALL_POWERS = len(POWERS)
@@ -160,9 +160,11 @@ def move_bullet(match: Any, k: int, bullet: Any, seconds: float) -> None:
     left, right = (x, x + dx) if dx > 0.0 else (x + dx, x)
     top, bottom = (y, y + dy) if dy > 0.0 else (y + dy, y)
     if bullet.fresh or match.grid[node_at(x, y)] >= NEAR_UNIT:
+        slack = RADIUS - radius - ROUNDING  # the walls' bounding boxes include RADIUS
+        west, east, north, south = left + slack, right - slack, top + slack, bottom - slack
         for i in range(match.wall_count):
             wall = match.walls[i]
-            if left < wall.right and right > wall.left and top < wall.bottom and bottom > wall.top and wall.health:
+            if west < wall.right and east > wall.left and north < wall.bottom and south > wall.top and wall.health:
                 t = wall_contact(x, y, dx, dy, wall, radius)
                 if t < first and (t > 0.0 or moves_into(wall, x, y, dx, dy)):
                     first, struck = t, -1 - i

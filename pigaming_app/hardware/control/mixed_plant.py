@@ -10,7 +10,7 @@ from typing import Any
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.sim.contact import ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
+from pigaming_app.sim.contact import MOVED, ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
 from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import offset_from_wall
@@ -100,7 +100,7 @@ def simulate(world: Any, simulated: Sequence[int]) -> None:
         for robot, x, y in fixed:
             robot.x, robot.y = x, y
         for i in simulated:
-            moved = bool(push_out_of_walls(world, robots[i])) or moved
+            moved = push_out_of_walls(world, robots[i]) == MOVED or moved
         if not moved:
             break
     for robot, x, y in starts:

@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from typing import Any
 
 from pigaming_app.jobs.terminal.options import game_option, shared
-from pigaming_app.jobs.terminal.refusal import refused, require
+from pigaming_app.jobs.terminal.refusal import missing, refused, require
 
 ROBOTS = "robots"
 
@@ -23,6 +23,8 @@ def run(arguments: Namespace) -> int:
         print(json.dumps(figures))
     else:
         _print(figures)
+        if lacks := missing("bench"):
+            print(lacks)
     return 0
 
 

@@ -10,9 +10,10 @@ import platform
 import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
+from itertools import count
 from multiprocessing import get_context
 from statistics import median
-from time import perf_counter, time
+from time import perf_counter, process_time, time
 from typing import Any
 
 from pigaming_app import INSTALLED, ROOT
@@ -21,6 +22,7 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.jobs.bench import environments, yardsticks
 from pigaming_app.jobs.bench.memory import measure as measure_memory
 from pigaming_app.jobs.bench.walk import measure as measure_screens
 from pigaming_app.sim.kernel import can_compile
@@ -50,6 +52,8 @@ def measure(game: str, variant: str) -> dict[str, Any]:
         "plain_us_per_tick": 1e6 * plain,
         "compiled_us_per_tick": None if single is None else 1e6 * single,
         "compiled_ticks_per_second": both,
+        "environments": environments.measure(game),
+        "comparison": _comparison(variant) if game == yardsticks.GAME else None,
         "real_time_factor_plain": 1.0 / (HZ * plain),
         "real_time_factor_compiled": None if single is None else 1.0 / (HZ * single),
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
@@ -112,6 +116,26 @@ def _plain_run(game: str, variant: str, seed: int) -> float:
     began = perf_counter()
     matches.play(PLAIN_TICKS)
     return (perf_counter() - began) / matches.ticks()
+
+
+def _comparison(variant: str) -> dict[str, float | None]:
+    """CPU time, us a tick, of a match with its rules and brains, and of the yardsticks, which have neither.
+
+    `pymunk_ratio` is the faster of the two forms in pymunk over the match. None: numba or pymunk is missing.
+    """
+    seeds = count(1000, 1000)
+
+    def four_hand2() -> float:
+        matches = batch(yardsticks.GAME, variant, next(seeds), 4, True)
+        began = process_time()
+        matches.play(TICKS)
+        return (process_time() - began) / matches.ticks()
+
+    best = yardsticks.best_of(yardsticks.runs() | ({"four_hand2": four_hand2} if can_compile() else {}))
+    names = ("four_hand2", "pymunk_bodies", "pymunk_queries", "numpy_batch")
+    figures = {f"{name}_us_per_tick": 1e6 * best[name] if name in best else None for name in names}
+    ratio = min(best["pymunk_bodies"], best["pymunk_queries"]) / best["four_hand2"] if len(best) == len(names) else None
+    return {**figures, "pymunk_ratio": ratio}
 
 
 def _two_processes(game: str, variant: str) -> float:

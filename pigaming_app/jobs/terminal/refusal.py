@@ -14,6 +14,7 @@ EXTRAS = {  # a module, and the package's name
     "plots": ("matplotlib", "matplotlib"),
     "ray": ("ray", "Ray"),
     "train": ("numba", "numba"),
+    "bench": ("pymunk", "pymunk"),
 }
 FETCHED = "connect this machine to the internet and start main.py again, which installs it"
 
@@ -38,9 +39,14 @@ def sentence(error: Exception) -> str:
 
 def require(extra: str) -> None:
     """Raises Refusal where an extra of the package is not installed, with the way to install it."""
+    if lacks := missing(extra):
+        raise Refusal(lacks)
+
+
+def missing(extra: str) -> str:
+    """One line that says that an extra is missing, with the way to install it; empty if it is installed."""
     module, name = EXTRAS[extra]
-    if find_spec(module) is None:
-        raise Refusal(f"{name} is missing (extra `{extra}`): {remedy(extra)}")
+    return "" if find_spec(module) else f"{name} is missing (extra `{extra}`): {remedy(extra)}"
 
 
 def require_for_brains(names: Iterable[str]) -> None:

@@ -3,8 +3,9 @@
 import json
 import os
 from argparse import Namespace
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from time import monotonic
@@ -14,12 +15,14 @@ from pigaming_app.ai.experiments.league import wilson
 from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.checkpoint import encode, restore
-from pigaming_app.ai.ppo.learner import STANDARD
 from pigaming_app.ai.ppo.product import trained_network
+from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
-from pigaming_app.ai.ppo.training import SHARDS, Diverged, Training, columns, in_threads
+from pigaming_app.ai.ppo.task import SHARDS, Task
+from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
 from pigaming_app.ai.ppo.win_rates import Score
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
@@ -38,11 +41,17 @@ def train_and_save(arguments: Namespace, beside: Path) -> int:
         training = _begin(arguments, beside)
     if not is_compiled(training.task):
         note("compiling the training, once; it takes a minute")
-    with ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads, interrupts() as stopped, refused(Diverged):
+    with (
+        refused(Diverged, NoCluster),
+        ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads,
+        _players(training, threads, arguments) as (gather, sync),
+        interrupts() as stopped,
+    ):
         note("Ctrl-C ends the training after the current update and saves the result")
-        _train(training, threads, partial(_save, training, arguments.out, beside), stopped)
+        save = partial(_save, training, sync, arguments.out, beside)
+        _train(training, gather, threads, save, stopped)
         scores = training.measure(MEASURED_AT_END, threads)
-        _save(training, arguments.out, beside)
+        save()
         if arguments.csv:
             write_atomic(arguments.csv, csv_of(columns(training.task), training.points))
         if arguments.curve:
@@ -56,9 +65,12 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     require_one_of("game", arguments.game, list(games()))
     if arguments.game not in TASKS:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
+    if arguments.workers > SHARDS:
+        raise Refusal(f"--workers: {arguments.workers}; the matches are divided among {SHARDS} at most")
+    task = _task(arguments)
     try:
-        hyper = changed(STANDARD, arguments.set)
-        training = Training(TASKS[arguments.game], arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
+        hyper = changed(task.hyper, arguments.set)
+        training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}") from None
     if arguments.resume:
@@ -66,9 +78,29 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     return training
 
 
-def _train(training: Training, threads: Executor, save: Callable[[], None], stopped: list[int]) -> None:
+def _task(arguments: Namespace) -> Task:
+    """The game as it is to be learned. Raises ChoiceError."""
+    task = TASKS[arguments.game]
+    if arguments.against is None:
+        return task
+    find_brain(arguments.game, arguments.against)
+    return task.against(arguments.against)
+
+
+@contextmanager
+def _players(
+    training: Training, threads: Executor, arguments: Namespace
+) -> Iterator[tuple[Gather, Callable[[], None]]]:
+    """Those who play the shards, and a function that brings the training's own shards up to date."""
+    if arguments.ray is None:
+        yield in_threads(training, threads), lambda: None
+        return
+    with RayShards(training, arguments.ray, arguments.workers) as shards:
+        yield shards.gather, shards.sync
+
+
+def _train(training: Training, gather: Gather, threads: Executor, save: Callable[[], None], stopped: list[int]) -> None:
     """Train to the end of the plan, or until stopped."""
-    gather = in_threads(training, threads)
     scores = training.measure(MEASURED, threads)  # also compiles
     saved = monotonic()
     while not training.finished and not stopped:
@@ -87,8 +119,9 @@ def _train(training: Training, threads: Executor, save: Callable[[], None], stop
     end_line()
 
 
-def _save(training: Training, out: Path, beside: Path) -> None:
-    """Write network and checkpoint. Raises NotSaved."""
+def _save(training: Training, sync: Callable[[], None], out: Path, beside: Path) -> None:
+    """Write network and checkpoint. Raises NotSaved or NoCluster."""
+    sync()
     write_all_atomic({out: encode_network(trained_network(training, out.stem)), beside: encode(training)})
 
 

@@ -43,7 +43,7 @@ HEAD_W, HEAD_GAP, DIVIDED = 38, 8, 20  # px: least width of a head; between head
 TOP, SIGN_Y = 10, 83  # px from a box's top to its bars and to the middle of their signs
 CELL, GAP = 28, 30  # px: size of a stick cell; gap between stick and sign
 LEVELS = 10  # colour levels of a cell in each direction
-CRATES = {"raw": 0, "half": 1, "done": 2, "damaged": 3}  # signs that are crates
+CRATES = {"raw": 0, "half": 1, "done": 2, "damaged": 3, "load": 1}  # signs that are crates
 PAIRS = {"others": ("ai", "ai"), "drive": ("up", "down"), "turn": ("left", "right")}  # signs of two icons
 SIGNS = {
     "cover": "shield", "attack": "faster", "fire": "shoot", "dodge": "ricochet", "free": "turn_left",
@@ -51,7 +51,8 @@ SIGNS = {
     "back": "behind", "put": "down", "wait": "clock",
     "swing": "turn_right",
     "near": "ai", "bullets": "ricochet", "mines": "mine", "pickups": "plus", "self": "shield", "score": "crown",
-    "rest": "unknown",
+    "target": "circle", "choices": "unknown", "machines": "mine", "people": "triangle", "course": "ahead", "oil": "oil",
+    "pads": "faster", "shoot": "shoot", "fork": "plus", "item": "square",
 }  # fmt: skip
 
 

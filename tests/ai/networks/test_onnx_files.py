@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pigaming_app import ROOT
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.experiments.league import duel
 from pigaming_app.ai.networks.registry import ENCODINGS
@@ -53,7 +54,7 @@ class TestWithTheExtra:
             match.tick()
         assert isinstance(match.brains[0], BrainPlayer)
         told = match.brains[0].explain(match.state, 0)
-        assert told.heads.keys() == {"drive", "turn", "fire", "turbo"}
+        assert told.heads.keys() == {"drive", "turn", "shoot", "turbo"}
         assert max(told.utilities.values()) > 0.0
 
     def test_a_duel_with_a_model_is_not_compiled(self):
@@ -66,15 +67,24 @@ class TestWithTheExtra:
             ("pitanks", b"hello", "not an ONNX model"),
             ("pitanks", b"", "not an ONNX model"),
             ("pitanks", model(MATRIX)[:-500], "not an ONNX model"),
-            ("pitanks", model(MATRIX[:-1]), r"its input is tensor\(float\) \(1, 119\); pitanks needs float \(1, 120\)"),
+            ("pitanks", model(MATRIX[:-1]), r"its input is tensor\(float\) \(1, 121\); pitanks needs float \(1, 122\)"),
             ("pitanks", model(MATRIX[:, :-1]), r"its output is .*\(1, 13\); pitanks needs float \(1, 14\)"),
             ("pitanks", model(*HEADS[::-1]), "its output is "),
             ("pitanks", model(MATRIX, batch=4), "its input is "),
             ("pitanks", model(MATRIX, kind=DOUBLE), "its input is tensor.double"),
-            ("factory", model(MATRIX), "networks play pitanks, not factory"),
+            ("factory", model(MATRIX), r"its input is .*; factory needs float \(1, 140\)"),
         ],
     )
     def test_another_file_is_refused_in_one_line(self, game, raw, reason):
         Path("a.onnx").write_bytes(raw)
         with pytest.raises(ChoiceError, match=rf"^a\.onnx: .*{reason}"):
             find_brain(game, "a.onnx")
+
+
+def test_the_contract_names_the_shapes():
+    text = (ROOT / "docs" / "opponents.md").read_text(encoding="utf-8")
+    assert f"float32, (1, {ENCODING.size})" in text
+    assert f"one output (1, {ENCODING.outputs})" in text
+    flat = " ".join(text.split())
+    for group, length in ENCODING.groups:
+        assert f"{group} {length}" in flat or group in ("first", "second", "third")

@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer
-from pigaming_app.ai.brain.thoughts import BULLET, OPPONENT, PRIZE
+from pigaming_app.ai.brain.thoughts import BULLET, MATE, OPPONENT, PERSON, PRIZE
 from pigaming_app.ai.networks.files import brain_of
+from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import Handicap, draw
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.networks.thoughts import REASONS, TOPICS, make_explain, probabilities, topics_of
+from pigaming_app.ai.networks.thoughts import REASONS, make_explain, probabilities, topics_of
 from pigaming_app.ai.registry import new_match
+from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from tests.ai.networks.random_network import random_network
@@ -44,7 +47,7 @@ def test_asking_changes_neither_match_nor_mind_and_everything_told_has_words():
         assert all(0.0 <= value <= 1.0 for value in one.utilities.values())
         assert all(-1.0 <= value <= 1.0 for value in one.rose)
         if one.behaviour != "starts":
-            assert one.utilities.keys() == TOPICS["pitanks"].keys()
+            assert one.utilities.keys() == SUBJECTS["pitanks"].topics.keys()
             assert [sum(chances) for chances in one.heads.values()] == pytest.approx([1.0] * 4)
     assert len({one.chosen for one in told}) > 2
     reasons = {*REASONS.values(), "looks_nothing"}
@@ -53,8 +56,9 @@ def test_asking_changes_neither_match_nor_mind_and_everything_told_has_words():
 
 
 def test_topics_cover_every_input_once_and_only_one_on_which_a_network_depends_counts():
-    places = [place for ranges in topics_of(ENCODING).values() for part in ranges for place in part]
-    assert sorted(places) == list(range(ENCODING.size))
+    for encoding in ENCODINGS.values():
+        places = [place for ranges in topics_of(encoding).values() for part in ranges for place in part]
+        assert sorted(places) == list(range(encoding.size))
     for topic, ranges in topics_of(ENCODING).items():
         network = random_network(seed=5)
         kept = np.zeros_like(network.matrices[0])
@@ -102,3 +106,31 @@ def test_things_are_marked_where_they_were_at_the_last_decision():
             )
             seen.add(sight.kind)
     assert seen >= {OPPONENT, BULLET}
+
+
+@pytest.mark.parametrize("game", ENCODINGS)
+def test_networks_of_every_game_explain_themselves(game):
+    rules, track = games()[game].default, arenas(game)[0]
+    one, two, three, four = (Seat("idle", team) for team in rules.teams)
+    match = new_match(Setup(game, track, (one, two, three, four), 2.0, 1, rules.name, rules.default_goal))
+    for seat in range(4):
+        network = random_network(seat, game)
+        network.matrices[0][:] *= 3
+        match.sit(seat, BrainPlayer(brain_of(network), seat))
+    words, seen = texts("en"), set()
+    for tick in range(300):
+        match.tick()
+        if tick % 10:
+            continue
+        for seat, brain in enumerate(match.brains):
+            told = brain.explain(match.state, seat)
+            assert f"brain.{told.behaviour}" in words
+            assert all(-1.0 <= value <= 1.0 for value in told.rose)
+            for sight in told.percepts:
+                seen.add(sight.kind)
+                robots = [(r.x, r.y) for i, r in enumerate(match.state.robots) if i != seat]
+                near = min(dist((sight.x, sight.y), robot) for robot in robots)
+                assert near < 80.0 or sight.kind not in (OPPONENT, MATE)
+                people = [(worker.x, worker.y) for worker in getattr(match.state, "workers", [])]
+                assert sight.kind != PERSON or min(dist((sight.x, sight.y), person) for person in people) < 80.0
+    assert seen & {OPPONENT, MATE}

@@ -1,6 +1,7 @@
 """The hand-written opponents of PiTanks: they attack whatever the score, their strengths are ordered, none is stuck."""
 
 from math import hypot
+from random import Random
 
 import pytest
 
@@ -10,6 +11,7 @@ from pigaming_app.ai.registry import STRENGTHS, make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.pitanks.observation import Observation, observe
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from tests.ai.pitanks.stuck import stuck
@@ -71,9 +73,8 @@ def target_of(change):
     mind = match.brains[0].mind
     run(match, 1)
     change(match.state.tanks[2])
-    gunner.observe(match.state, 0, mind.senses, mind.obs)
     mind.target = -1
-    gunner.choose_target(mind.obs, mind)
+    gunner.choose_target(match.state, 0, mind)
     return mind.target + 1
 
 
@@ -85,14 +86,41 @@ def test_it_goes_for_the_nearest_for_lit_ones_and_for_a_bounty():
 
 def test_it_leaves_a_target_that_cannot_be_hit_but_novices_stay_with_theirs():
     for brain, seat in (("hand3", 2), ("hand1", 1)):
-        mind = make_brain("pitanks", brain, 1).mind
-        for other, distance in zip(mind.obs.others, (350.0, 400.0), strict=False):
-            other.present, other.clear, other.distance = 1, 1, distance
-        gunner.choose_target(mind.obs, mind)
+        match, mind = begun((brain, "idle", "idle", "off"), arena="classic"), make_brain("pitanks", brain, 1).mind
+        put(match, (500.0, 600.0), (850.0, 600.0), (900.0, 600.0))
+        gunner.choose_target(match.state, 0, mind)
         assert mind.target + 1 == 1
-        mind.obs.others[0].protected = 75
-        gunner.choose_target(mind.obs, mind)
+        match.state.tanks[1].protected = 75
+        gunner.choose_target(match.state, 0, mind)
         assert mind.target + 1 == seat
+
+
+def test_what_it_leaves_out_changes_neither_its_target_nor_what_it_observes_of_it():
+    """The target of the full observation, by the same price, in many random situations."""
+    match, luck = begun(("hand2", "idle", "idle", "idle"), "party", "classic"), Random(3)
+    mind, tanks, whole = match.brains[0].mind, match.state.tanks, Observation()
+    targets = set()
+    for _ in range(400):
+        for robot in match.state.robots:
+            robot.x, robot.y, robot.heading = luck.uniform(40, 1560), luck.uniform(40, 860), luck.uniform(0, 6.28)
+            robot.linear = luck.uniform(-300, 300)
+        match.state.robots[3].team = luck.choice([0, 3])
+        tanks[2].lit, tanks[1].protected = luck.choice([0, 0, 1]), luck.choice([0, 60])
+        last, mind.state = mind.target, gunner.FIGHT
+        observe(match.state, 0, mind.senses, whole)
+        costs = [
+            gunner.price(other.distance, tanks[1 + i])
+            + (0.0 if other.clear else gunner.HIDDEN)
+            - (mind.loyalty if i == last else 0.0)
+            for i, other in enumerate(whole.others)
+            if not other.mate
+        ]
+        gunner.choose_target(match.state, 0, mind)
+        assert mind.target == costs.index(min(costs))
+        targets.add(mind.target)
+        for name in ("x", "y", "distance", "bearing", "aim", "clear", "protected", "lit", "bounty"):
+            assert getattr(mind.obs.others[mind.target], name) == getattr(whole.others[mind.target], name)
+    assert targets == {0, 1, 2}
 
 
 def test_in_the_finale_it_shoots_more_often_and_leaves_pick_ups_alone():
@@ -111,13 +139,13 @@ def test_in_the_finale_it_shoots_more_often_and_leaves_pick_ups_alone():
 
 
 def test_hand1_aims_behind_a_moving_target():
-    match = begun(("hand1", "idle", *OFF))
-    put(match, (300.0, 700.0), (700.0, 700.0))
+    match = begun(("hand1", "idle", *OFF), arena="classic")
+    put(match, (300.0, 600.0), (700.0, 600.0))
     match.state.robots[1].heading, match.state.robots[1].linear = 1.5707963, 260.0
     aims = []
     for brain in HANDS:
         mind = make_brain("pitanks", brain, 1).mind
-        gunner.observe(match.state, 0, mind.senses, mind.obs)
+        gunner.choose_target(match.state, 0, mind)
         aims.append(gunner.aim(mind, mind.obs.others[0]))
     assert aims[0] < aims[1] < aims[2], "the target drives clockwise"
 
@@ -126,7 +154,8 @@ def test_it_swings_to_the_side_with_room():
     match = begun(("hand3", "idle", *OFF), arena="classic")
     put(match, (120.0, 50.0), (520.0, 50.0))  # along the upper wall
     mind = match.brains[0].mind
-    gunner.observe(match.state, 0, mind.senses, mind.obs)
+    gunner.observe_self(match.state, 0, mind.obs)
+    gunner.choose_target(match.state, 0, mind)
     for weave in (1.0, -1.0):
         mind.weave = weave
         gunner.choose_side(match.state, mind.obs, mind, mind.obs.others[0])

@@ -24,38 +24,37 @@ def test_the_gradient_is_that_of_finite_differences():
     network = Network(7, 3, 1.0, RANDOM)
     network.weights = [matrix.astype(float) for matrix in network.weights]
     network.weights[0] *= 3.0  # some units saturate
-    x, slopes = RANDOM.normal(size=(20, 7)), RANDOM.normal(size=(20, 3))
-    network.forward(x)
-    gradients = network.gradient(slopes.copy())
+    x, slopes = np.ones((20, 8)), RANDOM.normal(size=(3, 20))
+    x[:, :7] = RANDOM.normal(size=(20, 7))
+    gradients = network.gradient(slopes.copy(), network.forward(x)[1])
     for matrix, gradient in zip(network.weights, gradients, strict=True):
         for _ in range(12):
             index = tuple(RANDOM.integers(matrix.shape))
-            expected = numeric(lambda: float((network.forward(x) * slopes).sum()), matrix, index, 1e-6)
+            expected = numeric(lambda: float((network.forward(x)[0] * slopes).sum()), matrix, index, 1e-6)
             assert gradient[index] == pytest.approx(expected, rel=1e-4, abs=1e-6)
 
 
 def test_the_slopes_of_the_policy_are_those_of_the_clipped_objective():
     counts, n, clip, entropy = (3, 2), 40, 0.2, 0.05
-    logits = RANDOM.normal(size=(n, 5))
-    choices = np.stack([RANDOM.integers(count, size=n) for count in counts], axis=1)
+    logits = RANDOM.normal(size=(5, n))
+    choices = np.stack([RANDOM.integers(count, size=n) for count in counts])
     gains = RANDOM.normal(size=n)
 
     def logs():
-        parts = np.split(logits, [3], axis=1)
-        return [part - np.log(np.exp(part).sum(1, keepdims=True)) for part in parts]
+        return [part - np.log(np.exp(part).sum(0)) for part in np.split(logits, [3])]
 
     def odds():
-        return sum(log[np.arange(n), choices[:, head]] for head, log in enumerate(logs()))
+        return sum(log[choices[head], np.arange(n)] for head, log in enumerate(logs()))
 
     before = odds() + RANDOM.normal(size=n) * 0.3
 
     def loss():
         ratio = np.exp(odds() - before)
         objective = np.minimum(ratio * gains, np.clip(ratio, 1 - clip, 1 + clip) * gains).mean()
-        return -objective - entropy * -sum((np.exp(log) * log).sum(1).mean() for log in logs())
+        return -objective - entropy * -sum((np.exp(log) * log).sum(0).mean() for log in logs())
 
     slopes, disorder = policy_slopes(logits, counts, choices, before, gains, clip, entropy)
-    assert disorder == pytest.approx(-sum((np.exp(log) * log).sum(1).mean() for log in logs()), rel=1e-5)
+    assert disorder == pytest.approx(-sum((np.exp(log) * log).sum(0).mean() for log in logs()), rel=1e-5)
     for _ in range(30):
         index = tuple(RANDOM.integers(logits.shape))
         assert slopes[index] == pytest.approx(numeric(loss, logits, index, 1e-6), rel=1e-3, abs=1e-6)
@@ -81,16 +80,17 @@ def test_it_learns_to_do_as_it_is_told():
     with ThreadPoolExecutor(1) as threads:
         for _ in range(40):
             wanted = np.stack([RANDOM.integers(count, size=1024) for count in counts], axis=1)
-            inputs = np.zeros((1024, 5), np.float32)
+            inputs = np.zeros((1024, 6), np.float32)
+            inputs[:, 5] = 1.0
             inputs[rows, wanted[:, 0]] = inputs[rows, 3 + wanted[:, 1]] = 1.0
-            logits, choices, odds = learner.policy.forward(inputs), [], np.zeros(1024, np.float32)
-            for part in np.split(logits, [3], axis=1):
-                log = part - np.log(np.exp(part).sum(1, keepdims=True))
-                choices.append((np.exp(log).cumsum(1) < RANDOM.random((1024, 1))).sum(1).clip(0, part.shape[1] - 1))
-                odds += log[rows, choices[-1]]
+            logits, choices, odds = learner.policy.forward(inputs)[0], [], np.zeros(1024, np.float32)
+            for part in np.split(logits, [3]):
+                log = part - np.log(np.exp(part).sum(0))
+                choices.append((np.exp(log).cumsum(0) < RANDOM.random(1024)).sum(0).clip(0, len(part) - 1))
+                odds += log[choices[-1], rows]
             chosen = np.stack(choices, axis=1)
             gains = (chosen == wanted).mean(1).astype(np.float32)
             right = float(gains.mean())
-            values = learner.value.forward(inputs)[:, 0]
+            values = learner.value.forward(inputs)[0][0]
             learner.update([inputs, chosen, odds, gains - values, gains], 0.0, threads)
     assert right > 0.97

@@ -58,7 +58,7 @@ def test_each_strength_is_as_fast_as_it_is_meant_to_be(strength, track):
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_turbo_is_used_well(track):
-    match = alone("hard", track)
+    match = alone("hand3", track)
     while not match.over:
         match.tick()
     assert REFERENCE[track] / match.game.times(match.state, 0)[1] > 1.02
@@ -66,7 +66,7 @@ def test_turbo_is_used_well(track):
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_a_hard_driver_stays_on_the_course(track):
-    match = alone("hard", track, laps=2)
+    match = alone("hand3", track, laps=2)
     while not match.over:
         match.tick()
         assert match.state.racers[0].place.on
@@ -75,9 +75,9 @@ def test_a_hard_driver_stays_on_the_course(track):
 @pytest.mark.parametrize("track", one_in(4, TRACKS))
 def test_courses_can_be_driven_anticlockwise(track):
     arena = the_other_way_round(track)
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("hard", "normal", "easy", "hard")))
+    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("hand3", "hand2", "hand1", "hand3")))
     match = Match(Setup("race", track, (one, two, three, four), 10.0, IN_ORDER, "standard", 2), arena=arena)
-    for seat, brain in enumerate(("hard", "normal", "easy", "hard")):
+    for seat, brain in enumerate(("hand3", "hand2", "hand1", "hand3")):
         match.sit(seat, make_brain("race", brain, seat))
     while not match.over:
         match.tick()
@@ -121,7 +121,7 @@ def test_every_strength_thinks_without_changing_anything_but_its_action(strength
 
 
 def test_hard_beats_easy():
-    result = duel("race", "hard", "easy", matches=4, seed=100, minutes=10.0, variant="standard", fast=False)
+    result = duel("race", "hand3", "hand1", matches=4, seed=100, minutes=10.0, variant="standard", fast=False)
     assert result.wins == 4
 
 
@@ -130,16 +130,16 @@ def test_hard_beats_easy():
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_it_drives_round_robots_that_stand_on_the_course(track):
-    match = race(("hard", "idle", "idle", "idle"), track)
+    match = race(("hand3", "idle", "idle", "idle"), track)
     while not match.over:
         match.tick()
-    free = alone("hard", track)
+    free = alone("hand3", track)
     while not free.over:
         free.tick()
     assert match.state.racers[0].finish < 1.2 * free.state.racers[0].finish
 
 
-@pytest.mark.parametrize(("slower", "faster"), [("easy", "hard"), ("normal", "hard"), ("easy", "normal")])
+@pytest.mark.parametrize(("slower", "faster"), [("hand1", "hand3"), ("hand2", "hand3"), ("hand1", "hand2")])
 def test_it_overtakes_whoever_is_slower(slower, faster):
     """The slower one starts a line ahead. On a free course the faster one would win by at least 8 s."""
     match = race((slower, "off", "off", faster), laps=9)
@@ -172,7 +172,7 @@ def test_it_gets_free_whichever_way_it_stands_in_a_corner(strength, heading):
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_it_turns_round_when_it_faces_the_wrong_way(track):
-    match = alone("normal", track)
+    match = alone("hand2", track)
     for _ in range(2 * HZ):
         match.tick()
     robot = match.state.robots[0]
@@ -185,7 +185,7 @@ def test_it_turns_round_when_it_faces_the_wrong_way(track):
 @pytest.mark.parametrize("past", [30.0, 200.0, 700.0])
 def test_it_goes_back_to_a_line_that_it_has_been_carried_over(track, past):
     """As when a person who has missed a line hands over."""
-    match = alone("hard", track, laps=1)
+    match = alone("hand3", track, laps=1)
     state = match.state
     while state.racers[0].passed < 1:
         match.tick()
@@ -201,7 +201,7 @@ def test_it_goes_back_to_a_line_that_it_has_been_carried_over(track, past):
 @pytest.mark.parametrize("track", TRACKS)
 @pytest.mark.parametrize("place", [(800, 430), (400, 300), (1200, 600)])
 def test_it_finds_its_way_from_the_middle_of_the_infield(track, place):
-    match = alone("easy", track, laps=1)
+    match = alone("hand1", track, laps=1)
     for _ in range(3 * HZ):
         match.tick()
     match.state.robots[0].x, match.state.robots[0].y = place

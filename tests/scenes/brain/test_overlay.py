@@ -275,7 +275,7 @@ def test_a_network_shows_what_matters_to_it_and_the_probabilities_of_its_choices
     for _ in range(60):
         stage.advance(1 / 60)
         stage.draw(arcade.screen)
-    assert overlay.thoughts.heads.keys() == overlay.heads.keys() == {"drive", "turn", "fire", "turbo"}
+    assert overlay.thoughts.heads.keys() == overlay.heads.keys() == {"drive", "turn", "shoot", "turbo"}
     box = arcade.screen.subsurface((1108, 24, 652, 106)).copy()
     aside = round(cards.heads_width(overlay.heads))
     for part in (pygame.Rect(0, 0, 652 - aside, 106), pygame.Rect(652 - aside, 0, aside, 106)):

@@ -1,0 +1,156 @@
+"""What the inputs of each game's networks are about, for explanations: topics, and the places of perceived things."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import cos, sin
+from typing import Any
+
+from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PRIZE, WAY, Percept
+from pigaming_app.ai.networks import factory, pitanks, race
+from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+Point = tuple[float, float]
+At = Callable[[float, float, float], Point]  # distance, and direction as cosine and sine relative to the heading
+Found = Iterator[tuple[str, Percept]]  # topics and things
+
+
+@dataclass(frozen=True)
+class Subject:
+    """The inputs of a game: groups by topic, in the order of their bars; positions of the stick; things by place.
+
+    `fire`: what FIRE does. `percepts(match, inputs, at)`: where the network perceived things
+    at its last decision, with its delay and its aiming error.
+    """
+
+    topics: Mapping[str, tuple[str, ...]]
+    drives: Sequence[float]
+    turns: Sequence[float]
+    fire: str
+    percepts: Callable[[Any, Sequence[float], At], Found]
+    place: int | None = None  # first of the inputs with the own position and direction; None: the present ones serve
+
+
+def perceived(subject: Subject, match: Any, seat: int, inputs: Sequence[float]) -> Found:
+    """Topics and things in a network's inputs; positions in arena px."""
+    known, robot = [value / UNIT for value in inputs], match.robots[seat]
+    if subject.place is None:
+        x, y, ahead_x, ahead_y = robot.x, robot.y, cos(robot.heading), sin(robot.heading)
+    else:
+        right, down, ahead_x, ahead_y = known[subject.place : subject.place + 4]
+        x, y = 0.5 * (right + 1.0) * WIDTH, 0.5 * (down + 1.0) * HEIGHT
+
+    def at(distance: float, along: float, across: float) -> Point:
+        return (
+            x + distance * (along * ahead_x - across * ahead_y),
+            y + distance * (along * ahead_y + across * ahead_x),
+        )
+
+    return subject.percepts(match, known, at)
+
+
+def distance_of(nearness: float, half: float) -> float:
+    """The distance whose nearness is half / (half + distance)."""
+    return half / max(nearness, 1.0 / UNIT) - half
+
+
+def in_pitanks(match: Any, inputs: Sequence[float], at: At) -> Found:
+    """Robots, bullets, pick-up and mine. A bullet so far aside that its distance saturates has no place."""
+    for k in range(pitanks.OTHERS, pitanks.PICKUP, pitanks.OTHER):
+        if inputs[k]:
+            place = at(800.0 * (inputs[k + 2] + 1.0), inputs[k + 4], inputs[k + 5])
+            kind = MATE if inputs[k + 1] else OPPONENT
+            yield "near" if k == pitanks.OTHERS else "others", Percept(kind, *place, bool(inputs[k + 11]))
+    for k in range(pitanks.BULLETS, pitanks.MINE, 5):
+        if inputs[k] and abs(inputs[k + 2]) < 1.0:
+            flight, aside = distance_of(inputs[k + 1], 1.0 / 3.0) * match.rules.bullet_speed, 60.0 * inputs[k + 2]
+            along, across = inputs[k + 3], inputs[k + 4]
+            yield "bullets", Percept(BULLET, *at(1.0, flight * along - aside * across, flight * across + aside * along))
+    k = pitanks.PICKUP
+    if inputs[k + 2]:
+        yield "pickups", Percept(PRIZE, *at(distance_of(inputs[k + 2], 300.0), inputs[k], inputs[k + 1]))
+    k = pitanks.MINE
+    if inputs[k + 2]:
+        yield "mines", Percept(BULLET, *at(pitanks.MINE_NEAR * (1.0 - inputs[k + 2]), inputs[k], inputs[k + 1]))
+
+
+def in_factory(match: Any, inputs: Sequence[float], at: At) -> Found:
+    """The first target and the way to it, robots and people."""
+    k = factory.TARGETS
+    if inputs[k]:
+        way = factory.WAY
+        if not inputs[way + 2]:
+            yield "target", Percept(WAY, *at(400.0 * inputs[way + 3], inputs[way], inputs[way + 1]))
+        yield "target", Percept(GOAL, *at(distance_of(inputs[k + 2], factory.NEAR), inputs[k + 3], inputs[k + 4]))
+    for k in range(factory.OTHERS, factory.PEOPLE, factory.OTHER):
+        if inputs[k]:
+            place = at(distance_of(inputs[k + 1], factory.NEAR), inputs[k + 2], inputs[k + 3])
+            yield "others", Percept(MATE if inputs[k] > 0.0 else OPPONENT, *place)
+    for k in range(factory.PEOPLE, factory.ROOM, factory.PERSON):
+        yield "people", Percept(PERSON, *at(distance_of(inputs[k], 150.0), inputs[k + 1], inputs[k + 2]))
+
+
+def in_race(match: Any, inputs: Sequence[float], at: At) -> Found:
+    """Robots, and the point of the fastest line some way ahead."""
+    for k in range(race.OTHERS, race.OILS, race.OTHER):
+        if any(inputs[k : k + race.OTHER]) and abs(inputs[k + 2]) < 1.0:
+            place = at(1.0, race.NEAR * inputs[k + 1], 200.0 * inputs[k + 2])
+            yield "near" if k == race.OTHERS else "others", Percept(OPPONENT, *place)
+    for i in (3, 5):
+        k = race.COURSE + 6 * i
+        if abs(inputs[k]) < 1.0 and abs(inputs[k + 1]) < 1.0:
+            place = at(1.0, 450.0 * inputs[k], (1.2 * race.AHEAD[i] + 40.0) * inputs[k + 1])
+            yield "course", Percept(WAY, *place)
+
+
+SUBJECTS = {
+    "pitanks": Subject(
+        {
+            "near": ("first",),
+            "others": ("second", "third"),
+            "bullets": ("bullets",),
+            "mines": ("mine",),
+            "pickups": ("pickup",),
+            "walls": ("place", "way", "room"),
+            "self": ("motion", "gun", "powers", "habits"),
+            "score": ("score", "rules"),
+        },
+        (-1.0, 0.0, 1.0),
+        pitanks.TURNS,
+        "shoot",
+        in_pitanks,
+        pitanks.PLACE,
+    ),
+    "factory": Subject(
+        {
+            "target": ("target", "way"),
+            "choices": ("second", "third"),
+            "machines": ("machines",),
+            "others": ("others",),
+            "people": ("people",),
+            "walls": ("place", "room"),
+            "load": ("motion", "load"),
+            "score": ("score", "rules"),
+        },
+        (-1.0, 0.0, 1.0),
+        factory.TURNS,
+        "fork",
+        in_factory,
+        factory.PLACE,
+    ),
+    "race": Subject(
+        {
+            "course": ("place", "way", "course"),
+            "near": ("first",),
+            "others": ("second", "third"),
+            "oil": ("oil",),
+            "pads": ("pad", "box"),
+            "self": ("motion", "powers"),
+            "score": ("race",),
+        },
+        race.DRIVES,
+        race.TURNS,
+        "item",
+        in_race,
+    ),
+}  # by game

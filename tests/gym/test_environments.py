@@ -1,0 +1,189 @@
+"""The environments pass the checkers of their libraries, and play the same matches in every face."""
+
+import os
+import subprocess
+import sys
+import warnings
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode
+
+import pigaming_app.gym
+from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.games.arenas import arenas
+from pigaming_app.gym import ENVIRONMENTS, OptionError, parallel_env
+from pigaming_app.gym.rewards import TALLIES
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore", DeprecationWarning)  # of PettingZoo's own games, which its tests import
+    from pettingzoo.test import parallel_api_test, parallel_seed_test
+
+GAMES = list(ENVIRONMENTS.items())
+SHORT = {"compiled": False, "minutes": 0.05}  # of pure Python: 30 decisions
+
+
+def played(env, seed, actions):
+    """Observations, rewards and ends of an environment that is reset after the end of each episode."""
+    found = [(*env.reset(seed=seed), 0.0, False)]
+    for action in actions:
+        observation, reward, terminated, truncated, info = env.step(action)
+        found.append((observation, info, reward, terminated))
+        assert not truncated
+        if terminated:
+            found.append((*env.reset(), 0.0, False))
+    return found
+
+
+@pytest.mark.parametrize(("name", "game"), GAMES)
+def test_the_checkers_of_the_libraries_pass(name, game):
+    check_env(gymnasium.make(name, **SHORT).unwrapped, skip_render_check=True)
+    parallel_api_test(parallel_env(game, **SHORT), 100)
+    parallel_seed_test(lambda: parallel_env(game, **SHORT), 30)
+
+
+@pytest.mark.parametrize(("name", "game"), GAMES)
+def test_a_vector_plays_the_episodes_of_single_environments(name, game):
+    options = {**SHORT, "opponents": ("level1",), "arena": arenas(game)[:2]}
+    many, one = gymnasium.make_vec(name, num_envs=3, **options), gymnasium.make(name, **options)
+    assert many.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
+    many.action_space.seed(1)
+    actions = [many.action_space.sample() for _ in range(70)]
+    first, _ = many.reset(seed=5)
+    steps = [(first, np.zeros(3), np.zeros(3, bool)), *(many.step(action)[:3] for action in actions)]
+    assert sum(ended.sum() for _, _, ended in steps) == 3 * 2
+    for i in range(3):
+        mine = [action[i] for action, (_, _, ended) in zip(actions, steps, strict=False) if not ended[i]]
+        alone = played(one, 5 + i, mine)
+        assert len(alone) == len(steps)
+        for (observations, rewards, ended), (observation, _, reward, over) in zip(steps, alone, strict=True):
+            assert observations[i] in many.single_observation_space
+            assert np.array_equal(observations[i], observation)
+            assert (rewards[i], ended[i]) == (reward, over)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("name", "game"), GAMES)
+def test_compiled_and_plain_play_agree_to_the_last_bit(name, game):
+    options = {"num_envs": 6, "agents": 2, "opponents": ("level3", "level5"), "arena": "all", "minutes": 0.5}
+    for variant in ("party", None):
+        plain, fast = (gymnasium.make_vec(name, compiled=c, variant=variant, **options) for c in (False, True))
+        plain.action_space.seed(1)
+        assert np.array_equal(plain.reset(seed=3)[0], fast.reset(seed=3)[0])
+        for _ in range(330):
+            action = plain.action_space.sample()
+            expected, found = plain.step(action), fast.step(action)
+            assert all(np.array_equal(a, b) for a, b in zip(expected[:4], found[:4], strict=True))
+            assert str(expected[4]) == str(found[4])
+
+
+@pytest.mark.parametrize(("name", "game"), GAMES)
+def test_rewards_are_weighted_changes_of_the_tallies(name, game):
+    names = TALLIES[game].names
+    weights = {tally: 10.0**-k for k, tally in enumerate(names)}
+    env = gymnasium.make(name, rewards=weights, opponents=("random",), **SHORT).unwrapped
+    env.reset(seed=2)
+    before = env.matches.result(0)
+    env.action_space.seed(2)
+    total, over = 0.0, False
+    while not over:
+        _, reward, over, _, info = env.step(env.action_space.sample())
+        total += reward
+    assert info == env.matches.result(0)
+    assert info["win"] in (-1.0, 0.0, 1.0)
+    assert total == pytest.approx(sum(weights[tally] * (info[tally] - before[tally]) for tally in names))
+
+
+def test_continuous_actions_reach_the_same_states():
+    positions = {"linear": (-1.0, 0.0, 1.0), "angular": (-1.0, -0.36, -0.11, 0.0, 0.11, 0.36, 1.0)}
+    discrete, continuous = (gymnasium.make("PiTanks-v0", continuous=one, **SHORT) for one in (False, True))
+    discrete.action_space.seed(4)
+    actions = [discrete.action_space.sample() for _ in range(25)]
+    sticks = [
+        (positions["linear"][a], positions["angular"][b], float(fire), float(turbo)) for a, b, fire, turbo in actions
+    ]
+    for one, other in zip(played(discrete, 1, actions), played(continuous, 1, sticks), strict=True):
+        assert np.array_equal(one[0], other[0])
+        assert one[2:] == other[2:]
+    assert continuous.action_space.contains(np.array(sticks[0]))
+
+
+def test_episodes_are_truncated_and_agents_of_a_match_end_together():
+    env = gymnasium.make_vec("RobotFactory-v0", num_envs=4, agents=2, max_episode_steps=5, compiled=False)
+    env.reset(seed=1)
+    ends = [env.step(np.ones((4, 4), int))[2:4] for _ in range(11)]
+    assert [bool(truncated.all()) for _, truncated in ends] == [False] * 4 + [True] + [False] * 5 + [True]
+    assert not any(terminated.any() for terminated, _ in ends)
+
+
+@pytest.mark.parametrize(("name", "game"), GAMES)
+def test_pictures_are_drawn_by_the_view_of_the_game(name, game):
+    env = gymnasium.make(name, render_mode="rgb_array", **SHORT)
+    env.reset(seed=1)
+    first = env.render()
+    env.step(env.action_space.sample())
+    for _ in range(4):
+        env.step([2, 3, 1, 0])
+    second = env.render()
+    assert first.shape == second.shape == (1080, 1920, 3)
+    assert first.std() > 5.0
+    assert 0.0 < (first != second).mean() < 0.2
+    env.close()
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        ({"game": "chess"}, "no game 'chess'; there are pitanks, factory, race"),
+        ({"speed": 2}, "no option 'speed'"),
+        ({"opponents": ("stockfish",)}, "no brain 'stockfish'; there are idle, "),
+        ({"opponents": ("lost.npz",)}, "lost.npz: "),
+        ({"opponents": 3}, "opponents: names are needed, not 3"),
+        ({"agents": 3, "opponents": ("level1", "level1")}, "3 agents and 2 opponents, but there are 4 seats"),
+        ({"agents": 0}, "agents: a whole number from 1 is needed, not 0"),
+        ({"arena": "moon"}, "moon: no such arena for pitanks"),
+        ({"arena": ()}, "arena: none is named"),
+        ({"variant": "quiet"}, "no variant 'quiet'"),
+        ({"minutes": 0}, "0 minutes; possible are"),
+        ({"minutes": "two"}, "minutes: a number is needed, not 'two'"),
+        ({"goal": 3}, "a goal of 3; pitanks is played for time alone"),
+        ({"teams": (0, 0, 0, 0)}, "there must be at least two teams"),
+        ({"ticks": 2.5}, "ticks: a whole number from 1 is needed, not 2.5"),
+        ({"rewards": {"style": 1}}, "no reward 'style' in pitanks; there are hits, "),
+        ({"rewards": {"hits": float("nan")}}, "rewards, hits: a number is needed, not nan"),
+        ({"render_mode": "human"}, "no render mode 'human'; there is rgb_array"),
+        ({"max_episode_steps": 0}, "max_episode_steps: a whole number from 1 is needed"),
+    ],
+)
+def test_a_wrong_option_is_one_line(options, reason):
+    with pytest.raises(OptionError) as caught:
+        parallel_env(**{"game": "pitanks", "compiled": False, **options})
+    assert str(caught.value).startswith(reason)
+    assert "\n" not in str(caught.value)
+
+
+def test_actions_outside_the_space_are_refused():
+    env = gymnasium.make_vec("PiTanks-v0", num_envs=2, **SHORT)
+    env.reset(seed=1)
+    with pytest.raises(ValueError, match="no choice of the heads"):
+        env.step([[0, 7, 0, 0], [0, 0, 0, 0]])
+    match = parallel_env("pitanks", **SHORT)
+    match.reset(seed=1)
+    with pytest.raises(ValueError, match="player_1"):
+        match.step({"player_0": (1, 3, 0, 0)})
+
+
+def test_without_the_extra_one_line_says_how_to_install_it():
+    code = "import sys; sys.modules['pettingzoo'] = None; import pigaming_app.gym"
+    done = subprocess.run([sys.executable, "-c", code], cwd=os.getcwd(), capture_output=True, text=True)
+    assert (
+        done.stderr.splitlines()[-1]
+        == "ImportError: pigaming_app.gym needs pettingzoo: pip install 'pigaming-app[gym]'"
+    )
+
+
+def test_every_encoding_has_an_environment():
+    assert set(ENVIRONMENTS.values()) == set(ENCODINGS) == set(TALLIES)
+    assert pigaming_app.gym.__doc__
