@@ -82,8 +82,7 @@ def train(env: str, opponents: list[str], minutes: float, num_envs: int, seed: i
             played[t] = torch.from_numpy(~ended).float()  # after an end the action only begins the next match
             observation, reward, terminated, truncated, infos = envs.step(actions[t].numpy())
             ended = terminated | truncated
-            seen[t + 1], rewards[t] = torch.from_numpy(observation), torch.from_numpy(reward)
-            ends[t] = torch.from_numpy(ended).float()
+            seen[t + 1], rewards[t], ends[t] = (torch.from_numpy(x) for x in (observation, reward, ended))
             results.extend(infos["win"][infos["_win"]] if infos else ())
         values = agent.value(seen).squeeze(-1).detach()
         gains = advantages(rewards, values, ends)
@@ -103,8 +102,8 @@ def train(env: str, opponents: list[str], minutes: float, num_envs: int, seed: i
                 (0.5 * error - gained - ENTROPY * entropy).backward()
                 nn.utils.clip_grad_norm_(agent.parameters(), STEEPEST)
                 adam.step()
-        won = f", won {np.mean(np.array(results) > 0.0):.0%}" if results else ""
-        print(f"{time.time() - began:5.0f} s, {decisions:>10,} decisions, reward {rewards.mean():.4f}{won}")
+        won = np.mean(np.array(results or [np.nan]) > 0.0)
+        print(f"{time.time() - began:5.0f} s, {decisions:>10,} decisions, reward {rewards.mean():.4f}, won {won:.0%}")
     return agent
 
 

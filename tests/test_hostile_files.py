@@ -7,6 +7,7 @@ import tomllib
 import zipfile
 import zlib
 from dataclasses import asdict
+from datetime import UTC, datetime
 from functools import partial
 from io import BytesIO
 
@@ -18,6 +19,8 @@ from pigaming_app.ai.brain.archive import check_sum
 from pigaming_app.ai.networks.files import NetworkError
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.ai.registry import new_match
+from pigaming_app.events import climb_files, league_files
+from pigaming_app.events.ladder import Climb
 from pigaming_app.games import arenas, replay
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.replay import ReplayError
@@ -70,6 +73,28 @@ def test_arenas(game, tmp_path):
     used = [refused_or_used(partial(arenas.parse, game, toml(one), "a.toml"), ArenaError) for one in some]
     assert any(used)
     assert used.count(False) > len(used) / 2
+
+
+def test_climbs_and_ratings():
+    """Whatever is accepted can be played and drawn."""
+    now = datetime(2026, 11, 22, 10, tzinfo=UTC)
+    climbs = [
+        climb_files.SavedClimb(4, now, Climb("race", rung=3, wins=1)),
+        climb_files.SavedClimb(5, now, Climb("all")),
+    ]
+    used = 0
+    for one in mutated(tomllib.loads(climb_files.to_text(climbs))):
+        found = []
+        used += refused_or_used(lambda one=one, found=found: found.extend(climb_files.parse(toml(one))), ValueError)
+        assert all(saved.climb.at_top or saved.climb.setup(1).arena for saved in found)
+    assert used > 20
+    standings = [{"brain": name, "rating": 7.5, "rating95": [1, 9.5]} for name in ("level1", "q2")]
+    tree = {"game": "pitanks", "variant": "party", "matches": 40, "standings": standings}
+    used = 0
+    for one in mutated(tree):
+        raw = json.dumps(one).encode()
+        used += refused_or_used(partial(league_files.parse, raw, "pitanks"), ValueError)
+    assert used > 4
 
 
 def robots_tree():

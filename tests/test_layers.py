@@ -20,9 +20,9 @@ MAY = {
     "hardware": {"sim", "storage"},
     "ai": {"sim", "games"},
     "ui": {"storage"},
-    "scenes": {"sim", "storage", "ui", "games", "hardware", "ai"},
+    "scenes": {"sim", "storage", "ui", "games", "hardware", "ai", "events"},
     "gym": {"sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
-    "events": {"games", "ai", "storage"},  # to come: tournaments
+    "events": {"games", "ai", "storage"},
     "jobs": {"boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
     "cli": {"jobs"},
 }

@@ -13,7 +13,9 @@ from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_d
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.brain_files import is_path, read_brain
 from pigaming_app.ai.factory import foreman, foreman_thoughts
+from pigaming_app.ai.factory import levels as factory_levels
 from pigaming_app.ai.pitanks import classic, classic_thoughts, fsm, fsm_thoughts, gunner, gunner_thoughts
+from pigaming_app.ai.pitanks import levels as pitanks_levels
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.race import levels as race_levels
 from pigaming_app.ai.race import racer, racer_thoughts
@@ -35,6 +37,7 @@ KINDS: dict[str, dict[str, BrainKind]] = {
         "classic": replace(classic.CLASSIC, explain=classic_thoughts.explain),
         "q1": table_files.shipped_brain("q1"),
         "q2": table_files.shipped_brain("q2"),
+        **{level.name: level for level in pitanks_levels.LEVELS},
     },
     "factory": {
         "idle": baselines.IDLE,
@@ -42,6 +45,7 @@ KINDS: dict[str, dict[str, BrainKind]] = {
         "hand1": replace(foreman.HAND1, explain=foreman_thoughts.explain),
         "hand2": replace(foreman.HAND2, explain=foreman_thoughts.explain),
         "hand3": replace(foreman.HAND3, explain=foreman_thoughts.explain),
+        **{level.name: replace(level, explain=foreman_thoughts.explain) for level in factory_levels.LEVELS},
     },
     "race": {
         "idle": baselines.IDLE,
@@ -49,25 +53,19 @@ KINDS: dict[str, dict[str, BrainKind]] = {
         "hand1": replace(racer.HAND1, explain=racer_thoughts.explain),
         "hand2": replace(racer.HAND2, explain=racer_thoughts.explain),
         "hand3": replace(racer.HAND3, explain=racer_thoughts.explain),
-        **{kind.name: kind for kind in race_levels.LEVELS},
+        **{level.name: level for level in race_levels.LEVELS},
     },
 }
 
-LEVELS = {"level1": "hand1", "level2": "hand1", "level3": "hand2", "level4": "hand2", "level5": "hand3"}  # without own
+LEVELS = ("level1", "level2", "level3", "level4", "level5")  # in every game; one to five stars on the screen
 NAMED_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}
-STRENGTHS = tuple(NAMED_LEVELS)
 BRAINS = {
-    game: {
-        **kinds,
-        **{level: kinds.get(level, kinds[name]) for level, name in LEVELS.items()},
-        **{name: kinds.get(level, kinds[LEVELS[level]]) for name, level in NAMED_LEVELS.items()},
-    }
-    for game, kinds in KINDS.items()
-}  # by game; brains answer to their own names and to those of their levels
+    game: {**kinds, **{name: kinds[level] for name, level in NAMED_LEVELS.items()}} for game, kinds in KINDS.items()
+}  # by game; three of the levels answer to a second name
 RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in the order in which it steps through them
-    "pitanks": (*STRENGTHS, "q1", "q2", "fsm"),
-    "factory": STRENGTHS,
-    "race": STRENGTHS,
+    "pitanks": (*LEVELS, "q1", "q2", "fsm"),
+    "factory": LEVELS,
+    "race": LEVELS,
 }
 
 TURN, POINT = "turn", "point"
@@ -108,6 +106,12 @@ def known_brains(game: str, wanted: Sequence[str]) -> list[str]:
     for path in paths:
         find_brain(game, path)
     return [*kinds, *paths]
+
+
+def level_of(brain: str) -> int:
+    """The level, 1 to 5, for which a brain is named; 0 if its name is that of no level."""
+    name = NAMED_LEVELS.get(brain, brain)
+    return LEVELS.index(name) + 1 if name in LEVELS else 0
 
 
 def make_brain(game: str, name: str, seed: int) -> BrainPlayer:

@@ -18,8 +18,9 @@ is the game's `Encoding` (see ai/networks) in [-1, 1]; an action is a choice for
 - ticks: of 1/50 s between decisions; 5 by default, as networks play.
 - continuous: actions are linear and angular stick in [-1, 1], then fire and turbo, on above 0.5.
 - rewards: weights of the game's tallies by name (see rewards.py); a tally's change since the last decision counts. By
-  default PiTanks has hits 1, taken -1, win 5; Robot Race progress 10 (a lap), win 5; Robot Factory steps 1,
-  delivered 2, spoiled -1, bumps -0.5, win 5. A win is 1, a defeat -1, at the end; the last `info` has all tallies.
+  default PiTanks has hits 1, taken -1, win 5; Robot Race progress 10 (a lap), win 5; Robot Factory progress 4 (a step
+  of a pallet of the team), errand 2 (1000 px towards the next target), bumps -0.5, win 5. A win is 1, a defeat -1, at
+  the end; the last `info` has all tallies.
 - starts: number of different matches that are played; 128 by default.
 - compiled: False to run as plain Python. By default compiled if numba is installed; both give the same bits.
 - max_episode_steps: decisions after which an episode is truncated.

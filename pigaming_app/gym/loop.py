@@ -66,18 +66,18 @@ def make_loop(judge: Any, think: Think, act: Any, encoding: Encoding, tallies: T
                     drive(match)
             done = 1
             for seat in range(learners):
-                total, reward = totals[i, seat], 0.0
-                for k in range(count):
-                    reward -= worth[k] * total[k]
-                tally(match, seat, total)
-                for k in range(count):
-                    reward += worth[k] * total[k]
-                rewards[i, seat] = 0.0 if fresh[i] else reward
-                done &= is_done(match, seat)
                 row = observations[i, seat]
                 encode(match, seat, senses[i][seat], row)
                 for k in range(size):
                     row[k] *= SCALE
+                total, reward = totals[i, seat], 0.0
+                for k in range(count):
+                    reward -= worth[k] * total[k]
+                tally(match, seat, senses[i][seat], total)
+                for k in range(count):
+                    reward += worth[k] * total[k]
+                rewards[i, seat] = 0.0 if fresh[i] else reward
+                done &= is_done(match, seat)
             over[i] = done
 
     return play

@@ -1,17 +1,29 @@
 """Rewards: weighted changes of a seat's tallies from one decision to the next.
 
-A tally is a number that a match keeps for a seat. Each game has a kernel `tally(match, seat, totals)` that fills the
-array `totals` with them, in the order of their names. In every game `win` is 0 until the match is decided for the seat,
-then 1 for a win, -1 for a defeat and 0 for a tie.
+A tally is a number that a match keeps for a seat. Each game has a kernel `tally(match, seat, senses, totals)` that
+fills the array `totals` with them, in the order of their names; `senses` are those of the observation just made. In
+every game `win` is 0 until the match is decided for the seat, then 1 for a win, -1 for a defeat and 0 for a tie.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import sqrt
 from typing import Any
 
+from pigaming_app.games.factory.state import (
+    DAMAGED,
+    DELIVERED,
+    IN_MACHINE,
+    IN_SLOT,
+    INPUT,
+    ON_ROBOT,
+    PALLETS,
+    RAW,
+)
 from pigaming_app.games.pitanks.scoring import lead
+from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import CELL, ROBOTS
 
 
 @dataclass(frozen=True)
@@ -23,7 +35,7 @@ class Tallies:
 
     names: tuple[str, ...]
     weights: Mapping[str, float]  # of the default reward; tallies that are not named count nothing
-    tally: Callable[[Any, int, Any], None]
+    tally: Callable[[Any, int, Any, Any], None]
     is_done: Callable[[Any, int], int]
 
 
@@ -42,7 +54,7 @@ def sign(value: float) -> float:
 
 
 @kernel
-def tally_pitanks(match: Any, seat: int, totals: Any) -> None:
+def tally_pitanks(match: Any, seat: int, senses: Any, totals: Any) -> None:
     """Hits made and taken, shots, own points, lead of the own team over the best other one, and the win."""
     tank, ahead = match.tanks[seat], lead(match, seat)
     totals[0], totals[1], totals[2] = tank.hits, tank.taken, tank.shots
@@ -54,7 +66,7 @@ def tally_pitanks(match: Any, seat: int, totals: Any) -> None:
 
 
 @kernel
-def tally_race(match: Any, seat: int, totals: Any) -> None:
+def tally_race(match: Any, seat: int, senses: Any, totals: Any) -> None:
     """Laps covered, with fractions; complete laps, the rank (fewer is better), the finish, and the win."""
     racer = match.racers[seat]
     totals[0], totals[1] = racer.progress / match.course.length, match.robots[seat].score
@@ -72,10 +84,11 @@ def has_finished(match: Any, seat: int) -> int:
 
 
 @kernel
-def tally_factory(match: Any, seat: int, totals: Any) -> None:
-    """Steps of work, deliveries, spoiled pallets, people driven over, lead of the own team, and the win.
+def tally_factory(match: Any, seat: int, senses: Any, totals: Any) -> None:
+    """Steps of work, deliveries, spoiled pallets, people driven over, lead and win of the own team, and two potentials.
 
-    Among allies the win is a third for each star, or -1.
+    Among allies the win is a third for each star, or -1. The potentials are the progress of the team's pallets, in
+    steps, of which a delivery is the third, and `errand`: the way to the seat's first target, negative, in 1000 px.
     """
     load, team = match.loads[seat], match.robots[seat].team
     totals[0], totals[1], totals[2], totals[3] = load.steps, load.delivered, load.spoiled, load.hits
@@ -83,10 +96,43 @@ def tally_factory(match: Any, seat: int, totals: Any) -> None:
     if match.rules.party:
         ahead = match.points[team] - match.points[1 - team]
     totals[4], totals[5] = ahead, 0.0
+    totals[6], totals[7] = progress_of_pallets(match, team), -length_of_errand(match, seat, senses) / 1000.0
     if match.over and match.rules.allies:
         totals[5] = match.stars / 3.0 if match.stars else -1.0
     elif match.over:
         totals[5] = sign(ahead if ahead or match.rules.party else more_work(match, team))
+
+
+@kernel
+def progress_of_pallets(match: Any, team: int) -> float:
+    """Steps of a team's pallets, with fractions for those lifted and those put into a machine that fits."""
+    total: float = 3.0 * match.delivered[team]
+    for p in range(PALLETS):
+        pallet = match.pallets[p]
+        if not pallet.exists or pallet.team != team or pallet.state == DELIVERED:
+            continue
+        if pallet.state == DAMAGED:
+            total -= 0.5
+            continue
+        total += pallet.state - RAW
+        if pallet.place == ON_ROBOT:
+            total += 0.25
+        elif pallet.place == IN_MACHINE or (pallet.place == IN_SLOT and match.slots[pallet.at].kind == INPUT):
+            total += 0.5
+    return total
+
+
+@kernel
+def length_of_errand(match: Any, seat: int, senses: Any) -> float:
+    """The way to the first target, px; 0 if there is none."""
+    if senses.slots[0] < 0:
+        return 0.0
+    me, route = match.robots[seat], senses.route
+    steps = route.reach[node_at(me.x, me.y)]
+    if not route.straight and steps:
+        return CELL * float(steps)
+    dx, dy = route.goal_x - me.x, route.goal_y - me.y
+    return sqrt(dx * dx + dy * dy)
 
 
 @kernel
@@ -115,8 +161,8 @@ TALLIES = {
         has_finished,
     ),
     "factory": Tallies(
-        ("steps", "delivered", "spoiled", "bumps", "lead", "win"),
-        {"steps": 1.0, "delivered": 2.0, "spoiled": -1.0, "bumps": -0.5, "win": 5.0},
+        ("steps", "delivered", "spoiled", "bumps", "lead", "win", "progress", "errand"),
+        {"progress": 4.0, "errand": 2.0, "bumps": -0.5, "win": 5.0},
         tally_factory,
         is_over,
     ),

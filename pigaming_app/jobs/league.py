@@ -9,9 +9,10 @@ from dataclasses import asdict
 from pigaming_app.ai.experiments import league as leagues
 from pigaming_app.ai.experiments.league import Duel, League, LeagueRow
 from pigaming_app.games.setup import ChoiceError
-from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal
+from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal, path
 from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.storage.safe_files import NotSaved, require_writable, write_atomic
 
 WIDTH = 100  # columns
 NOTES = (
@@ -25,12 +26,15 @@ def options(parser: ArgumentParser) -> None:
     game_option(parser, required=True)
     parser.add_argument("brains", nargs="*", metavar="AI", help=AIS)
     duel_options(parser)
+    parser.add_argument("--out", type=path, metavar="FILE", help="write the league as JSON, for the page of strengths")
 
 
 def run(arguments: Namespace) -> int:
-    """Play the league and print its tables. Raises Refusal."""
+    """Play the league, print its tables and write it to a file if wanted. Raises Refusal."""
     require_for_brains(arguments.brains)
-    with refused(ChoiceError, ArenaError):
+    with refused(ChoiceError, ArenaError, NotSaved):
+        if arguments.out:
+            require_writable(arguments.out)
         result = leagues.league(
             arguments.game,
             arguments.brains,
@@ -44,8 +48,12 @@ def run(arguments: Namespace) -> int:
         )
     if sys.stderr.isatty():
         print(end="\r\x1b[K", file=sys.stderr)
+    text = json.dumps(plain(result))
+    if arguments.out:
+        with refused(NotSaved):
+            write_atomic(arguments.out, text.encode())
     if arguments.json:
-        print(json.dumps(plain(result)))
+        print(text)
     else:
         print("\n".join(line.rstrip() for line in table(result)))
     return 0

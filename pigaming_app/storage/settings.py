@@ -17,6 +17,8 @@ from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
 
 FILE = "settings.toml"
 LEGACY_KEYS = ("arena", "minutes", "variant")  # top-level settings of PiTanks, from when it was the only game
+LEVELS = ("level1", "level2", "level3", "level4", "level5")  # of AIs
+LEGACY_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}  # from when there were three
 MAX_NAME = 60  # characters
 MAX_GAMES = 64
 MAX_MESSAGES = 5  # per file
@@ -145,7 +147,7 @@ class Settings:
     corners: list[int] = field(
         default_factory=list, metadata={"validator": Corners()}
     )  # of the picture on the projector
-    strength: str = _setting("normal", OneOf(("easy", "normal", "hard")))  # of the AIs that fill the seats
+    strength: str = _setting("level3", OneOf(LEVELS))  # of the AIs that fill the seats
     camera: int = _setting(0, Range(0, 63))  # over the mat
     arena_mm: float = _setting(2112.0, Range(500.0, 10000.0))  # the arena's width on the mat
     camera_mm: float = _setting(2500.0, Range(0.0, 10000.0))  # the camera's height above it; 0: measured with a robot
@@ -241,6 +243,8 @@ def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str
     games = table.pop("games", {})
     legacy = {key: table.pop(key) for key in LEGACY_KEYS if key in table}
     problems = _fill(settings.choice("pitanks"), legacy, f"{path}: ") if legacy else []
+    if isinstance(strength := table.get("strength"), str):
+        table["strength"] = LEGACY_LEVELS.get(strength, strength)
     problems += _fill(settings, table, f"{path}: ")
     for game, entries in games.items() if isinstance(games, dict) else [("games", games)]:
         if not isinstance(entries, dict):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.ai.registry import BRAINS, LEVELS, NAMED_LEVELS, RIVALS
+from pigaming_app.ai.registry import BRAINS, LEVELS, NAMED_LEVELS, RIVALS, level_of
 from pigaming_app.games.registry import games
 from pigaming_app.storage.settings import Settings
 
@@ -11,13 +11,15 @@ from pigaming_app.storage.settings import Settings
 def test_a_level_is_a_name_of_a_brain(game):
     kinds = BRAINS[game]
     assert all(kinds[name] is kinds[level] for name, level in NAMED_LEVELS.items())
-    assert [kinds[level].name for level in LEVELS] in ([*LEVELS], [*LEVELS.values()])
+    assert [kinds[level].name for level in LEVELS] == [*LEVELS]
+    assert [level_of(name) for name in ("easy", "level2", "normal", "level4", "hard", "hand3")] == [1, 2, 3, 4, 5, 0]
 
 
 @pytest.mark.parametrize("game", games())
 def test_the_lobby_offers_brains_and_begins_with_a_level(game):
     assert set(RIVALS[game]) <= set(BRAINS[game])
-    assert Settings().strength in RIVALS[game]
+    assert RIVALS[game][:5] == LEVELS
+    assert Settings().strength in LEVELS
 
 
 def test_the_old_machine_is_offered_after_all_others():

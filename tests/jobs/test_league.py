@@ -8,6 +8,7 @@ import pytest
 from pigaming_app.ai.experiments.league import Duel, League, LeagueRow, wilson
 from pigaming_app.ai.experiments.ratings import Rating
 from pigaming_app.cli import main
+from pigaming_app.events.league_files import ratings_of
 from pigaming_app.jobs.league import table
 
 NAMES = ["easy", "normal", "hard", "classic", "q1", "q2", "fsm", "random", "idle"]
@@ -106,3 +107,14 @@ def test_wrong_words_are_one_line_and_exit_code_2(words, capsys):
     captured = capsys.readouterr()
     assert captured.out == ""
     assert len(captured.err.strip().splitlines()) == 1
+
+
+def test_a_league_is_written_for_the_page_of_strengths(tmp_path, capsys):
+    path = tmp_path / "league_pitanks.json"
+    assert run(f"pitanks idle random --matches 2 --minutes 0.05 --out {path}") == 0
+    assert "rating" in capsys.readouterr().out, "the tables are still printed"
+    ratings, problems = ratings_of("pitanks", [tmp_path])
+    assert problems == []
+    assert {one.brain for one in ratings.strengths} == {"idle", "random"}
+    assert run(f"pitanks idle random --matches 2 --out {tmp_path}") == 2, "refused before it is played"
+    assert capsys.readouterr().err.count("\n") == 1

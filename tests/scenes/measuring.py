@@ -18,7 +18,7 @@ from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.glow import GlowCanvas, LayeredCanvas
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import surfaces
-from pigaming_app.ui.draw.theme import CAPITALS, font
+from pigaming_app.ui.draw.theme import CAPITALS, line_width
 
 SAFE = pygame.Rect(60, 16, 1800, 1048)  # slightly more than the safe area of menus: prompts may lie in its margin
 Painting = Callable[..., Steps[pygame.Surface]]
@@ -89,7 +89,7 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
         align = named.get("align", rest[2] if len(rest) > 2 else "l")
         px, py = (value / ink.ss for value in ink._at((x, y)))
         scale = ink.k / ink.ss
-        w = font(face, round(size * ink.k)).size(said)[0] / ink.ss
+        w = line_width(said, face, round(size * ink.k)) / ink.ss
         left = px - w * {"l": 0.0, "c": 0.5, "r": 1.0}[align]
         half = CAPITALS * size * scale / 2
         marks_of(ink).append(Mark(said, (left, py - half, left + w, py + half)))

@@ -4,6 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from pigaming_app.ai.registry import POINT, RIVALS
+from pigaming_app.events.ladder import Climb, table_of, worth
+from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
@@ -11,6 +13,12 @@ from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.ladder.choice import LadderChoice
+from pigaming_app.scenes.ladder.climber import Climber
+from pigaming_app.scenes.ladder.climbers import Climbers
+from pigaming_app.scenes.ladder.rungs import LadderPage
+from pigaming_app.scenes.ladder.strengths import Strengths
+from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
@@ -141,7 +149,48 @@ def choice(game: str) -> Callable[[Arcade], Scene]:
     return lambda arcade: MatchSetupPage(arcade.context, game, seats(game))
 
 
+def climbers(arcade: Arcade) -> Climbers:
+    for level in range(1, 6):
+        for lost in (0, 999):
+            arcade.context.scores.add(table_of("all"), "WWW", worth(Climb("all", beaten=level, lost=lost)))
+    scene = Climbers(arcade.context, "all")
+    scene.turned = 9.0
+    return scene
+
+
+def ladder(said: str, **state: int) -> Callable[[Arcade], Scene]:
+    climb = Climb("all", **state)
+    return lambda arcade: LadderPage(arcade.context, Climber(climb, 1, KEYS[0]), said)
+
+
+def easier(arcade: Arcade) -> LadderPage:
+    scene = LadderPage(arcade.context, Climber(Climb("all", rung=5, clear=2, beaten=4, lost=999), 1, KEYS[0]), "again")
+    scene.focus.move_to("easier")
+    return scene
+
+
+def summit(arcade: Arcade) -> Summit:
+    scene = Summit(arcade.context, Climber(Climb("all", rung=6, beaten=5, lost=999), 1, KEYS[0]))
+    scene.age = 9.0
+    return scene
+
+
+def strengths(arcade: Arcade) -> Strengths:
+    scene = Strengths(arcade.context, "pitanks")
+    rows = [(brain, 900.0 - 160.0 * i) for i, brain in enumerate((*RIVALS["pitanks"], "classic", "random", "hand1"))]
+    rated = tuple(Strength(brain, rating, rating - 90.0, rating + 90.0) for brain, rating in rows)
+    scene.ratings, scene.age = Ratings("pitanks", "original", 100_000, rated), 9.0
+    return scene
+
+
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
+    "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
+    "ladder resumed": ladder("", rung=5, wins=1, losses=1, beaten=4, lost=999),
+    "ladder assisted": ladder("assisted", rung=3, beaten=2),
+    "ladder easier": easier,
+    "summit": summit,
+    "climbers": climbers,
+    "strengths": strengths,
     "title": lambda arcade: Title(arcade.context),
     "options": lambda arcade: OptionsPage(arcade.context),
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),

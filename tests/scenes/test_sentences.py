@@ -38,7 +38,7 @@ def ended(game: str, brains: str, teams: tuple[int, ...], winners: tuple[int, ..
 
 WHO_WINS = [
     ("pitanks", "human human hard off", ALONE, (1,), "Player 2 wins!", "Jogador 2 ganha!"),
-    ("pitanks", "human human hard off", ALONE, (2,), "AI 3 (hard) wins!", "Computador 3 (difícil) ganha!"),
+    ("pitanks", "human human hard off", ALONE, (2,), "AI 3 ★★★★★ wins!", "Computador 3 ★★★★★ ganha!"),
     ("pitanks", "human q2 off off", ALONE, (1,), "AI 2 (self-taught 2) wins!", "Computador 2 (autodidata 2) ganha!"),
     (
         "pitanks",
@@ -53,7 +53,7 @@ WHO_WINS = [
     ("factory", "human normal human hard", PAIRS, (0, 2), "Ice wins!", "Gelo ganha!"),
     ("factory", "human human hard normal", PAIRS, (1, 3), "Fire wins!", "Fogo ganha!"),
     ("factory", "human hard off off", PAIRS, (1,), "Fire wins!", "Fogo ganha!"),
-    ("race", "human easy off off", ALONE, (1,), "AI 2 (easy) wins!", "Computador 2 (fácil) ganha!"),
+    ("race", "human level2 off off", ALONE, (1,), "AI 2 ★★ wins!", "Computador 2 ★★ ganha!"),
     ("race", "human human off off", ALONE, (), "It's a tie!", "Empate!"),
 ]
 

@@ -189,3 +189,10 @@ def test_choosing_an_invalid_value_raises_the_reason_and_changes_nothing():
         settings.choose("baud", 7)
     settings.choose("baud", 115200)
     assert settings == Settings(baud=115200)
+
+
+def test_strengths_from_when_there_were_three_are_levels_now(tmp_path):
+    for old, level in (("easy", "level1"), ("normal", "level3"), ("hard", "level5"), ("level2", "level2")):
+        (tmp_path / FILE).write_text(f'strength = "{old}"\n', encoding="utf-8")
+        settings, problems = Settings.load(tmp_path)
+        assert (settings.strength, problems) == (level, [])

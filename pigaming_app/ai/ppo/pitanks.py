@@ -9,6 +9,7 @@ import numpy as np
 
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.pitanks import ENCODING, GUN, HABITS, OTHER, OTHERS, WAY
+from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.sim.kernel import kernel
@@ -18,6 +19,7 @@ CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of
 SHAPING, SHAPED = 0.5, 0.3  # weight of the potential, at the begin and at the end of the training
 FAR = 10.0  # by which 1600 px more on the way to an opponent out of sight lower the potential
 BLIND = 0.05  # cost of a shot with nobody in the line of fire
+BORED = 0.02  # cost of a decision with nobody in the line of fire: who waits loses
 THRIFTY, MOST_THRIFT = 0.4, 0.33  # share of matches in which a shot has a cost, and the highest
 LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
 WIN = 2.0  # reward of a win; a tie costs half of it
@@ -58,6 +60,7 @@ def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
         + shaping * gains[..., POTENTIAL]
         - inputs[..., HABITS] / 3.0 * gains[..., SHOTS]
         - BLIND * (fired & blind)
+        - BORED * blind
     ).astype(np.float32)
 
 
@@ -98,4 +101,5 @@ TASK = Task(
     reward=reward,
     habits=habits,
     rivals=("hand3", "q2", "classic"),
+    hyper=Hyper(discount=0.995),
 )

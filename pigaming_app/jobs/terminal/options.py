@@ -15,7 +15,7 @@ from pigaming_app.storage.parsing import quote
 
 MAX_INTEGER = 2**63 - 1
 DEFAULT_GAME = "pitanks"
-AIS = "idle, random, easy, normal, hard, another of the game, or a trained one's file"
+AIS = "idle, random, level1 to level5, another of the game, or a trained one's file"
 
 
 def integer(low: int = 1, high: int = MAX_INTEGER) -> Callable[[str], int]:

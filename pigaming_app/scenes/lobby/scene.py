@@ -24,7 +24,7 @@ from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
-from pigaming_app.scenes.lobby.view import LobbyPage, LobbyState, problem, spots, stars
+from pigaming_app.scenes.lobby.view import LobbyPage, LobbyState, level_words, problem, spots
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
@@ -151,8 +151,8 @@ class Lobby:
         for style in registry.DRIVING[self.game]:
             for color in (*PLAYERS, None):
                 yield partial(card.driving, words(f"lobby.drive_{style}"), PICTURES[style], color)
-        for strength in registry.STRENGTHS:
-            yield partial(card.strength, words(f"lobby.{strength}"), *stars(strength), None)
+        for strength in registry.LEVELS:
+            yield partial(card.strength, *level_words(words, strength), None)
 
     # ---- input
 
@@ -262,7 +262,7 @@ class Lobby:
 
     def _save_strength(self) -> None:
         """Save the AI strength as the default of the next lobby, unless only this game offers it."""
-        if self.seats.strength in registry.STRENGTHS:
+        if self.seats.strength in registry.LEVELS:
             self.context.settings.strength = self.seats.strength
 
     def _swap(self, seat: int) -> None:

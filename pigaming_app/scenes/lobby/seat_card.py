@@ -15,7 +15,6 @@ from pigaming_app.ui.draw import (
     FOCUS,
     GREEN,
     GREY,
-    HAIR,
     ICE,
     LABEL,
     LINE,
@@ -33,7 +32,6 @@ from pigaming_app.ui.draw import (
     icon,
     panel,
     shape_points,
-    star_points,
     text_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
@@ -48,7 +46,7 @@ ROBOTS = ((236, 1.7, 106), (204, 1.25, 78), (168, 0.85, 48))  # px, centre; scal
 REAL_Y, ROW_Y, DEVICE_Y, DRIVE_Y = 254, 316, 378, 444  # px, centres; ROW_Y: the team, or the real robot without teams
 ROW_H = 60
 STRENGTH = (24, 420, W - 48, 156)  # px
-STARS_Y, STAR, STAR_PITCH = 462, 19, 48
+STARS_Y, STAR_SIZE = 470, 56  # px
 PLUS_Y, OUTLINE = 256, 80  # px: centre and size of the shape on an empty seat
 ASKS_Y, BUTTONS_Y, BUTTON_PITCH, GAP = 398, 502, 66, 12
 SPOKES, TURNS = 5, 8  # arcs of a turntable, cached positions between two of them
@@ -127,21 +125,17 @@ def driver(sign: str, name: str) -> LitImage:
 
 
 @cached
-def strength(text: str, stars: int, of: int, color: Color | None) -> LitImage:
-    """Strength of an AI, between the arrows that change it: `stars` of `of`, none without `of`. `color`: of the player
-    who has selected it, if any.
+def strength(text: str, stars: str, color: Color | None) -> LitImage:
+    """Strength of an AI, between the arrows that change it: the stars of a level, if it is one, above its name.
+    `color`: of the player who has selected it, if any.
     """
     layer, room = Layer(*STRENGTH), W - 190
     layer.glow.line(cut_box(*STRENGTH, 14), color or STEEL, THIN, True)
-    for i in range(of):
-        corners = star_points(STAR, MIDDLE + STAR_PITCH * (i - (of - 1) / 2), STARS_Y)
-        if i < stars:
-            layer.glow.fill(corners, FOCUS)
-        layer.glow.line(corners, FOCUS if i < stars else STEEL, HAIR, True)
-    size = LABEL if of else BODY
-    lines = [text] if of else wrap(text, size, room)
-    size = min(fit_size(line, size, room) for line in lines)
-    middle = 530 if of else 498
+    if stars:
+        layer.canvas.text(stars, STAR_SIZE, MIDDLE, STARS_Y, ICE, "head", "c")
+    lines = [text] if stars else wrap(text, BODY, room)
+    size = min(fit_size(line, BODY, room) for line in lines)
+    middle = 534 if stars else 498
     for i, line in enumerate(lines):
         layer.canvas.text(line, size, MIDDLE, middle + 1.2 * size * (i - (len(lines) - 1) / 2), ICE, "head", "c")
     _arrows(layer, 498, color or MIST, 20)

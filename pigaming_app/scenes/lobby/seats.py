@@ -5,7 +5,7 @@ FIRE takes the next empty seat, which determines the player number. The last AI 
 
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.ai.registry import STRENGTHS
+from pigaming_app.ai.registry import LEVELS, NAMED_LEVELS
 from pigaming_app.games.game import ALLIES, FREE, PAIRS, Seat
 from pigaming_app.ui.input.events import Device
 
@@ -23,7 +23,7 @@ class SeatState:
     kind: str = EMPTY
     device: Device | None = None
     ready: bool = False
-    strength: str = "normal"
+    strength: str = "level3"
     team: int = 0
     real: bool = False
     filled: bool = False
@@ -37,10 +37,10 @@ class Seats:
     `mat`: a mat for real robots is available.
     """
 
-    strength: str = "normal"
+    strength: str = "level3"
     teams: bool = False
     team_mode: str = FREE
-    rivals: tuple[str, ...] = STRENGTHS
+    rivals: tuple[str, ...] = LEVELS
     mat: bool = False
     places: list[SeatState] = field(default_factory=lambda: [SeatState(team=i % 2) for i in range(PLACES)])
 
@@ -215,7 +215,8 @@ class Seats:
         return self.places[seat].team if self.teams else seat
 
     def _strength(self, strength: str) -> str:
-        return strength if strength in self.rivals else self.strength
+        name = NAMED_LEVELS.get(strength, strength)
+        return name if name in self.rivals else self.strength
 
     def _brain(self, place: SeatState) -> str:
         return {EMPTY: "off", HUMAN: "human"}.get(place.kind, place.strength)

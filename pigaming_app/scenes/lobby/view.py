@@ -6,9 +6,10 @@ from dataclasses import dataclass, field
 
 import pygame
 
-from pigaming_app.ai.registry import STRENGTHS
+from pigaming_app.ai.registry import level_of
 from pigaming_app.games.game import ALLIES, FREE, PAIRS
 from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.brain_names import stars_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.lobby import seat_card as card
@@ -134,8 +135,7 @@ class LobbyPage:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
         if place.kind == AI:
             chosen = [PLAYERS[i] for i in self.seats.of_kind(HUMAN) if self.seats.row(i) == RIVALS]
-            text, color = words(f"lobby.{place.strength}"), chosen[0] if chosen else None
-            card.strength(text, *stars(place.strength), color).draw(screen, x, y)
+            card.strength(*level_words(words, place.strength), chosen[0] if chosen else None).draw(screen, x, y)
         elif place.ready:
             ready_bar(seat, words("lobby.ready")).draw(screen, x, y)
         else:
@@ -191,9 +191,11 @@ def spots(seats: Seats) -> list[FocusSpot]:
     return [*targets, *(FocusSpot(f"seat {seat}", card_rect(seat)) for seat in range(PLACES))]
 
 
-def stars(strength: str) -> tuple[int, int]:
-    """Stars of a strength, and of the highest one; (0, 0) for an AI that is none of the strengths."""
-    return (1 + STRENGTHS.index(strength), len(STRENGTHS)) if strength in STRENGTHS else (0, 0)
+def level_words(words: Words, brain: str) -> tuple[str, str]:
+    """The name of an AI on its card, and the stars above it: none unless it is a level."""
+    if level := level_of(brain):
+        return words("lobby.level", level=level), stars_of(level)
+    return words(f"lobby.{brain}"), ""
 
 
 def real_y(seats: Seats) -> int:

@@ -12,8 +12,8 @@ from pigaming_app.scenes.play.countdown import popped, show
 from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
 from pigaming_app.scenes.play.round_break import RoundBreak
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.results.scene import Results
-from pigaming_app.scenes.results.winner import WinnersMoment
+from pigaming_app.scenes.results.headline import EndedMatch
+from pigaming_app.scenes.results.winner import AfterMatch, WinnersMoment
 from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.input.events import InputEvent
 
@@ -22,17 +22,21 @@ PREWARM_MS = 7.0  # ms per frame for preparing it
 
 
 class Ending:
-    """The time from the last tick to the next scene. `make_results` is called once, when the whole match is over."""
+    """The time from the last tick to the next scene. `make_next` is called once, when the whole match is over."""
 
     def __init__(
-        self, context: Context, runner: MatchRunner, rounds: Rounds | None, make_results: Callable[[], Results]
+        self,
+        context: Context,
+        runner: MatchRunner,
+        rounds: Rounds | None,
+        make_next: Callable[[], tuple[EndedMatch, AfterMatch]],
     ) -> None:
-        self.context, self.runner, self.rounds, self.make_results = context, runner, rounds, make_results
+        self.context, self.runner, self.rounds, self.make_next = context, runner, rounds, make_next
         self.match = runner.match
         self.age = 0.0  # s since the last tick
         self.begun = False
         self.round_break: RoundBreak | None = None
-        self.results: Results | None = None
+        self.next: AfterMatch | None = None
         self.moment: WinnersMoment | None = None
         self.again: SlowMotion | None = None
         if repeats_last_hit(self.match):
@@ -64,8 +68,8 @@ class Ending:
     def update(self, seconds: float) -> StackOperation:
         """Show the last hit again, if the rules do so; then swap to the winner's moment."""
         if self.moment is None:
-            self.results = self.make_results()
-            self.moment = WinnersMoment(self.context, self.results)
+            ended, self.next = self.make_next()
+            self.moment = WinnersMoment(self.context, ended, self.next)
         repeated = self.repeat(seconds)
         return Swap(self.moment) if self.moment.prewarm(PREWARM_MS) and repeated else None
 
@@ -79,10 +83,10 @@ class Ending:
         return self.again.over
 
     def stop(self, seconds: float) -> StackOperation:
-        """Swap to the results as soon as they are rendered: the match was ended by hand."""
-        self.results = self.results or self.make_results()
+        """Swap to the next scene as soon as it is rendered: the match was ended by hand."""
+        self.next = self.next or self.make_next()[1]
         self.hold(seconds)
-        return Swap(self.results) if self.results.prewarm(PREWARM_MS) else None
+        return Swap(self.next) if self.next.prewarm(PREWARM_MS) else None
 
     def wait_for_round(self, pause: RoundBreak, seconds: float) -> bool:
         """Show the end of the round, then the standings; true when the next round begins."""

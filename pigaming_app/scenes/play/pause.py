@@ -53,6 +53,7 @@ class PausedMatch(Protocol):
 
     context: Context
     devices: list[Device | None]
+    restart_allowed: bool
 
     def picture(self) -> pygame.Surface:
         """The match as drawn behind a page."""
@@ -96,7 +97,8 @@ class Pause:
         self.access = PauseAccess(match.context, lambda: match.devices, device)
         self.picture: pygame.Surface | None = None
         self.confirm_left = self.explain_left = 0.0
-        self.focus = Focus(menu_spots((ITEMS[0], *match.extra_items, *ITEMS[1:])))
+        items = [item for item in ITEMS[1:] if item != "restart" or match.restart_allowed]
+        self.focus = Focus(menu_spots((ITEMS[0], *match.extra_items, *items)))
         hints = [
             (Button.FIRE, "pause.hint_ok"),
             (Button.BACK, "pause.hint_continue"),

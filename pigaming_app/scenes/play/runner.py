@@ -8,10 +8,10 @@ from contextlib import AbstractContextManager
 
 import pygame
 
-from pigaming_app.ai.brain_files import display_name
-from pigaming_app.ai.registry import RIVALS, TURN
+from pigaming_app.ai.registry import TURN
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
+from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.timestep import FixedTimestep
@@ -161,9 +161,7 @@ class MatchRunner:
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"
-        return (
-            words(f"match.{brain}") if brain in RIVALS[self.match.setup.game] else display_name(brain).upper()
-        ), "ai"
+        return brain_name(words, self.match.setup.game, brain), "ai"
 
     def _tag_sprites(self) -> AbstractContextManager[None]:
         """Tag new sprites with the game, to release them when the title returns."""

@@ -30,7 +30,9 @@ from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.round_break import draw_margin
 from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.scene import Results, SceneFactory
+from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.storage.settings import folders
@@ -45,7 +47,7 @@ LEAD_SECONDS = 0.8  # seconds before the countdown, to look round
 RESUME_STEP = 0.5  # seconds per number after an interruption
 HALT_AFTER = 60.0  # seconds without any input until the match is halted
 NOTICE_SECONDS = 3.0  # seconds for which a notice is shown
-SUBSTITUTE_BRAIN = "normal"  # the brain that takes over for a person
+SUBSTITUTE_BRAIN = "level3"  # the brain that takes over for a person
 
 
 class MatchScene:
@@ -53,7 +55,8 @@ class MatchScene:
 
     `humans`: seats of people, present or away; `ai_assisted`: those for whom an AI has driven for a while;
     `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see `Results`. `rounds`: the rounds
-    before this one, in a match of several; None: it is the only one.
+    before this one, in a match of several; None: it is the only one. `after`: makes the scene that follows in place of
+    the results; nobody then joins the match or restarts it.
     """
 
     def __init__(
@@ -65,9 +68,10 @@ class MatchScene:
         plant: Callable[[Any], Plant] = SimPlant,
         game_choice: SceneFactory | None = None,
         rounds: Rounds | None = None,
+        after: "Callable[[MatchScene], AfterMatch] | None" = None,
     ) -> None:
         self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
-        self.rounds, self.plant_factory = rounds, plant
+        self.rounds, self.plant_factory, self.after = rounds, plant, after
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = new_match(setup, plant)
@@ -79,12 +83,12 @@ class MatchScene:
         self.begun = self.prewarmed = self.stop_requested = self.restart_requested = False
         self.idle = self.notice_left = 0.0
         self.notice: Caption | None = None
-        self.ending = Ending(context, self.runner, rounds, self._results)
+        self.ending = Ending(context, self.runner, rounds, self._next)
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
         self.ai_assisted: set[int] = set()
-        self.join_allowed = True
+        self.join_allowed = self.restart_allowed = after is None
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans:
@@ -385,8 +389,15 @@ class MatchScene:
             scene.idle_seats.claims |= self.idle_seats.claims
         return Swap(scene)
 
+    def _next(self) -> tuple[EndedMatch, AfterMatch]:
+        """The match, or the rounds played, and the scene that follows."""
+        if self.after is None:
+            results = self._results()
+            return results.ended, results
+        absent = [seat for seat in self.humans if self.devices[seat] is None]
+        return EndedMatch(self.setup, self.match.outcome(), self.humans, absent, self.devices), self.after(self)
+
     def _results(self) -> Results:
-        """The results of the match, or of the rounds played."""
         rounds = self.rounds if self.rounds and self.rounds.outcomes else None
         return Results(
             self.context,

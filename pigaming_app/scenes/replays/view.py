@@ -8,6 +8,7 @@ import pygame
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.recordings import store
+from pigaming_app.scenes.views.ai_sign import level_mark
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -76,7 +77,7 @@ def row(words: Words, entry: Entry, hot: bool) -> list[LitImage]:
     if replay is None:
         return [damaged(words("replays.damaged", name=entry.path.name))]
     seats = tuple(
-        (seat, other.brain == "human", replay.scores[seat] if replay.scores else None, seat in replay.winners)
+        (seat, other.brain, replay.scores[seat] if replay.scores else None, seat in replay.winners)
         for seat, other in enumerate(replay.setup.seats)
         if other.brain != "off"
     )
@@ -94,15 +95,18 @@ def game_name(game: str, hot: bool) -> LitImage:
 
 @cached
 @resumable
-def whole(arena: str, when: str, seats: tuple[tuple[int, bool, int | None, bool], ...]) -> Steps[LitImage]:
-    """A valid replay without its game; `seats`: seat, whether a person drove, points if known, whether it won."""
+def whole(arena: str, when: str, seats: tuple[tuple[int, str, int | None, bool], ...]) -> Steps[LitImage]:
+    """A valid replay without its game; `seats`: seat, driver, points if known, whether it won."""
     layer, y = _frame(), HIGH / 2
     layer.canvas.body(arena, ARENA, y, MIST, "l", fit_size(arena, BODY, ROOM, "body"))
     layer.canvas.body(when, TIME, y, MIST, "l", fit_size(when, BODY, PLAYERS_X - TIME - 24, "body"))
-    for i, (seat, human, score, won) in enumerate(seats):
+    for i, (seat, brain, score, won) in enumerate(seats):
         x = PLAYERS_X + SLOT * i
         badge(layer.glow, seat, x + 28, y + 4, 24)
-        icon(layer.glow, "pad" if human else "ai", x + 76, y + 20, 13, MIST, 3)
+        if text := level_mark(brain):
+            layer.canvas.crisp.text(text, 28, x + 75, y + 22, MIST, "head", "c")
+        else:
+            icon(layer.glow, "pad" if brain == "human" else "ai", x + 76, y + 20, 13, MIST, 3)
         if won:
             icon(layer.glow, "crown", x + 76, y - 18, 15, FOCUS, 3)
         if score is not None:

@@ -1,14 +1,28 @@
 """One-line headline of the results: the winning person, AI or team, or a draw."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.registry import RIVALS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.brain_names import lit_stars
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.ui.draw import FOCUS, ICE, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Device
+
+
+@dataclass(frozen=True)
+class EndedMatch:
+    """A match and how it ended. `absent`: seats of people replaced by an AI; `devices`: of each seat."""
+
+    setup: Setup
+    outcome: Outcome
+    humans: Sequence[int]
+    absent: Sequence[int]
+    devices: Sequence[Device | None]
 
 
 def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int] = ()) -> str:
@@ -23,8 +37,11 @@ def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int]
     brain = setup.seats[seat].brain
     if brain == "human":
         return words("results.stand_in_wins" if seat in absent else "results.wins", player=seat + 1)
-    level = words(f"lobby.{brain}").lower() if brain in RIVALS[setup.game] else display_name(brain)
-    return words("results.ai_wins", player=seat + 1, level=level)
+    name = (
+        lit_stars(brain)
+        or f"({words(f'lobby.{brain}').lower() if brain in RIVALS[setup.game] else display_name(brain)})"
+    )
+    return words("results.ai_wins", player=seat + 1, name=name)
 
 
 def in_teams(outcome: Outcome, setup: Setup) -> bool:

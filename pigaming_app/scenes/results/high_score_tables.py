@@ -1,18 +1,20 @@
 """High-score rules: the table of each feat, the matches that count, the format of values.
 
 A table covers one arena, one set of rules, one duration (minutes, laps or pallets) and one number of people. A match
-counts for a seat only if every opponent is a person or an AI at least as strong as `normal`; allies have no opponents.
+counts for a seat only if every opponent is a person or an AI at least as strong as level 3; allies have no opponents.
 """
 
 from dataclasses import dataclass, replace
 
+from pigaming_app.ai.registry import level_of
 from pigaming_app.games.game import ALLIES, RecordKind, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, ScoreTable
 
 NONE = "–"
-STRONG = frozenset({"normal", "hard", "hand2", "hand3", "q1", "q2"})
-"""AIs no weaker than `normal`, which is `hand2`. Of 200 matches of `duel pitanks NAME hand2 --matches 200` under
+STRONG_LEVEL = 3  # the weakest level that counts
+STRONG = frozenset({"hand2", "hand3", "q1", "q2"})
+"""Other AIs no weaker than `hand2`. Of 200 matches of `duel pitanks NAME hand2 --matches 200` under
 `pickups`, `hand3` wins 161 and loses 26, q1 187 and 9, q2 109 and 79; `hand1` wins 1, `fsm` 41 (and loses 125) and
 `classic` none."""
 
@@ -32,7 +34,9 @@ def counts(setup: Setup, seat: int) -> bool:
     if games()[setup.game].variants[setup.variant].team_mode == ALLIES:
         return True
     opponents = [other.brain for other in setup.seats if other.brain != "off" and other.team != own.team]
-    return bool(opponents) and all(brain == "human" or brain in STRONG for brain in opponents)
+    return bool(opponents) and all(
+        brain == "human" or brain in STRONG or level_of(brain) >= STRONG_LEVEL for brain in opponents
+    )
 
 
 def contest(setup: Setup, seat: int | None = None) -> ScoreTable:

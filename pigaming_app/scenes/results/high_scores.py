@@ -20,20 +20,17 @@ from pigaming_app.scenes.results.high_score_tables import (
     older_tables,
 )
 from pigaming_app.storage.scores import Score, ScoreTable
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, SUB, THIN, GlowCanvas, cut_box, text_width
-from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop, span
-from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, text_width
+from pigaming_app.ui.draw.layers import RIGHT, backdrop, span
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading, sign
+from pigaming_app.ui.widgets.score_board import Board, BoardRow
 
-ROWS = 8
-WHERE_Y, LINE_Y, HEAD_Y, TOP, PITCH = 112, 234, 314, 352, 66  # px
-HEIGHT = 24 + PITCH * ROWS  # px, height of a table
+WHERE_Y, LINE_Y = 112, 234  # px
 STAY = 12.0  # s without input
 INPUT_LOCKOUT = 0.4  # s during which input is ignored
-APART, WIPE = 0.05, 0.25  # s: delay from row to row, wipe of one row
 ARROW = 20  # px from the centre of an arrow to its tip
 ROOM, WHERE_ROOM = 1360, 800  # px: maximum width of the conditions, and of game and arena
 STEPS = {Button.LEFT: -1, Button.RIGHT: 1, Button.UP: -1, Button.DOWN: 1}
@@ -138,34 +135,13 @@ class HighScores:
 
     def _board(self, screen: pygame.Surface, board: HighScoreTable, x: int, w: int) -> None:
         """Draw a table below its heading."""
-        title = self.context.words(board.heading, goal=f"{board.table.length:g}")
-        text(title, LABEL, ICE, "head", "l", w).draw(screen, x, HEAD_Y)
-        frame(w).draw(screen, x, TOP)
-        rows = self.context.scores.best(board.table, board.days)[:ROWS]
-        if not rows:
-            text(self.context.words("best.first"), LABEL, MIST, "head", "c", w - 96).draw(
-                screen, x + w / 2, TOP + HEIGHT / 2
-            )
-        for i, row in enumerate(rows):
-            share = (self.turned - APART * i) / WIPE
-            if share > 0.0:
-                self._row(screen, row, board, i, x, w, 1 - (1 - min(1.0, share)) ** 2)
-
-    def _row(
-        self, screen: pygame.Surface, row: Score, board: HighScoreTable, i: int, x: int, w: int, share: float
-    ) -> None:
-        """Draw place, initials and value, clipped to `share` of the width."""
-        y = TOP + 12 + PITCH * i + PITCH / 2
-        color = FOCUS if row in self.fresh else ICE if i == 0 else MIST
-        before = screen.get_clip()
-        screen.set_clip(pygame.Rect(x, TOP, round(w * share), HEIGHT))
-        text(str(i + 1), LABEL, color, "head", "r").draw(screen, x + 84, y)
-        text(row.initials, SUB, color, "hero", "l").draw(screen, x + 150, y)
-        value = self.context.words.decimal(format_score(row.score, board.table))
-        text(value, SUB, color, "hero", "r").draw(screen, x + w - 48, y)
-        if row in self.fresh:
-            sign("left", 20, FOCUS, LINE).draw(screen, x + 420, y)
-        screen.set_clip(before)
+        words = self.context.words
+        rows = [
+            BoardRow(row.initials, words.decimal(format_score(row.score, board.table)), row in self.fresh)
+            for row in self.context.scores.best(board.table, board.days)
+        ]
+        title = words(board.heading, goal=f"{board.table.length:g}")
+        Board(title, rows, words("best.first")).draw(screen, x, w, self.turned)
 
 
 def nearest(contest: ScoreTable, shelf: Sequence[ScoreTable]) -> ScoreTable:
@@ -202,10 +178,3 @@ def conditions(words: Words, contest: ScoreTable) -> str:
     elif contest.side:
         parts.append(words("best.against", side=contest.side, others=contest.people - contest.side))
     return "  ·  ".join(parts)
-
-
-@cached
-def frame(w: int) -> LitImage:
-    """Outline of a table; top left at (0, 0)."""
-    canvas = GlowCanvas(w + 8, HEIGHT + 8).set_transform(4, 4)
-    return LitImage(canvas.line(cut_box(0, 0, w, HEIGHT, 20), STEEL, THIN, True).plain(), (-4, -4))

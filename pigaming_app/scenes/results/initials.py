@@ -13,10 +13,9 @@ import pygame
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
 from pigaming_app.scenes.results import initials_view as page
 from pigaming_app.scenes.results.high_score_tables import contest, counts, format_score, table_of
-from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Score, ScoreTable
@@ -37,6 +36,7 @@ _log = logging.getLogger(__name__)
 
 
 Feats = tuple[tuple[ScoreTable, int], ...]
+Then = Callable[[Sequence[Score]], Scene | None]
 
 
 @dataclass(frozen=True)
@@ -100,10 +100,17 @@ def places(
 
 
 class Initials:
-    """Entry page for all `qualifying` at once; then shows the tables."""
+    """Entry page for all `qualifying` at once. `then`: makes the next scene from the new rows; None: the one below."""
 
-    def __init__(self, context: Context, setup: Setup, qualifying: Sequence[Qualification]) -> None:
-        self.context, self.setup, self.claims = context, setup, sorted(qualifying, key=lambda claim: claim.seat)
+    def __init__(
+        self,
+        context: Context,
+        qualifying: Sequence[Qualification],
+        then: Then,
+        format_value: Callable[[int, ScoreTable], str] = format_score,
+    ) -> None:
+        self.context, self.claims = context, sorted(qualifying, key=lambda claim: claim.seat)
+        self.then, self.format_value = then, format_value
         self.spellings = {claim.device: Spelling() for claim in self.claims}
         self.age = 0.0
         self.prewarm_queue = PrewarmQueue(self._prewarm_jobs())
@@ -183,20 +190,20 @@ class Initials:
         lines = []
         for (table, value), ranks in zip(claim.feats, claim.places, strict=True):
             listed = ranks if len(claim.feats) == 1 else ranks[-1:]
-            lines.append((words(f"setup.best_{table.feat}"), words.decimal(format_score(value, table))))
+            lines.append((words(f"setup.best_{table.feat}"), words.decimal(self.format_value(value, table))))
             lines += [(words("results.place", board=words(title), place=place), "") for title, place in listed]
         return tuple(lines)
 
     def _end(self) -> StackOperation:
-        """Save the entries and show the tables, if anything is new in them."""
-        fresh = list(self._entered())
-        if not fresh:
-            return Pop()
-        try:
-            self.context.scores.save(folders().data)
-        except NotSaved as reason:
-            _log.warning("%s", reason)
-        return Swap(HighScores(self.context, contest(self.setup, self.claims[0].seat), fresh))
+        """Save the entries, if there are any, and continue."""
+        fresh = self._entered()
+        if fresh:
+            try:
+                self.context.scores.save(folders().data)
+            except NotSaved as reason:
+                _log.warning("%s", reason)
+        scene = self.then(fresh)
+        return Swap(scene) if scene else Pop()
 
     def _entered(self) -> list[Score]:
         return [

@@ -10,6 +10,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.results.headline import headline, winning_color
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands
 from pigaming_app.scenes.results.view import line, signed
+from pigaming_app.scenes.views.ai_sign import ai_mark
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
@@ -24,7 +25,6 @@ from pigaming_app.ui.draw import (
     TITLE,
     WHITE,
     badge,
-    icon,
     mix,
     panel,
     text_width,
@@ -138,8 +138,8 @@ class PodiumPage:
         panel(layer.glow, x, y, w, ROW, PLAYERS[row.seat] if wins else STEEL, LINE if wins else THIN)
         middle = y + ROW / 2
         badge(layer.glow, row.seat, x + 76, middle, 38)
-        if self.setup.seats[row.seat].brain != "human":
-            icon(layer.glow, "ai", x + 146, middle, 15, MIST, 3)
+        if (brain := self.setup.seats[row.seat].brain) != "human":
+            ai_mark(layer.glow, brain, x + 146, middle, MIST)
         pips(layer, x + PIPS_X, middle, int(row.stats["wins"]), self.rounds.needed, PLAYERS[row.seat], PIP)
         for k, (points, ended) in enumerate(zip(self.rounds.points(row.seat), self.rounds.outcomes, strict=True)):
             color = FOCUS if row.seat in ended.winners else MIST

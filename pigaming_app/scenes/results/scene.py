@@ -18,12 +18,14 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
+from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.initials import Initials, qualifying
 from pigaming_app.scenes.results.podium_page import PodiumPage
 from pigaming_app.scenes.results.rematch_vote import RematchVote
 from pigaming_app.scenes.results.view import ResultsPage
+from pigaming_app.storage.scores import Score
 from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
@@ -86,6 +88,7 @@ class Results:
         humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
         self.ballot = RematchVote(context, seats, humans, devices)
         absent = [seat for seat in humans if devices[seat] is None]
+        self.ended = EndedMatch(setup, outcome, humans, absent, devices)
         self.page: Page = (
             PodiumPage(context, outcome, setup, finished, absent, rounds)
             if rounds
@@ -93,7 +96,7 @@ class Results:
         )
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
         self.claims = qualifying(context, outcome, setup, own) if finished or rounds else []
-        self.initials = Initials(context, setup, self.claims)
+        self.initials = Initials(context, self.claims, self._tables)
         self.sounds = self.page.sounds()
         self.age = self.idle = self.message_left = 0.0
         self.message: Caption | None = None
@@ -190,6 +193,10 @@ class Results:
         elif event.device not in self.ballot.devices and self.ballot.takeable:
             self.joining.begin(event)
             self._say(caption(self.context.words("match.hold"), sign="ai"))
+
+    def _tables(self, fresh: Sequence[Score]) -> Scene | None:
+        """The tables with new rows, if there are any."""
+        return HighScores(self.context, contest(self.setup, self.initials.claims[0].seat), fresh) if fresh else None
 
     def _save(self, recording: Replay) -> None:
         """Save the replay, once; after a failure again on request."""

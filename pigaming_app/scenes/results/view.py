@@ -15,6 +15,7 @@ from pigaming_app.scenes.results.headline import headline, is_allied, stars, win
 from pigaming_app.scenes.results.high_score_tables import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.results.stars import HIGH, star_row
+from pigaming_app.scenes.views.ai_sign import ai_mark
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
@@ -231,12 +232,12 @@ class ResultsPage:
         badge(layer.glow, row.seat, x + BADGE_X, y, 38)
         brain = self.setup.seats[row.seat].brain
         if brain != "human":
-            icon(layer.glow, "ai", x + AI_X, y, 15, MIST, 3)
+            ai_mark(layer.glow, brain, x + AI_X, y, MIST)
         ends = self._ends()
         for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
             text, room = self.context.words.decimal(cell(name, row)), right - before - APART_X
             if name == self.columns[0]:
-                size = fit_size(text, SUB, room - (32 if brain != "human" else 0), "hero")
+                size = fit_size(text, SUB, room - (50 if brain != "human" else 0), "hero")
                 layer.canvas.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
             else:
                 layer.canvas.crisp.text(text, fit_size(text, LABEL, room), x + right, y, color, "head", "r")

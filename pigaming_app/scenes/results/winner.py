@@ -1,4 +1,4 @@
-"""The winner's moment before the results: three seconds for the robot, its colour and its name.
+"""The winner's moment before the results, or another scene: three seconds for the robot, its colour and its name.
 
 The robots that came first drive in, a crown lands on them, confetti flies. A tie shows all of them, without a crown;
 allies get their stars. Any player may skip it after a second.
@@ -7,16 +7,16 @@ allies get their stars. Any player may skip it after a second.
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import Protocol
 
 import pygame
 
 from pigaming_app.games.game import Outcome
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation, Swap
+from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
-from pigaming_app.scenes.results.headline import headline, winning_color
-from pigaming_app.scenes.results.scene import Results
+from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.results.stars import STARS, star
 from pigaming_app.scenes.views.sprites.effects import SPARK_SIZES, SPARK_TURNS, sparks
 from pigaming_app.scenes.views.sprites.factory import TEAMS
@@ -40,7 +40,7 @@ from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
-from pigaming_app.ui.draw.theme import CAPITALS
+from pigaming_app.ui.draw.theme import CAPITALS, line_image
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import blit_sprite
 
@@ -63,12 +63,19 @@ UP = -math.pi / 2
 Rings = tuple[tuple[int, float, float, float], ...]  # of each robot: player, x, y, radius
 
 
-class WinnersMoment:
-    """The moment before `results`."""
+class AfterMatch(Scene, Protocol):
+    """A scene that follows a match."""
 
-    def __init__(self, context: Context, results: Results) -> None:
-        self.context, self.results = context, results
-        self.outcome, self.setup = results.page.outcome, results.page.setup
+    def prewarm(self, milliseconds: float) -> bool:
+        """Prewarm the scene for at most this many milliseconds; True when complete."""
+
+
+class WinnersMoment:
+    """The moment after the match `ended`, before the scene `then`."""
+
+    def __init__(self, context: Context, ended: EndedMatch, then: AfterMatch) -> None:
+        self.context, self.ended, self.then = context, ended, then
+        self.outcome, self.setup = ended.outcome, ended.setup
         stars = self.outcome.rows[0].stats.get("stars")
         self.stars = None if stars is None else round(stars)  # of allies
         self.seats = celebrated(self.outcome)
@@ -76,7 +83,7 @@ class WinnersMoment:
         half = (len(self.seats) - 1) / 2
         self.places = [(MIDDLE[0] + pitch * (i - half), MIDDLE[1]) for i in range(len(self.seats))]
         self.color = winning_color(self.outcome, self.setup)
-        self.name = headline(context.words, self.outcome, self.setup, results.page.absent)
+        self.name = headline(context.words, self.outcome, self.setup, ended.absent)
         self.size = fit_size(self.name, HERO * 3 // 4, 1640, "hero")
         self.celebration = Celebration(self.setup.game, self.seats, self._colors())
         cheerful = self.stars != 0
@@ -84,7 +91,7 @@ class WinnersMoment:
         self.bursts = [*BURSTS] if cheerful and context.settings.flashes != "off" else []
         self.age = 0.0
         self.queue = PrewarmQueue(self._jobs())
-        self.access = Access(context, lambda: results.ballot.devices)
+        self.access = Access(context, lambda: ended.devices)
         hints = [(Button.FIRE, "results.hint_skip")]
         self.prompts = context.prompts(hints, PROMPT_Y, device=lambda: self.access.hint_device)
 
@@ -99,10 +106,10 @@ class WinnersMoment:
         """FIRE, START, BACK or a click skips it after a second."""
         admitted = self.access.admit(self.prompts.as_button(event))
         skips = admitted and admitted.button in (Button.FIRE, Button.START, Button.BACK, Button.CLICK)
-        return Swap(self.results) if skips and self.age >= SKIP else None
+        return Swap(self.then) if skips and self.age >= SKIP else None
 
     def update(self, seconds: float) -> StackOperation:
-        """Animate; then the results, as soon as they are rendered."""
+        """Animate; then the next scene, as soon as it is rendered."""
         self.age += seconds
         self.celebration.update(seconds)
         while self.bursts and self.bursts[0] <= self.age:
@@ -112,8 +119,8 @@ class WinnersMoment:
         while self.volleys and self.volleys[0] <= self.age:
             self.volleys.pop(0)
             self.celebration.volley()
-        ready = self.results.prewarm(PREWARM_MS)
-        return Swap(self.results) if ready and self.age >= LENGTH else None
+        ready = self.then.prewarm(PREWARM_MS)
+        return Swap(self.then) if ready and self.age >= LENGTH else None
 
     def draw(self, screen: pygame.Surface) -> None:
         since = self.age - ARRIVED
@@ -160,7 +167,7 @@ class WinnersMoment:
 
     def _sound(self) -> str:
         """The sound of a victory, of a tie, or of people who have lost to AIs or to the clock."""
-        people, winners = set(self.results.ballot.humans), set(self.outcome.winners)
+        people, winners = set(self.ended.humans), set(self.outcome.winners)
         if self.stars is None and not winners:
             return "tie"
         return "lose" if self.stars == 0 or (people and not people & winners) else "fanfare"
@@ -236,7 +243,7 @@ def big_robot(player: int, scale: float) -> Steps[Sprite]:
 @resumable
 def title(text: str, size: int, color: Color) -> Steps[Sprite]:
     """The headline centred on (0, 0), with a black outline against the confetti behind it."""
-    edge = font("hero", size).render(text, True, BLACK)
+    edge = line_image(text, "hero", size, BLACK)
     w, h = edge.get_width() + 96, round(1.5 * size) + 64
     out = pygame.Surface((w, h), pygame.SRCALPHA)
     top = h / 2 - font("hero", size).get_ascent() + CAPITALS * size / 2

@@ -1,4 +1,4 @@
-"""Attract mode: for each game in turn an AI match, a highlight of any match, the lesson and the high scores.
+"""Attract mode: for each game in turn an AI match, a highlight, the lesson, the high scores and the best climbers.
 
 Any input only ends it.
 """
@@ -10,12 +10,14 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.ai.registry import STRENGTHS, new_match
+from pigaming_app.ai.registry import LEVELS, new_match
+from pigaming_app.events.ladder import ALL, table_of
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
+from pigaming_app.scenes.ladder.climbers import Climbers
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
@@ -29,11 +31,11 @@ MINUTES = 1.0  # length of a match
 END_SECONDS = 2.5  # seconds for which the end of a match is shown
 PAGE = 12.0  # seconds per page
 PROMPT_Y, PAGE_PROMPT_Y = 984, 1020  # px; above PAGE_PROMPT_Y lies a page's own row
-LEVELS = 6  # brightnesses of the prompt
+GLOWS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """Up to four shows per game, cyclically, from a random game; pushed over the title when idle."""
+    """Up to five shows per game, cyclically, from a random game; pushed over the title when idle."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -42,7 +44,7 @@ class Attract:
         self.shows = (
             partial(make, game)
             for game in cycle(names[first:] + names[:first])
-            for make in (self._match, self._highlight, self._howto, self._best)
+            for make in (self._match, self._highlight, self._howto, self._best, self._climbers)
         )
         self.show: Scene | None = None
         self.clip: Clip | None = None  # the next highlight
@@ -72,8 +74,8 @@ class Attract:
         """Draw the show and the prompt."""
         if self.show:
             self.show.draw(screen)
-        level = round(LEVELS * abs((self.age % 1.0) * 2 - 1))
-        color = dim(FOCUS, 0.45 + 0.55 * level / LEVELS)
+        level = round(GLOWS * abs((self.age % 1.0) * 2 - 1))
+        color = dim(FOCUS, 0.45 + 0.55 * level / GLOWS)
         text = self.context.words("attract.press")
         size, y = (LABEL, PROMPT_Y) if isinstance(self.show, DemoMatch | Clip) else (BODY, PAGE_PROMPT_Y)
         caption(text, color, color, size, face="head").draw(screen, 960, y)
@@ -115,6 +117,14 @@ class Attract:
         best = HighScores(self.context, secrets.choice(tables))
         return TimedPage(best, best.paint)
 
+    def _climbers(self, game: str) -> Scene | None:
+        """The best climbers of the game, or of all games; None if there are none."""
+        climbed = [ladder for ladder in (game, ALL) if self.context.scores.best(table_of(ladder))]
+        if not climbed:
+            return None
+        page = Climbers(self.context, secrets.choice(climbed))
+        return TimedPage(page, page.paint)
+
 
 class DemoMatch:
     """An AI match of one minute."""
@@ -124,7 +134,7 @@ class DemoMatch:
         teams = rules.default.teams
         if rules.default.team_mode == FREE and secrets.randbelow(3) == 0:
             teams = (0, 1, 0, 1)
-        one, two, three, four = (Seat(secrets.choice(STRENGTHS), team) for team in teams)
+        one, two, three, four = (Seat(secrets.choice(LEVELS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
         setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.default.name, rules.default.default_goal)
         self.runner = MatchRunner(context, new_match(setup), loud=False)

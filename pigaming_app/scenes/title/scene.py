@@ -122,6 +122,10 @@ class Title:
             return HowTo(self.context, self.game)
         if name == "lab":
             return self._lab()
+        if name == "ladder":
+            from pigaming_app.scenes.ladder.choice import LadderChoice
+
+            return LadderChoice(self.context, self.game)
         if name == "replays":
             from pigaming_app.scenes.replays.page import ReplaysPage
 
@@ -161,7 +165,7 @@ class Title:
         return spots
 
     def _menu(self) -> tuple[str, ...]:
-        items = "howto", "lab", "replays", "options"
+        items = "howto", "ladder", "lab", "replays", "options"
         return items if self.context.kiosk else (*items, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:

@@ -1,5 +1,6 @@
 """The route of the walk: every screen, in both languages."""
 
+from dataclasses import replace
 from functools import partial
 from typing import Any, Protocol
 
@@ -41,6 +42,7 @@ def tour(walker: TourWalker) -> None:
         options(walker)
         for game in games():
             play(walker, game, every_arena=language == LANGUAGES[0])
+        ladder(walker)
         lab(walker)
         home(walker)
         replays(walker)
@@ -253,6 +255,44 @@ def leave(walker: TourWalker, game: str) -> None:
     walker.press("space")
     walker.set_screen(f"{game}: setup")
     walker.wait_until(lambda: walker.shows("MatchSetupPage"))
+
+
+def ladder(walker: TourWalker) -> None:
+    """A climb through all games: a match, the offer of weaker robots, the end of the climb, the letters, the table."""
+    walker.set_screen("ladder: choice")
+    choose(walker, "ladder")
+    walker.wait(0.5)
+    walker.press("tab", pause=1.5)
+    walker.press("d", "escape", pause=0.5)
+    walker.set_screen("strengths")
+    walker.press("x", "d", "d", pause=1.5)
+    walker.press("escape", pause=0.5)
+    walker.set_screen("ladder: choice")
+    walker.press("s", "space", pause=1.0)
+    walker.set_screen("ladder: match")
+    walker.press("space")
+    walker.wait_until(lambda: walker.shows("MatchScene"))
+    walker.wait(5.0)
+    state = walker.top.match.state
+    state.robots[0].score = 9
+    state.rules.ticks = min(state.rules.ticks, state.tick + HZ)
+    walker.wait_until(lambda: walker.shows("LadderPage"))
+    walker.set_screen("ladder: between matches")
+    climb = walker.top.climb
+    walker.top.climber = replace(walker.top.climber, climb=replace(climb, rung=3, clear=2, beaten=2))
+    walker.top.focus.set_spots(walker.top.spots())
+    walker.wait(1.5)
+    walker.press("s", "w", "s", "space", pause=0.5)
+    walker.press("s", "space", pause=0.5)
+    walker.set_screen("ladder: end of the climb")
+    walker.wait_until(lambda: walker.shows("Summit"))
+    walker.wait(3.0)
+    walker.press("space", pause=1.0)
+    if walker.shows("Initials"):
+        walker.press("s", "return", pause=0.5)
+    walker.set_screen("ladder: best climbers")
+    walker.wait(2.0)
+    home(walker)
 
 
 def lab(walker: TourWalker) -> None:

@@ -22,6 +22,7 @@ from pigaming_app.ui.draw.theme import (
     Color,
     Points,
     font,
+    line_image,
     mix,
     regular_polygon,
 )
@@ -156,7 +157,7 @@ class GlowCanvas:
     ) -> Self:
         """One upright line of text; y is the middle of its capitals; `align` is "l", "c" or "r" relative to x."""
         f = font(face, round(size * self.k))
-        image = f.render(text, True, color)
+        image = line_image(text, face, round(size * self.k), color)
         px, py = self._at((x, y))
         px -= {"l": 0.0, "c": 0.5, "r": 1.0}[align] * image.get_width()
         at = round(px), round(py + CAPITALS * size * self.k / 2 - f.get_ascent())

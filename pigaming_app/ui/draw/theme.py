@@ -4,6 +4,7 @@ Colour identifies players (Okabe-Ito, brightened for a projector); everything el
 """
 
 import math
+import re
 from collections.abc import Sequence
 from functools import cache
 
@@ -26,6 +27,10 @@ HAIR, THIN, LINE, BOLD = 2, 4, 6, 9
 BODY, LABEL, SUB, TITLE, HERO = 40, 52, 72, 96, 200
 
 CAPITALS = 0.70  # height of the capitals of both faces, em
+STARS = "★☆"  # lit and unlit, in any text; the fonts have neither
+STAR_RADIUS, STAR_ADVANCE, STAR_DROP = 0.42, 0.88, 0.04  # em; DROP: below the middle of the capitals
+STAR_HOLE = 0.74  # size of the hole in an unlit star
+UNLIT = (82, 95, 113)  # outline of an unlit star
 _FACES = {
     "head": "oxanium-latin-700-normal.woff2",
     "hero": "oxanium-latin-800-normal.woff2",
@@ -59,7 +64,42 @@ def _loaded(face: str, size: int) -> pygame.font.Font:
 
 def text_width(text: str, size: int, face: str = "head") -> float:
     """Width of one line of text, px."""
-    return font(face, size * 2).size(text)[0] / 2
+    return line_width(text, face, size * 2) / 2
+
+
+def line_width(text: str, face: str, size: int) -> int:
+    """Width of a line as `line_image` renders it, px. Both kinds of stars are as wide."""
+    return sum(
+        len(part) * round(STAR_ADVANCE * size) if part[0] in STARS else font(face, size).size(part)[0]
+        for part in _runs(text)
+    )
+
+
+def line_image(text: str, face: str, size: int, color: Color) -> pygame.Surface:
+    """A rendered line with per-pixel alpha. The fonts lack stars, so these are drawn: ★ filled, ☆ as an outline."""
+    letters = font(face, size)
+    if not any(star in text for star in STARS):
+        return letters.render(text, True, color)
+    out = pygame.Surface((line_width(text, face, size), letters.get_linesize()), pygame.SRCALPHA)
+    middle, advance, x = letters.get_ascent() - (CAPITALS / 2 - STAR_DROP) * size, round(STAR_ADVANCE * size), 0
+    for part in _runs(text):
+        if part[0] not in STARS:
+            out.blit(image := letters.render(part, True, color), (x, 0))
+            x += image.get_width()
+            continue
+        for star in part:
+            lit, r, centre = star == STARS[0], STAR_RADIUS * size, x + advance / 2
+            light = color if color == BLACK else FOCUS if lit else UNLIT
+            pygame.draw.polygon(out, light, star_points(r, centre, middle))
+            if not lit:
+                pygame.draw.polygon(out, (0, 0, 0, 0), star_points(STAR_HOLE * r, centre, middle))
+            x += advance
+    return out
+
+
+def _runs(text: str) -> list[str]:
+    """A line split into stars and everything else."""
+    return [part for part in re.split(f"([{STARS}]+)", text) if part]
 
 
 def cut_box(x: float, y: float, w: float, h: float, c: float = 16) -> list[Point]:

@@ -13,7 +13,7 @@ from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.ai.race import racer
-from pigaming_app.ai.registry import BRAINS, LEVELS, make_brain
+from pigaming_app.ai.registry import BRAINS, NAMED_LEVELS, make_brain
 from pigaming_app.games.factory.state import INPUT, RAW, A
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -23,7 +23,7 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.i18n import texts
 from tests.cases import one_in
 
-ALL = [(game, name) for game in games() for name in BRAINS[game] if name not in LEVELS]
+ALL = [(game, name) for game in games() for name in BRAINS[game] if name not in NAMED_LEVELS]
 KEPT = 0.9  # value of the second best move, as a share of the best
 
 

@@ -5,7 +5,7 @@ from math import hypot
 
 import pytest
 
-from pigaming_app.ai.registry import STRENGTHS, make_brain
+from pigaming_app.ai.registry import NAMED_LEVELS, make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (
@@ -70,7 +70,7 @@ def test_four_hard_drivers_spoil_nothing_and_one_team_delivers_everything(floor,
     assert total(match, "hits") <= 2
 
 
-@pytest.mark.parametrize("strength", STRENGTHS)
+@pytest.mark.parametrize("strength", NAMED_LEVELS)
 @pytest.mark.parametrize("floor", FLOORS)
 def test_every_strength_alone_against_another_delivers_everything(floor, strength):
     match = played((strength, strength, "off", "off"), floor, pallets=2)
@@ -120,7 +120,7 @@ def test_the_same_seed_is_the_same_match():
     assert digest(first.state) == digest(again.state)
 
 
-@pytest.mark.parametrize("strength", STRENGTHS)
+@pytest.mark.parametrize("strength", NAMED_LEVELS)
 def test_it_thinks_without_changing_anything_but_its_action(strength):
     match = begun((strength,) * 4)
     brain = make_brain("factory", strength, 1)
@@ -276,7 +276,7 @@ def test_it_clears_the_machine_of_a_person_who_is_busy():
     assert first_aim(shop) == out
 
 
-@pytest.mark.parametrize("strength", STRENGTHS)
+@pytest.mark.parametrize("strength", NAMED_LEVELS)
 def test_it_drives_round_people(strength):
     """A person stands between it and its first pallet."""
     match = begun((strength, "off", "off", "off"), "hall", 2, pallets=2)
@@ -298,6 +298,6 @@ def test_somebody_else_can_take_over_at_any_time():
         match.tick()
         if match.state.tick % (4 * HZ) == 0:
             changes += 1
-            match.sit(2 * (changes % 2), make_brain("factory", STRENGTHS[changes % 3], changes))
+            match.sit(2 * (changes % 2), make_brain("factory", [*NAMED_LEVELS][changes % 3], changes))
     assert match.state.winner == 1 + ICE
     assert total(match, "spoiled") == 0

@@ -492,7 +492,7 @@ def test_change_game_keeps_all_seats(arcade: Arcade) -> None:
     there = arcade.shown(Lobby)
     assert there.game == "factory"
     assert [place.device for place in there.seats.places] == [KEYS[2], None, KEYS[0], None]
-    assert there.seats.places[3].strength == "hard"
+    assert there.seats.places[3].strength == "level5"
     assert len(arcade.stack.scenes) == 2, "the title lies below, not the lobby of the game before"
 
 

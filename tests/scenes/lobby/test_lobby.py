@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import POINT, RIVALS, STRENGTHS, TURN
+from pigaming_app.ai.registry import LEVELS, POINT, RIVALS, TURN
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.flow import match_choice
@@ -16,8 +16,9 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
-from pigaming_app.scenes.lobby.view import card_rect, stars
+from pigaming_app.scenes.lobby.view import card_rect, level_words
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
@@ -126,20 +127,20 @@ def test_ais_come_one_by_one_and_go_all_at_once(arcade: Arcade) -> None:
 def test_directions_make_the_ais_stronger_and_that_is_remembered(arcade: Arcade) -> None:
     arcade.press(Button.Y)
     arcade.press(Button.RIGHT)
-    assert arcade.shown(Lobby).seats.places[0].strength == "hard"
-    assert arcade.context.settings.strength == "hard"
-    assert Lobby(arcade.context, "pitanks").seats.strength == "hard"
+    assert arcade.shown(Lobby).seats.places[0].strength == "level4"
+    assert arcade.context.settings.strength == "level4"
+    assert Lobby(arcade.context, "pitanks").seats.strength == "level4"
 
 
 def test_the_other_ais_follow_the_strongest_one_and_play(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     arcade.press(Button.Y)
     arcade.press(Button.DOWN)
-    for wanted in ("hard", "q1", "q2", "fsm", "fsm"):
+    for wanted in ("level4", "level5", "q1", "q2", "fsm", "fsm"):
         arcade.press(Button.RIGHT)
         assert arcade.shown(Lobby).seats.places[1].strength == wanted
         arcade.frame(draw=True)
-    assert arcade.context.settings.strength == "hard"
+    assert arcade.context.settings.strength == "level5"
     arcade.press(Button.START)
     arcade.press(Button.START)
     assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["human", "fsm", "off", "off"]
@@ -186,13 +187,13 @@ def test_a_mouse_alone_can_have_ais_play(arcade: Arcade) -> None:
     assert kinds(arcade) == "A.A."
     x, y = card_rect(0).topleft
     arcade.click(x + 414 - 60, y + 538)
-    assert arcade.shown(Lobby).seats.places[0].strength == "hard"
-    assert arcade.shown(Lobby).seats.places[2].strength == "normal"
+    assert arcade.shown(Lobby).seats.places[0].strength == "level4"
+    assert arcade.shown(Lobby).seats.places[2].strength == "level3"
     arcade.click(*card_rect(2).center)
     assert kinds(arcade) == "A..."
     arcade.click(*card_rect(2).center)
     arcade.stack.apply(arcade.stack.top.handle(InputEvent(Button.START, Device("mouse"))))
-    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["hard", "off", "hard", "off"]
+    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["level4", "off", "level4", "off"]
 
 
 def test_when_nobody_is_there_the_title_comes_back(arcade: Arcade) -> None:
@@ -303,6 +304,10 @@ def test_a_kiosk_offers_party_rules_until_visitors_choose_others_and_again_after
     assert last_choice(arcade.context, "pitanks").variant == KIOSK_RULES
 
 
-def test_strengths_have_stars_and_the_other_ais_none() -> None:
-    assert [stars(strength) for strength in STRENGTHS] == [(i + 1, len(STRENGTHS)) for i in range(len(STRENGTHS))]
-    assert {stars(rival) for rival in RIVALS["pitanks"] if rival not in STRENGTHS} == {(0, 0)}
+def test_levels_have_stars_and_the_other_ais_none() -> None:
+    words = Words("en")
+    rows = [level_words(words, level) for level in LEVELS]
+    assert rows[0] == ("Level 1", "★☆☆☆☆")
+    assert rows[4] == ("Level 5", "★★★★★")
+    assert [stars.count("★") for _, stars in rows] == [1, 2, 3, 4, 5]
+    assert {level_words(words, rival)[1] for rival in RIVALS["pitanks"] if rival not in LEVELS} == {""}

@@ -61,7 +61,7 @@ def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) 
     arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
     assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
-    assert [seat.brain for seat in match.setup.seats] == ["human", "normal", "off", "off"]
+    assert [seat.brain for seat in match.setup.seats] == ["human", "level3", "off", "off"]
     assert match.devices == [KEYS[0], None, None, None]
     saved = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
     assert tuple(saved["games"]["pitanks"][name] for name in ("arena", "minutes", "variant")) == (arena, 3, variant)

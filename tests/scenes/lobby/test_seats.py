@@ -2,6 +2,7 @@
 
 import pytest
 
+from pigaming_app.ai.registry import LEVELS
 from pigaming_app.games.game import ALLIES, ALONE, FREE, PAIRS, Seat
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, REAL, RIVALS, TEAM, Seats
 from pigaming_app.ui.input.events import Device
@@ -107,7 +108,7 @@ def test_a_new_player_joins_the_smaller_team() -> None:
     assert not seats.one_team
 
 
-@pytest.mark.parametrize(("steps", "strength"), [(1, "hard"), (2, "hard"), (-1, "easy"), (-2, "easy")])
+@pytest.mark.parametrize(("steps", "strength"), [(1, "level4"), (3, "level5"), (-1, "level2"), (-3, "level1")])
 def test_all_ais_become_stronger_or_weaker_up_to_an_end(steps: int, strength: str) -> None:
     seats = Seats()
     seats.add_ai()
@@ -123,9 +124,9 @@ def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
     seats = Seats()
     seats.add_ai()
     seats.add_ai()
-    seats.change_strength(1, 0)
-    seats.change_strength(1, 0)
-    assert [seats.places[i].strength for i in (0, 1)] == ["easy", "normal"]
+    for _ in range(3):
+        seats.change_strength(1, 0)
+    assert [seats.places[i].strength for i in (0, 1)] == ["level1", "level3"]
     assert not Seats().change_strength(1)
 
 
@@ -181,13 +182,13 @@ def test_in_a_race_everyone_drives_alone_against_three() -> None:
 
 
 def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
-    seats = Seats(rivals=("easy", "normal", "hard", "q1", "q2"))
+    seats = Seats(rivals=(*LEVELS, "q1", "q2"))
     seats.add_ai()
-    for wanted in ("hard", "q1", "q2", "q2"):
+    for wanted in ("level4", "level5", "q1", "q2", "q2"):
         seats.change_strength(1)
         assert seats.seats()[0] == Seat(wanted, 0)
     seats.change_strength(1, 0)
-    assert seats.places[0].strength == "easy"
+    assert seats.places[0].strength == "level1"
 
 
 def test_among_allies_all_are_in_one_team_and_a_person_alone_gets_mates() -> None:

@@ -232,7 +232,7 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     assert isinstance(match.match.brains[1], BrainPlayer)
     back, device = plug(arcade, pads)
     assert match.devices[1] is None
-    assert match.runner.view.players[:2] == ["human", "normal"], "the view marks the AI"
+    assert match.runner.view.players[:2] == ["human", "level3"], "the view marks the AI"
     back.tap("a")
     arcade.frame(draw=True)
     assert arcade.shown(MatchScene) is match, "no pause"
@@ -310,9 +310,9 @@ def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, r
     arcade.open(scene)
     arcade.until(lambda: scene.match.state.tick > 100)
     scene.match.state.robots[0].score = 9
-    arcade.until(lambda: scene.ending.results is not None)
-    assert scene.ending.results
-    assert len(scene.ending.results.claims) == records
+    arcade.until(lambda: scene.ending.next is not None)
+    assert scene.ending.next
+    assert len(scene.ending.next.claims) == records
 
 
 def race(arcade: Arcade) -> MatchScene:

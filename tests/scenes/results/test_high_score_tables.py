@@ -8,7 +8,6 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.high_score_tables import (
-    STRONG,
     contest,
     contests,
     counts,
@@ -33,6 +32,8 @@ def match(brains, teams=FREE, game="pitanks", minutes=2.0, goal=0, variant=None)
         ("human normal off off", FREE, True),
         ("human human off off", FREE, True),
         ("human hard q2 q1", FREE, True),
+        ("human level3 level4 level5", FREE, True),
+        ("human level2 off off", FREE, False),
         ("human q2 human normal", FREE, True),
         ("human easy off off", FREE, False),
         ("human hard hard easy", FREE, False),
@@ -52,8 +53,9 @@ def test_a_match_counts_against_people_and_opponents_no_weaker_than_normal(brain
 
 @pytest.mark.parametrize("game", games())
 def test_of_the_ais_of_a_game_only_the_weak_ones_do_not_count(game):
-    weak = {"idle", "random", "easy", "hand1", "fsm", "classic"}
-    assert set(BRAINS[game]) - STRONG == weak & set(BRAINS[game])
+    weak = {"idle", "random", "easy", "level1", "level2", "hand1", "fsm", "classic"}
+    counting = {brain for brain in BRAINS[game] if counts(match(f"human {brain} off off", game=game), 0)}
+    assert set(BRAINS[game]) - counting == weak & set(BRAINS[game])
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ def moment(arcade: Arcade, brains: str, ended: Outcome, teams: tuple[int, ...] =
     devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
     again = MatchScene(arcade.context, match, devices).rematch
     results = Results(arcade.context, ended, match, devices, again, game_choice=game_choice)
-    scene = WinnersMoment(arcade.context, results)
+    scene = WinnersMoment(arcade.context, results.ended, results)
     arcade.open(scene)
     return scene
 
@@ -48,7 +48,8 @@ WON = outcome({0: 12, 1: -3, 2: 7, 3: 5}, (0,))
 @pytest.mark.parametrize("name", list(ENDINGS))
 def test_every_ending_has_its_moment_within_the_picture(controls: Controls, name: str, language: str) -> None:
     arcade = Arcade(controls, language)
-    scene = WinnersMoment(arcade.context, ENDINGS[name].results(arcade))
+    results = ENDINGS[name].results(arcade)
+    scene = WinnersMoment(arcade.context, results.ended, results)
     arcade.open(scene)
     arcade.wait(LENGTH - 0.4, fps=10, draw=True)
     assert title(scene.name, scene.size, scene.color).image.get_width() <= 1920 - 2 * 96
@@ -96,9 +97,9 @@ def test_allies_get_stars_instead_of_a_crown(arcade: Arcade, stars: int, sound: 
 
 def test_it_takes_three_seconds_and_leaves_the_results_ready(arcade: Arcade) -> None:
     scene = moment(arcade, "human human hard human", WON)
-    waited = arcade.until(lambda: arcade.stack.top is scene.results)
+    waited = arcade.until(lambda: arcade.stack.top is scene.then)
     assert waited == pytest.approx(LENGTH, abs=0.1)
-    assert scene.results.prewarm(0.0)
+    assert scene.then.prewarm(0.0)
 
 
 def test_players_skip_it_after_a_second_and_free_devices_do_not(arcade: Arcade) -> None:
@@ -111,7 +112,7 @@ def test_players_skip_it_after_a_second_and_free_devices_do_not(arcade: Arcade) 
     arcade.press(Button.X)
     assert arcade.stack.top is scene
     arcade.press(Button.FIRE)
-    assert arcade.stack.top is scene.results
+    assert arcade.stack.top is scene.then
     arcade.shown(Results)
 
 
@@ -119,7 +120,7 @@ def test_the_mouse_skips_it_too(arcade: Arcade) -> None:
     scene = moment(arcade, "human easy hard easy", WON)
     arcade.wait(SKIP + 0.1)
     arcade.click(960, 500)
-    assert arcade.stack.top is scene.results
+    assert arcade.stack.top is scene.then
 
 
 def test_without_flashes_there_is_confetti_and_no_burst(arcade: Arcade) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.ai.registry import STRENGTHS, new_match
+from pigaming_app.ai.registry import LEVELS, new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.moments import CLOSE, KINDS, LAST, Moment
 from pigaming_app.games.registry import games
@@ -103,7 +103,8 @@ def scores_of(context: Context, game: str) -> None:
 
 def recording(game: str, seed: int = 1) -> Replay:
     """A short match with moments."""
-    match = new_match(make_setup(game, ["hard", "easy", "hard", "easy"], None, 0.4, seed, None, None, STRENGTHS))
+    brains = ["level5", "level1", "level5", "level1"]
+    match = new_match(make_setup(game, brains, None, 0.4, seed, None, None, LEVELS))
     while not match.over:
         match.tick()
     match.series[0].append((20.0, match.series[0][-1][1] + 1))

@@ -9,8 +9,8 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.registry import is_brain
 from pigaming_app.games.factory.state import DELIVERED, ICE, TEAMS, Factory
+from pigaming_app.scenes.views.ai_sign import ai_of
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.factory import order_cards, panels, star_panel
 from pigaming_app.scenes.views.factory.order_cards import Order
@@ -31,7 +31,7 @@ CLOCK_Y = 82
 
 
 class FactoryHud:
-    """Keeps the HUD up to date. `players`: driver of each seat; names of brains are marked as AI."""
+    """Keeps the HUD up to date. `players`: driver of each seat; AIs are marked."""
 
     def __init__(self, background: Background, players: list[str], state: Factory, words: Words | None = None) -> None:
         self.background, self.players, self.words = background, players, words
@@ -79,7 +79,7 @@ class FactoryHud:
 
     def _mates(self, state: Factory, team: int) -> tuple[Mate, ...]:
         return tuple(
-            (i, is_brain("factory", self.players[i]), round(16 * robot.turbo))
+            (i, ai_of(self.players[i]), round(16 * robot.turbo))
             for i, robot in enumerate(state.robots)
             if robot.present and robot.team == team
         )

@@ -5,12 +5,13 @@ from collections.abc import Iterator
 import pygame
 
 from pigaming_app.games.factory.state import ICE as FIRST_TEAM
+from pigaming_app.scenes.views.ai_sign import level_mark
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory.background import draw_lorry
 from pigaming_app.scenes.views.hud_parts import number_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
-from pigaming_app.ui.draw import LABEL, LINE, MIST, PLAYERS, SUB, Color, GlowCanvas, badge, cut_box, dim, icon
+from pigaming_app.ui.draw import ICE, LABEL, LINE, MIST, PLAYERS, SUB, Color, GlowCanvas, badge, cut_box, dim, icon
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, number_width
@@ -19,7 +20,7 @@ Y, H, W, EDGE = 26, 104, 652, 24  # px: top, height and width of a panel, margin
 X = (160, 1108)
 EMBLEM, NUMBER = 58, 106  # px from a panel's outer edge
 MIDDLE = Y + H / 2
-Mate = tuple[int, bool, int]  # seat, whether an AI drives it, turbo in sixteenths
+Mate = tuple[int, str, int]  # seat, its AI or empty, turbo in sixteenths
 
 
 @cached
@@ -65,11 +66,13 @@ def small_crate(team: int, state: int, size: int) -> pygame.Surface:
 
 
 @cached
-def robot_sign(seat: int, ai: bool, turbo: int) -> pygame.Surface:
-    """Robot in a panel: badge, AI mark, and turbo in sixteenths."""
+def robot_sign(seat: int, brain: str, turbo: int) -> pygame.Surface:
+    """Robot in a panel: badge, AI sign, and turbo in sixteenths."""
     ink = GlowCanvas(120, 52, 3)
     badge(ink, seat, 34, 22, 18)
-    if ai:
+    if text := level_mark(brain):
+        ink.text(text, 30, 61, 22, ICE, "head")
+    elif brain:
         icon(ink, "ai", 80, 20, 13, MIST, 3)
     ink.line([(14, 46), (104, 46)], dim(PLAYERS[seat], 0.2), 4)
     if turbo:
@@ -109,5 +112,5 @@ def robot_bits(mates: tuple[Mate, ...], xs: tuple[float, ...]) -> Iterator[Bit]:
     """Robots in columns centred at `xs`, at most two in each."""
     columns = [mates[2 * i : 2 * i + 2] for i in range(len(xs))]
     for x, column in zip(xs, columns, strict=True):
-        for i, (seat, ai, turbo) in enumerate(column):
-            yield centred(robot_sign(seat, ai, turbo), x, MIDDLE + (0 if len(column) == 1 else -25 + 50 * i))
+        for i, (seat, brain, turbo) in enumerate(column):
+            yield centred(robot_sign(seat, brain, turbo), x, MIDDLE + (0 if len(column) == 1 else -25 + 50 * i))

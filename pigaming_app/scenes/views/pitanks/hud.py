@@ -11,9 +11,9 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.registry import is_brain
 from pigaming_app.games.pitanks.scoring import is_overtime
 from pigaming_app.games.pitanks.state import POWERS
+from pigaming_app.scenes.views.ai_sign import ai_of, ai_tab
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.scenes.views.hud_parts import CLOCK, EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.pitanks.banner import Banner
@@ -85,7 +85,7 @@ def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
 
 
 class PiTanksHud:
-    """Keeps the HUD up to date. `players`: driver of each seat; names of brains are marked as AI."""
+    """Keeps the HUD up to date. `players`: driver of each seat; AIs are marked."""
 
     def __init__(self, background: Background, state: Any, players: list[str], words: Words | None) -> None:
         self.background, self.players = background, players
@@ -103,7 +103,13 @@ class PiTanksHud:
         self.points = points
         for slot in self.slots:
             leads = self._leads(state, slot.seat, slot.seat == ahead) and not self.sums
-            content = points[slot.seat], leads, self._ai(slot.seat), _turbo(state, slot.seat), _powers(state, slot.seat)
+            content = (
+                points[slot.seat],
+                leads,
+                ai_of(self.players[slot.seat]),
+                _turbo(state, slot.seat),
+                _powers(state, slot.seat),
+            )
             self.parts.show(slot, content, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *content))
         for panel in self.sums:
             total = totals[panel.team], self._leads(state, panel.mates[0].seat, panel.team == ahead)
@@ -121,7 +127,7 @@ class PiTanksHud:
         turbo = bool(state.rules.turbo)
         for slot in self.slots:
             for leads in {False, not self.sums}:
-                yield partial(frame, slot.seat, slot.w, leads, self._ai(slot.seat), turbo)
+                yield partial(frame, slot.seat, slot.w, leads, ai_of(self.players[slot.seat]), turbo)
             yield partial(pulse, slot.seat, slot.w)
             if turbo:
                 yield partial(turbo_bar, slot.seat, slot.w, True)
@@ -132,9 +138,6 @@ class PiTanksHud:
     def _leads(self, state: Any, seat: int, alone: bool) -> bool:
         """True for the sole leader; in overtime for all who are level at the top."""
         return not state.tanks[seat].barred if is_overtime(state) else alone
-
-    def _ai(self, seat: int) -> bool:
-        return is_brain("pitanks", self.players[seat])
 
     def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
         text = str(points).replace("-", "−")
@@ -168,13 +171,13 @@ def _powers(state: Any, seat: int) -> tuple[tuple[int, int], ...]:
 
 
 def panel_bits(
-    slot: SeatPanel, score: int, leads: bool, ai: bool, turbo: int | None, powers: tuple[tuple[int, int], ...]
+    slot: SeatPanel, score: int, leads: bool, brain: str, turbo: int | None, powers: tuple[tuple[int, int], ...]
 ) -> list[Bit]:
     """Pieces of a panel."""
     x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
     text = str(score).replace("-", "−")
     size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
-    bits: list[Bit] = [(frame(slot.seat, slot.w, leads, ai, turbo is not None), (x - EDGE, Y - EDGE), None)]
+    bits: list[Bit] = [(frame(slot.seat, slot.w, leads, brain, turbo is not None), (x - EDGE, Y - EDGE), None)]
     bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
     if turbo is not None:
         full = EDGE + round((slot.w - 32) * turbo / 64)
@@ -190,7 +193,7 @@ def panel_bits(
 
 
 @cached
-def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Surface:
+def frame(player: int, w: int, leads: bool, brain: str, turbo: bool) -> pygame.Surface:
     """Outline and badge of a panel, with the leader's crown and the AI mark."""
     ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
     outline = cut_box(0, 0, w, H)
@@ -201,9 +204,7 @@ def frame(player: int, w: int, leads: bool, ai: bool, turbo: bool) -> pygame.Sur
     if leads:
         ink.solid(cut_box(22, -22, 44, 32, 4))
         icon(ink, "crown", 44, -6, 16, color, THIN)
-    if ai:
-        ink.solid(cut_box(100, -22, 48, 34, 4))
-        icon(ink, "ai", 124, -4, 18, mix(color, WHITE, 0.5), 3)
+    ai_tab(ink, brain, 100, -4, color)
     return ink.lit(0.7)
 
 

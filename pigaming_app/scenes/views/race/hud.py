@@ -8,8 +8,8 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.ai.registry import is_brain
 from pigaming_app.games.race.state import LINES, Race
+from pigaming_app.scenes.views.ai_sign import ai_of
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud_parts import CLOCK, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.race import hud_cards as race_cards
@@ -31,7 +31,7 @@ ICONS = ("", "speed", "shield", "oil")  # of `Racer.item`
 
 
 class RaceHud:
-    """Keeps the HUD up to date. `players`: driver of each seat; names of brains are marked as AI."""
+    """Keeps the HUD up to date. `players`: driver of each seat; AIs are marked."""
 
     def __init__(self, background: Background, state: Race, players: list[str], words: Words | None) -> None:
         self.background, self.players, self.words = background, players, words
@@ -75,7 +75,12 @@ class RaceHud:
             yield partial(race_cards.pulse, seat)
             for alarm, done in ((False, False), (True, False), (False, True)):
                 yield partial(
-                    race_cards.frame, seat, self._ai(seat), alarm, done, bool(state.rules.party) and not (alarm or done)
+                    race_cards.frame,
+                    seat,
+                    ai_of(self.players[seat]),
+                    alarm,
+                    done,
+                    bool(state.rules.party) and not (alarm or done),
                 )
             for full in (True, False):
                 yield partial(race_cards.turbo, seat, full, False)
@@ -101,9 +106,6 @@ class RaceHud:
             if self.words:
                 yield partial(race_cards.banner, announced(self.words("race.last_lap")), FOCUS)
 
-    def _ai(self, seat: int) -> bool:
-        return is_brain("race", self.players[seat])
-
     def _card(self, state: Race, seat: int, place: int) -> RaceCard:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
         direction, changed_at = self.moves.get(seat, (0, -MOVED))
@@ -112,7 +114,7 @@ class RaceHud:
         share = racer.progress / (laps * state.course.length)
         return RaceCard(
             seat=seat,
-            ai=self._ai(seat),
+            brain=ai_of(self.players[seat]),
             place=place,
             ending=self.endings[place - 1],
             lap=min(laps, robot.score + 1),

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import pygame
 
+from pigaming_app.scenes.views.ai_sign import ai_tab
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit
 from pigaming_app.scenes.views.hud_parts import CLOCK, PANEL_W, H, Y, number_bits
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
@@ -54,7 +55,7 @@ class RaceCard:
     """Content of a card. `sign`: "", "wrong" or "missed"; `moved`: 1 gained a place, -1 lost one, else 0."""
 
     seat: int
-    ai: bool
+    brain: str
     place: int
     ending: str  # ordinal suffix of the place: st, nd
     lap: int  # current lap, of `laps`
@@ -73,7 +74,7 @@ class RaceCard:
 def card_bits(card: RaceCard, x: int) -> list[Bit]:
     """Pieces of a card with its left edge at `x`."""
     corner = (x - EDGE, Y - EDGE)
-    bits: list[Bit] = [(frame(card.seat, card.ai, bool(card.sign), card.done, card.item != "none"), corner, None)]
+    bits: list[Bit] = [(frame(card.seat, card.brain, bool(card.sign), card.done, card.item != "none"), corner, None)]
     number = FOCUS if card.done and card.place == 1 else WHITE
     text = str(card.place)
     bits += number_bits(text, PLACE, x + LEFT, Y + ROW, number)
@@ -119,7 +120,7 @@ def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], 
 
 
 @cached
-def frame(seat: int, ai: bool, alarm: bool, done: bool, slot: bool) -> pygame.Surface:
+def frame(seat: int, brain: str, alarm: bool, done: bool, slot: bool) -> pygame.Surface:
     """Outline and badge of a card; red during a warning, bold after the finish; `slot`: with a gap for an item."""
     ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
     outline, edge = cut_box(0, 0, W, H), ALARM if alarm else color
@@ -131,9 +132,7 @@ def frame(seat: int, ai: bool, alarm: bool, done: bool, slot: bool) -> pygame.Su
     ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
     ink.solid(cut_box(14, -20, 56, 36, 4))
     badge(ink, seat, 42, -2, 20)
-    if ai:
-        ink.solid(cut_box(84, -18, 44, 32, 4))
-        icon(ink, "ai", 106, -2, 17, mix(color, WHITE, 0.5), 3)
+    ai_tab(ink, brain, 84, -2, color)
     return ink.lit(0.7)
 
 

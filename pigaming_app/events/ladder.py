@@ -1,0 +1,144 @@
+"""The Ladder: one person against one robot, from level 1 to level 5.
+
+On each rung stands a robot, one level stronger than the one below. Two wins of three matches lead to the next rung;
+whoever loses twice tries the same rung again. In a climb through all games, each match is of another game.
+
+After two clear losses in a row the robots can be made a little easier: from then on each is one level weaker, and so
+counts for one star less. A climb is worth the strongest robot that was beaten, one star for each level; among equal
+climbs the one with fewer lost matches is better, then the earlier one.
+"""
+
+from dataclasses import dataclass, replace
+
+from pigaming_app.games.game import Outcome, Seat, Setup
+from pigaming_app.games.registry import games
+from pigaming_app.storage.scores import ScoreTable
+
+LEVELS = 5  # rungs, and levels of robots
+NEEDED = 2  # wins of three matches
+OFFER_AFTER = 2  # clear losses in a row
+ALL = "all"  # a climb through all games
+MOST_LOST = 999  # lost matches that count
+RULES = "party"  # short matches, and an overtime instead of a tie
+
+
+@dataclass(frozen=True)
+class Format:
+    """The matches of one game. `arenas`: one for each rung; `clear`: points, or s in a race, of a clear loss."""
+
+    minutes: float
+    goal: int
+    arenas: tuple[str, ...]
+    clear: float
+
+
+FORMATS = {
+    "pitanks": Format(1.0, 0, ("classic", "courtyard", "trenches", "islands", "labyrinth"), 4.0),
+    "factory": Format(2.0, 0, ("hall", "lines", "yard", "hall", "lines"), 3.0),
+    "race": Format(10.0, 3, ("classic", "kidney", "hairpin", "technical", "classic"), 5.0),
+}
+
+
+@dataclass(frozen=True)
+class Climb:
+    """The state of a climb between two matches. `game`: of every match, or ALL."""
+
+    game: str
+    rung: int = 1  # 1 to LEVELS; LEVELS + 1: at the top
+    eased: tuple[int, ...] = ()  # rungs from which on robots are one level weaker, in the order of choice
+    wins: int = 0  # on this rung, and losses
+    losses: int = 0
+    clear: int = 0  # clear losses in a row, since the last offer
+    beaten: int = 0  # level of the strongest robot beaten
+    lost: int = 0  # lost matches of the whole climb
+
+    @property
+    def level(self) -> int:
+        """Level of the robot on this rung."""
+        return self.level_on(self.rung)
+
+    def level_on(self, rung: int) -> int:
+        """Level of the robot on a rung."""
+        return rung - sum(start <= rung for start in self.eased)
+
+    @property
+    def at_top(self) -> bool:
+        """True once the last rung is passed."""
+        return self.rung > LEVELS
+
+    @property
+    def next_game(self) -> str:
+        """Game of the next match; in a climb through all games, each rung begins with another one."""
+        if self.game != ALL:
+            return self.game
+        names = list(FORMATS)
+        return names[(self.rung - 1 + self.wins + self.losses) % len(names)]
+
+    @property
+    def offers_easier(self) -> bool:
+        """True if weaker robots may be offered: after clear losses, unless the robot is already the weakest."""
+        return self.clear >= OFFER_AFTER and self.level > 1
+
+    def made_easier(self) -> "Climb":
+        """The climb with robots one level weaker from here on; the matches on this rung begin anew."""
+        return replace(self, eased=(*self.eased, self.rung), wins=0, losses=0, clear=0)
+
+    def kept_hard(self) -> "Climb":
+        """The climb after weaker robots have been declined."""
+        return replace(self, clear=0)
+
+    def after(self, outcome: Outcome) -> "Climb":
+        """The climb after the person's match on seat 0. A tie changes nothing."""
+        if not outcome.winners:
+            return self
+        if 0 not in outcome.winners:
+            return self.after_loss(is_clear_loss(self.next_game, outcome))
+        if self.wins + 1 < NEEDED:
+            return replace(self, wins=self.wins + 1, clear=0)
+        return replace(self, rung=self.rung + 1, wins=0, losses=0, clear=0, beaten=max(self.beaten, self.level))
+
+    def after_loss(self, clear: bool) -> "Climb":
+        """The climb after a lost match; after NEEDED of them the matches on this rung begin anew."""
+        again = self.losses + 1 == NEEDED
+        return replace(
+            self,
+            wins=0 if again else self.wins,
+            losses=0 if again else self.losses + 1,
+            clear=self.clear + 1 if clear else 0,
+            lost=self.lost + 1,
+        )
+
+    def setup(self, seed: int) -> Setup:
+        """The next match: the person on seat 0, the robot on seat 1."""
+        game, level = self.next_game, f"level{self.level}"
+        rules, form = games()[game].variants[RULES], FORMATS[game]
+        one, two, three, four = (
+            Seat(driver, team) for driver, team in zip(("human", level, "off", "off"), rules.teams, strict=True)
+        )
+        arena = form.arenas[self.rung - 1]
+        return Setup(game, arena, (one, two, three, four), form.minutes, seed, RULES, form.goal)
+
+
+def is_clear_loss(game: str, outcome: Outcome) -> bool:
+    """True if seat 0 lost by at least the game's `clear`, or has not finished a race that another has."""
+    own = next(row for row in outcome.rows if row.seat == 0)
+    best = outcome.rows[0]
+    if game != "race":
+        return best.score - own.score >= FORMATS[game].clear
+    return not own.stats["total"] or own.stats["total"] - best.stats["total"] >= FORMATS[game].clear
+
+
+def table_of(game: str) -> ScoreTable:
+    """The table of all climbs of a game, or of ALL."""
+    return ScoreTable("ladder", game, "climb", rules=RULES, people=1)
+
+
+def worth(climb: Climb) -> int:
+    """A climb as a score: more for a stronger robot, then for fewer lost matches; 0 if none was beaten."""
+    return (MOST_LOST + 1) * climb.beaten - min(MOST_LOST, climb.lost) if climb.beaten else 0
+
+
+def stars_and_losses(score: int) -> tuple[int, int]:
+    """Level of the strongest robot beaten, and lost matches, from a score."""
+    level = min(LEVELS, max(1, -(-score // (MOST_LOST + 1))))
+    return level, max(0, level * (MOST_LOST + 1) - score)

@@ -1,0 +1,125 @@
+"""The choice of a ladder: one game, or all of them. A climb that was left is taken up where it stopped."""
+
+import pygame
+
+from pigaming_app.events.ladder import ALL, FORMATS, stars_and_losses, table_of
+from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.ladder.climber import Climber, begun, device_of, resumable_climbs
+from pigaming_app.scenes.ladder.climbers import Climbers
+from pigaming_app.scenes.ladder.rungs import LadderPage
+from pigaming_app.scenes.ladder.strengths import Strengths
+from pigaming_app.scenes.ladder.summit import Summit
+from pigaming_app.scenes.views.game_tile import TILE_H, TILE_Y, tile, tile_rect
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, dim, panel
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, heading
+
+IDLE = 60.0  # s without input before the return to the title
+MESSAGE_SECONDS = 6.0  # s, display time of a message
+TOP = 212  # px
+ALL_BOX = pygame.Rect(LEFT, TOP + TILE_H + 24, RIGHT - LEFT, 132)
+RULES_Y = 876
+HINTS = [
+    (Button.FIRE, "ladder.hint_ok"),
+    (Button.Y, "ladder.hint_climbers"),
+    (Button.X, "ladder.hint_strengths"),
+    (Button.BACK, "ladder.hint_back"),
+]
+
+
+class LadderChoice:
+    """The page with a tile for each game, and one for all. `game`: focused at first."""
+
+    def __init__(self, context: Context, game: str) -> None:
+        self.context = context
+        spots = [FocusSpot(name, tile_rect(i).move(0, TOP - TILE_Y)) for i, name in enumerate(FORMATS)]
+        self.focus = Focus([*spots, FocusSpot(ALL, ALL_BOX)], game)
+        self.navigation = Navigation(context, self.focus, HINTS, IDLE, MESSAGE_SECONDS)
+        self.saved: dict[str, Climber] = {}
+
+    def on_enter(self) -> None:
+        """Read the climbs that were left."""
+        self.context.sounds.music(True)
+        self.saved, damaged = resumable_climbs()
+        if damaged:
+            self.navigation.show_message(self.context.words("ladder.damaged"))
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """FIRE chooses a ladder, Y shows the best climbers, X the strength of the AIs, BACK leaves."""
+        event = self.navigation.prompts.as_button(event)
+        if event.button is Button.Y:
+            self.context.sounds.play("accept")
+            return Push(Climbers(self.context, self.focus.name))
+        if event.button is Button.X:
+            self.context.sounds.play("accept")
+            return Push(Strengths(self.context, self.focus.name if self.focus.name in FORMATS else next(iter(FORMATS))))
+        chosen = self.focus.activated(event)
+        if chosen is None:
+            return self.navigation.handle(event)
+        self.context.sounds.play("accept")
+        return Push(self._page(chosen, event))
+
+    def update(self, seconds: float) -> StackOperation:
+        return self.navigation.update(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words = self.context.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("ladder.title"), words("ladder.invitation")).draw(screen)
+        black_out(screen, *(spot.rect for spot in self.focus.spots))
+        for spot in self.focus.spots:
+            hot = spot.name == self.focus.name
+            if spot.name == ALL:
+                wide_tile(words("ladder.all"), self._line(ALL), hot).draw(screen, *spot.rect.topleft)
+            else:
+                tile(spot.name, words(f"games.{spot.name}"), self._line(spot.name), hot).draw(
+                    screen, *spot.rect.topleft
+                )
+        self.focus.draw(screen)
+        text(words("ladder.rules"), BODY, MIST).draw(screen, 960, RULES_Y)
+        if self.navigation.sentence:
+            caption(self.navigation.sentence, ALARM).draw(screen, 960, self.navigation.prompts.y)
+        else:
+            self.navigation.prompts.draw(screen)
+
+    # ---- inside
+
+    def _page(self, game: str, event: InputEvent) -> LadderPage | Summit:
+        """The page of a climb that was left, or of a new one."""
+        device = device_of(event)
+        if game not in self.saved:
+            return LadderPage(self.context, begun(game, device))
+        climber = self.saved[game]
+        climber = Climber(climber.climb, climber.number, device)
+        return Summit(self.context, climber) if climber.climb.at_top else LadderPage(self.context, climber)
+
+    def _line(self, game: str) -> str:
+        """The line of a tile: the climb that was left, else today's best, else an invitation."""
+        words = self.context.words
+        if game in self.saved and not self.saved[game].climb.at_top:
+            return words("ladder.left", stars=LIT * self.saved[game].climb.level)
+        if best := self.context.scores.best(table_of(game), 1):
+            return words("ladder.best", initials=best[0].initials, stars=LIT * stars_and_losses(best[0].score)[0])
+        return words("ladder.each_game" if game == ALL else "best.first")
+
+
+@cached
+@resumable
+def wide_tile(name: str, line: str, hot: bool) -> Steps[LitImage]:
+    """The tile for all games; top left at (0, 0)."""
+    w, h = ALL_BOX.size
+    layer = Layer(0, 0, w, h)
+    panel(layer.glow, 0, 0, w, h, dim(FOCUS, 0.55) if hot else STEEL)
+    layer.canvas.text(name, fit_size(name, LABEL, w // 2 - 60), 32, h / 2, FOCUS if hot else ICE)
+    layer.canvas.body(line, w - 32, h / 2, ICE if hot else MIST, "r", fit_size(line, BODY, w // 2, "body"))
+    yield
+    return (yield from layer.render_steps())

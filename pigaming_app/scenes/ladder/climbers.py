@@ -1,0 +1,87 @@
+"""The best climbers: today and of all time, for each game and for all games together."""
+
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.events.ladder import ALL, FORMATS, stars_and_losses, table_of
+from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.storage.scores import Score, ScoreTable
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, text_width
+from pigaming_app.ui.draw.layers import backdrop, span
+from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.labels import heading, sign
+from pigaming_app.ui.widgets.score_board import Board, BoardRow
+
+GAMES = (*FORMATS, ALL)
+SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans in days
+STAY = 20.0  # s without input
+INPUT_LOCKOUT = 0.4  # s during which input is ignored
+LINE_Y, ARROW = 234, 20  # px
+CLOSING = Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK
+
+
+class Climbers:
+    """The tables of a game, or of ALL. `fresh`: new rows, highlighted."""
+
+    def __init__(self, context: Context, game: str, fresh: Sequence[Score] = ()) -> None:
+        self.context, self.game, self.fresh = context, game, list(fresh)
+        self.age = self.turned = self.idle = 0.0
+        hints = [(Button.FIRE, "results.on"), (Button.RIGHT, "ladder.hint_games")]
+        self.prompts = context.prompts(hints)
+
+    def on_enter(self) -> None:
+        """Nothing to do."""
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """LEFT and RIGHT change the game; any button continues."""
+        event = self.prompts.as_button(event)
+        self.idle = 0.0
+        if event.button in (Button.LEFT, Button.RIGHT):
+            step = 1 if event.button is Button.RIGHT else -1
+            self.game, self.turned = GAMES[(GAMES.index(self.game) + step) % len(GAMES)], 0.0
+            self.context.sounds.play("move")
+        elif self.age > INPUT_LOCKOUT and event.button in CLOSING:
+            self.context.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        """Continue after a while without input."""
+        self.age += seconds
+        self.turned += seconds
+        self.idle += seconds
+        return Pop() if self.idle > STAY else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Draw the tables and the prompts."""
+        self.paint(screen)
+        name = self.context.words(f"ladder.{ALL}" if self.game == ALL else f"games.{self.game}")
+        reach = text_width(name, LABEL) / 2 + 60
+        for side, x in (("left", 960 - reach), ("right", 960 + reach)):
+            sign(side, ARROW, FOCUS, LINE).draw(screen, x, LINE_Y)
+        self.prompts.draw(screen)
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the tables only."""
+        words, table = self.context.words, table_of(self.game)
+        screen.blit(backdrop(), (0, 0))
+        heading(words("ladder.climbers"), words("ladder.measure")).draw(screen)
+        name = words(f"ladder.{ALL}" if self.game == ALL else f"games.{self.game}")
+        text(name, LABEL, ICE, "head").draw(screen, 960, LINE_Y)
+        for column, (title, days) in zip((0, 6), SPANS.items(), strict=True):
+            rows = [self._row(row) for row in self.context.scores.best(table, days)]
+            board = Board(words(title), rows, words("best.first"), words("ladder.lost_column"))
+            board.draw(screen, *span(column, 6), self.turned)
+
+    def _row(self, row: Score) -> BoardRow:
+        level, lost = stars_and_losses(row.score)
+        return BoardRow(row.initials, str(lost), row in self.fresh, LIT * level)
+
+
+def format_climb(score: int, table: ScoreTable) -> str:
+    """A climb's value: its stars."""
+    return LIT * stars_and_losses(score)[0]

@@ -1,0 +1,218 @@
+"""Between two matches of a climb: the ladder, the last match, and the next one.
+
+After two clear losses weaker robots are offered here, and only here.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+
+import pygame
+
+from pigaming_app.events.ladder import ALL, LEVELS, Climb
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
+from pigaming_app.scenes.ladder import rungs_view as view
+from pigaming_app.scenes.ladder.climber import Climber, begun, device_of
+from pigaming_app.scenes.ladder.summit import Summit
+from pigaming_app.scenes.play.scene import MatchScene, new_seed
+from pigaming_app.scenes.results.winner import AfterMatch
+from pigaming_app.scenes.views.sprites.robot import seat_robot
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, SUB
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue
+from pigaming_app.ui.draw.layers import backdrop, span
+from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, chip, heading
+
+IDLE = 60.0  # s without input before the return to the title
+INPUT_LOCKOUT = 0.6  # s during which input is ignored: players may still hammer
+MESSAGE_SECONDS = 4.0  # s, display time of a message
+X, W = span(6, 6)
+SAID_Y, NEXT_Y, STANDING_Y = 240, 334, 424  # px
+ITEMS_Y, ITEM_H, ITEM_PITCH = 494, 84, 104  # px
+NOTE_Y, NOTE_PITCH = 842, 54  # px: middle of the first line about the focused item, and from line to line
+PLAY, EASIER, ANEW, STOP = "play", "easier", "anew", "stop"
+GLAD = ("won", "up")  # of what happened last
+
+
+class LadderPage:
+    """The page of a climber. `said`: key of what happened last; empty: nothing yet. `saved`: false: it is lost if the
+    arcade ends.
+    """
+
+    def __init__(self, context: Context, climber: Climber, said: str = "", saved: bool = True) -> None:
+        self.context, self.climber, self.said = context, climber, said
+        self.age, self.message_left = 0.0, 0.0 if saved else MESSAGE_SECONDS
+        self.going = False  # a match is wanted, but not loaded yet
+        self.access = Access(context, lambda: [self.climber.device])
+        self.focus = Focus(self.spots())
+        hints = [(Button.FIRE, "ladder.hint_ok"), (Button.BACK, "ladder.hint_later")]
+        self.prompts = context.prompts(hints, device=lambda: self.access.hint_device)
+        self.queue = PrewarmQueue(self._jobs())
+
+    @property
+    def climb(self) -> Climb:
+        """The climb."""
+        return self.climber.climb
+
+    def prewarm(self, milliseconds: float) -> bool:
+        """Prewarm the page for at most this many milliseconds; True when complete."""
+        return self.queue.work(milliseconds)
+
+    def on_enter(self) -> None:
+        """Start the music, and the way up."""
+        self.context.sounds.music(True)
+        if self.said == "up":
+            self.context.sounds.play("win")
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """FIRE and START do what is selected, BACK leaves the climb for later."""
+        admitted = self.access.admit(self.prompts.as_button(event))
+        if admitted is None or self.age < INPUT_LOCKOUT or self.going:
+            return None
+        if admitted.button is Button.BACK:
+            self.context.sounds.play("back")
+            return Pop()
+        if self.focus.handle(admitted):
+            self.context.sounds.play("move")
+        chosen = self.focus.activated(admitted)
+        if chosen is None:
+            return None
+        if not self.context.controls.connected(self.climber.device):
+            self.climber = replace(self.climber, device=device_of(admitted))
+        self.context.sounds.play("accept")
+        return self._do(chosen)
+
+    def update(self, seconds: float) -> StackOperation:
+        """Animate; begin a match as soon as it is loaded; return to the title when idle."""
+        self.age += seconds
+        self.message_left -= seconds
+        self.focus.update(seconds)
+        if self.access.update(seconds):
+            self.context.sounds.play("back")
+            return Pop()
+        if self.going:
+            return self._begin()
+        return Home() if self.context.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words, climb = self.context.words, self._shown()
+        screen.blit(backdrop(), (0, 0))
+        heading(words("ladder.title"), game_name(words, climb.game)).draw(screen)
+        view.draw_ladder(screen, climb, self.age / view.CLIMB_SECONDS if self.said == "up" else 1.0, self.age)
+        said = self.said or "welcome"
+        color = FOCUS if said in GLAD else ICE
+        text(words(f"ladder.{said}"), SUB, color, "head", "l", W).draw(screen, X, SAID_Y)
+        following = words("ladder.next", game=words(f"games.{climb.next_game}"), stars=LIT * climb.level)
+        text(following, LABEL, ICE, "head", "l", W).draw(screen, X, NEXT_Y)
+        view.standing(climb.wins, climb.losses).draw(screen, X, STANDING_Y)
+        black_out(screen, *(spot.rect for spot in self.focus.spots))
+        for spot in self.focus.spots:
+            label, state = words(f"ladder.{spot.name}"), "focus" if spot.name == self.focus.name else "off"
+            chip(label, W, state, ITEM_H).draw(screen, *spot.rect.topleft)
+        for i, line in enumerate(paragraph(self._note(), W, 2, MIST)):
+            line.draw(screen, X, NOTE_Y + NOTE_PITCH * i)
+        self.focus.draw(screen)
+        if self.message_left > 0.0:
+            caption(words("app.unsaved"), ALARM).draw(screen, 960, self.prompts.y)
+        else:
+            self.prompts.draw(screen)
+
+    def spots(self) -> list[FocusSpot]:
+        """The items that are possible now."""
+        names = [PLAY]
+        if self.climb.offers_easier:
+            names.append(EASIER)
+        if self.climb != Climb(self.climb.game):
+            names += [STOP] if self.said else [ANEW, STOP]
+        boxes = (pygame.Rect(X, ITEMS_Y + ITEM_PITCH * i, W, ITEM_H) for i in range(len(names)))
+        return [FocusSpot(name, box) for name, box in zip(names, boxes, strict=True)]
+
+    # ---- inside
+
+    def _shown(self) -> Climb:
+        """The climb as drawn: while weaker robots are selected, with them."""
+        return self.climb.made_easier() if self.focus.name == EASIER else self.climb
+
+    def _note(self) -> str:
+        """The sentence about the focused item."""
+        words, climb = self.context.words, self.climb
+        if self.focus.name == STOP and climb.beaten:
+            return words("ladder.stop_line", stars=LIT * climb.beaten, lost=climb.lost)
+        return words("ladder.stop_nothing" if self.focus.name == STOP else f"ladder.{self.focus.name}_line")
+
+    def _do(self, item: str) -> StackOperation:
+        if item == STOP:
+            if self.climb.beaten:
+                return Swap(Summit(self.context, self.climber))
+            self.climber.forget()
+            return Pop()
+        if item == ANEW:
+            self.climber = begun(self.climb.game, self.climber.device)
+        elif item == EASIER:
+            self._change(self.climb.made_easier(), "easier_done")
+            return None
+        elif self.climb.offers_easier:
+            self._change(self.climb.kept_hard(), self.said)
+        self.going = True
+        return self._begin()
+
+    def _change(self, climb: Climb, said: str) -> None:
+        """Change the climb, save it, and offer what is now possible."""
+        self.climber, self.said = replace(self.climber, climb=climb), said
+        if not self.climber.save():
+            self.message_left = MESSAGE_SECONDS
+        self.focus.set_spots(self.spots())
+        self.focus.move_to(PLAY)
+
+    def _begin(self) -> StackOperation:
+        """Swap to the next match, or return None while it is being loaded."""
+        setup = self.climb.setup(new_seed())
+        if not self.context.preloader.ready(setup.game, setup.arena):
+            return None
+        after = partial(after_match, self.climber)
+        return Swap(MatchScene(self.context, setup, [self.climber.device], after=after))
+
+    def _jobs(self) -> Iterator[Callable[[], object]]:
+        climb = self.climb
+        yield backdrop
+        yield view.rails
+        for rung in range(1, LEVELS + 1):
+            yield partial(view.stars, climb.level_on(rung), view.state_of(climb, rung))
+        for seat in (0, 1):
+            yield partial(seat_robot, seat, view.UP, view.SCALE)
+        for name in ("ladder.play", "ladder.easier", "ladder.stop"):
+            for state in ("off", "focus"):
+                yield partial(chip, self.context.words(name), W, state, ITEM_H)
+
+
+def after_match(climber: Climber, scene: MatchScene) -> AfterMatch:
+    """The page after a match: the ladder again, or the summit. A match in which an AI has driven counts for nothing,
+    one that was ended by hand counts as lost.
+    """
+    before = climber.climb
+    if 0 in scene.ai_assisted:
+        climb, said = before, "assisted"
+    elif not scene.match.over:
+        climb, said = before.after_loss(clear=False), "ended"
+    else:
+        outcome = scene.match.outcome()
+        climb = before.after(outcome)
+        lost = "again" if climb.losses < before.losses or not climb.losses else "lost"
+        won = "up" if climb.rung > before.rung else "won"
+        said = "tied" if not outcome.winners else won if 0 in outcome.winners else lost
+    climber = replace(climber, climb=climb, device=scene.devices[0] or climber.device)
+    saved = climber.save()
+    if climb.at_top:
+        return Summit(scene.context, climber)
+    return LadderPage(scene.context, climber, said, saved)
+
+
+def game_name(words: Callable[..., str], game: str) -> str:
+    """The name of a game, or of all."""
+    return words("ladder.all") if game == ALL else words(f"games.{game}")

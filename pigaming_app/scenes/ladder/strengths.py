@@ -1,0 +1,167 @@
+"""How strong the AIs of a game are: the ratings of a league as bars with 95 % intervals, best at the top."""
+
+import logging
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app import ASSETS
+from pigaming_app.ai.registry import level_of
+from pigaming_app.events.league_files import Ratings, Strength, ratings_of
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.brain_names import brain_name
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import (
+    ALARM,
+    BODY,
+    FOCUS,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    STEEL,
+    THIN,
+    Color,
+    cut_box,
+    dim,
+    text_width,
+)
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.labels import heading, sign
+
+IDLE = 60.0  # s without input before the return to the title
+MESSAGE_SECONDS = 6.0  # s, display time of a message
+ROWS = 12  # at most
+GAME_Y, TOP, BOTTOM, NOTE_Y = 226, 272, 896, 924  # px
+PITCH = 76  # px from row to row, at most
+NAMES, BARS, VALUES = LEFT, (556, 1640), RIGHT  # px: left edge, ends of the longest bar, right edge
+ARROW = 20  # px
+APART, WIPE = 0.06, 0.35  # s: delay from row to row, wipe of one row
+NAMED = ("idle", "random", "classic", "hand1", "hand2", "hand3")  # AIs that no other screen names
+CLOSING = Button.FIRE, Button.START, Button.BACK, Button.X, Button.CLICK
+
+log = logging.getLogger("pigaming")
+
+
+class Strengths:
+    """The page of a game; LEFT and RIGHT show another one."""
+
+    def __init__(self, context: Context, game: str) -> None:
+        self.context = context
+        self.message_left = 0.0
+        hints = [(Button.FIRE, "results.on"), (Button.RIGHT, "ladder.hint_games")]
+        self.prompts = context.prompts(hints)
+        self._show(game)
+
+    def on_enter(self) -> None:
+        """Nothing to do."""
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """LEFT and RIGHT change the game, any button leaves."""
+        event = self.prompts.as_button(event)
+        if event.button in (Button.LEFT, Button.RIGHT):
+            names = list(games())
+            step = 1 if event.button is Button.RIGHT else -1
+            self._show(names[(names.index(self.game) + step) % len(names)])
+            self.context.sounds.play("move")
+        elif event.button in CLOSING:
+            self.context.sounds.play("back")
+            return Pop()
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        """Animate; return to the title when idle."""
+        self.age += seconds
+        self.message_left -= seconds
+        return Home() if self.context.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words, name = self.context.words, self.context.words(f"games.{self.game}")
+        screen.blit(backdrop(), (0, 0))
+        heading(words("strengths.title"), self._conditions()).draw(screen)
+        text(name, LABEL, ICE, "head").draw(screen, 960, GAME_Y)
+        reach = text_width(name, LABEL) / 2 + 60
+        for side, x in (("left", 960 - reach), ("right", 960 + reach)):
+            sign(side, ARROW, FOCUS, LINE).draw(screen, x, GAME_Y)
+        if self.ratings:
+            self._bars(screen, shown(self.ratings))
+            text(words("strengths.measure"), BODY, MIST).draw(screen, 960, NOTE_Y)
+        else:
+            text(words("strengths.none"), LABEL, MIST, "head").draw(screen, 960, 540)
+        if self.message_left > 0.0:
+            caption(words("strengths.damaged"), ALARM).draw(screen, 960, self.prompts.y)
+        else:
+            self.prompts.draw(screen)
+
+    # ---- inside
+
+    def _show(self, game: str) -> None:
+        """Read and show the ratings of a game."""
+        self.game, self.age = game, 0.0
+        self.ratings, problems = ratings_of(game, (folders().data, ASSETS / "brains"))
+        for sentence in problems:
+            log.warning("%s", sentence)
+        self.message_left = MESSAGE_SECONDS if problems else 0.0
+
+    def _conditions(self) -> str:
+        """Rules and number of matches of the league."""
+        if not self.ratings:
+            return ""
+        words = self.context.words
+        rules = words(f"setup.{self.game}_{self.ratings.variant}")
+        return f"{rules}  ·  {words('strengths.matches', matches=self.ratings.matches)}"
+
+    def _bars(self, screen: pygame.Surface, rows: Sequence[Strength]) -> None:
+        pitch = min(PITCH, (BOTTOM - TOP) // len(rows))
+        low, high = min(row.low for row in rows), max(row.high for row in rows)
+        margin = 0.08 * (high - low) or 1.0
+        left, right = BARS
+
+        def place(points: float) -> int:
+            return round(left + (right - left) * (points - low + margin) / (high - low + margin))
+
+        for i, row in enumerate(rows):
+            share = (self.age - APART * i) / WIPE
+            if share > 0.0:
+                words, brain = self.context.words, row.brain
+                name = words(f"strengths.{brain}") if brain in NAMED else brain_name(words, self.game, brain)
+                ends = place(row.low), place(row.rating), place(row.high)
+                color = FOCUS if level_of(row.brain) else MIST
+                lit = bar(name, f"{row.rating:+.0f}".replace("-", "−"), ends, pitch, color)
+                lit.draw(screen, 0, TOP + pitch * i + pitch // 2, 1 - (1 - min(1.0, share)) ** 2)
+
+
+def shown(ratings: Ratings) -> list[Strength]:
+    """At most ROWS of the ratings: all levels, and the best of the others."""
+    levels = [row for row in ratings.strengths if level_of(row.brain)]
+    others = [row for row in ratings.strengths if not level_of(row.brain)]
+    return sorted([*levels, *others][:ROWS], key=lambda row: -row.rating)
+
+
+@cached
+@resumable
+def bar(name: str, value: str, ends: tuple[int, int, int], pitch: int, color: Color) -> Steps[LitImage]:
+    """A row with its middle at y = 0. `ends`: x of the lower end of the interval, of the rating, of the upper end."""
+    low, at, high = ends
+    half = round(0.27 * pitch)
+    layer = Layer(NAMES, -pitch / 2, VALUES - NAMES, pitch)
+    box = cut_box(BARS[0], -half, max(24, at - BARS[0]), 2 * half, 8)
+    layer.glow.fill(box, dim(color, 0.22)).line(box, color, THIN, True)
+    size = min(LABEL, round(0.8 * pitch))
+    layer.canvas.text(name, fit_size(name, size, BARS[0] - NAMES - 36), BARS[0] - 36, 0, ICE, "head", "r")
+    layer.canvas.text(value, size, VALUES, 0, ICE, "hero", "r")
+    yield
+    whisker = round(0.7 * half)
+    for x in (low, high):
+        layer.canvas.crisp.line([(x, -whisker), (x, whisker)], ICE, THIN)
+    layer.canvas.crisp.line([(low, 0), (high, 0)], ICE, THIN)
+    layer.glow.line([(BARS[0] - 12, -pitch / 2), (BARS[0] - 12, pitch / 2)], STEEL, THIN)
+    yield
+    return (yield from layer.render_steps())
