@@ -33,7 +33,7 @@ def threads(monkeypatch):
     ],
 )
 def test_each_knob_rewards_its_own_event_only(knob, gains, inputs, choices):
-    gained, seen, chosen = np.zeros((1, 2, 4)), np.zeros((1, 2, SIZE)), np.zeros((1, 2, 4), int)
+    gained, seen, chosen = np.zeros((1, 2, 3)), np.zeros((1, 2, SIZE + 1)), np.zeros((1, 2, 4), int)
     seen[..., GUN] = 1.0
     for array, changes in ((gained, gains), (seen, inputs), (chosen, choices)):
         for k, value in changes.items():
@@ -98,7 +98,7 @@ def test_the_plan_tells_left_from_right():
     policy.weights[2][0, 9], policy.weights[2][0, 3] = 5.0, -5.0  # the outermost turns right and left
     value.weights[0][OTHERS + 4, 0] = value.weights[1][0, 0] = value.weights[2][0, 0] = 1.0
     angles = np.arange(SECTORS) * (2.0 * np.pi / SECTORS)
-    inputs = np.zeros((SECTORS, SIZE), np.float32)
+    inputs = np.zeros((SECTORS, SIZE + 1), np.float32)
     inputs[:, OTHERS + 4], inputs[:, OTHERS + 5] = np.cos(angles), np.sin(angles)
     situations = Situations()
     situations.add(np.delete(inputs, 8, axis=0))

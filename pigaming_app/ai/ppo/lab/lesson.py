@@ -105,10 +105,10 @@ class Situations:
     """The latest situations of the training by direction of the opponent, and how the network sees them now."""
 
     def __init__(self) -> None:
-        self.known = [np.zeros((0, ENCODING.size), np.float32) for _ in range(SECTORS)]
+        self.known = [np.zeros((0, ENCODING.size + 1), np.float32) for _ in range(SECTORS)]
 
     def add(self, inputs: Any) -> None:
-        """Add situations (n, inputs)."""
+        """Add situations (n, inputs + 1); the last input is 1."""
         angles = np.arctan2(inputs[:, OTHERS + 5], inputs[:, OTHERS + 4])
         sectors = np.rint(angles * (SECTORS / (2.0 * np.pi))).astype(int) % SECTORS
         for sector in np.unique(sectors):
@@ -117,7 +117,7 @@ class Situations:
     def habits(self, policy: Network, value: Network) -> tuple[Habit | None, ...]:
         """What the network does with the opponent in each direction, and what it expects from it."""
         inputs = np.concatenate(self.known)
-        values, chances = value.forward(inputs)[:, 0], probabilities(policy.forward(inputs))
+        values, chances = value.forward(inputs)[0][0], probabilities(policy.forward(inputs)[0].T)
         usual = float(np.mean([values[rows].mean() for rows in self._rows() if rows.stop > rows.start] or [0.0]))
         return tuple(
             Habit(float(values[rows].mean()) - usual, action_of(chances[rows], inputs[rows]))

@@ -10,12 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS
+from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, WAY
 from pigaming_app.ai.ppo.learner import Hyper
-from pigaming_app.ai.ppo.pitanks import POINTS, POTENTIAL, TAKEN, duel, gauge, result
+from pigaming_app.ai.ppo.pitanks import duel, result
 from pigaming_app.ai.ppo.task import LEARNER, Task
+from pigaming_app.sim.kernel import kernel
 
 ARENA, VARIANT, MINUTES, RIVAL = "classic", "classic", 2.0, "hand3"
+POINTS, TAKEN, POTENTIAL = range(3)  # gauges
 HIT, MISS, BEHIND, STILL = 0.1, 0.05, 0.03, 0.03  # reward per point of the recipe
 CARE, SHAPING = 0.3, 0.5  # cost of a hit taken; weight of the potential
 RELOADED = 0.15  # of the gun's cooldown, from which on a shot counts
@@ -34,6 +37,15 @@ class NetworkRecipe:
     miss: float = -1.0  # fires with no opponent in the line of fire
     behind: float = -1.0  # the opponent is behind, at every decision
     still: float = 0.0  # no linear command, at every decision
+
+
+@kernel
+def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
+    """Points made, hits taken, and how well the opponent can be fought."""
+    tank = match.tanks[seat]
+    gauges[POINTS], gauges[TAKEN] = match.robots[seat].score + match.rules.penalty * tank.taken, tank.taken
+    clear, towards, length = inputs[OTHERS + 11] / UNIT, inputs[OTHERS + 4] / UNIT, inputs[WAY + 7] / UNIT
+    gauges[POTENTIAL] = clear * (0.5 * towards + 0.3) - 0.8 * length
 
 
 def reward_of(recipe: NetworkRecipe) -> Callable[[Any, Any, Any, float], Any]:
@@ -64,7 +76,7 @@ TASK = Task(
     variants=(VARIANT,),
     minutes=(MINUTES,),
     line_ups=(duel(3, RIVAL), duel(1, LEARNER)),
-    gauges=("points", "taken", "shots", "potential"),
+    gauges=("points", "taken", "potential"),
     gauge=gauge,
     result=result,
     reward=reward_of(NetworkRecipe()),
