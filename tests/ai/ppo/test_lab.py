@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 
 from pigaming_app.ai.networks.pitanks import GUN, OTHERS, SIZE
+from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab import lesson
 from pigaming_app.ai.ppo.lab.lesson import HELD, SECTORS, Lesson, Situations
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin
-from pigaming_app.ai.ppo.lab.task import NetworkRecipe, reward_of
+from pigaming_app.ai.ppo.lab.task import RIVAL, NetworkRecipe, reward_of
 from pigaming_app.ai.ppo.learner import Network
+from pigaming_app.ai.ppo.win_rates import win_rates
+from pigaming_app.sim.kernel import can_compile
 from tests.scenes.lab.plain_process import shrink
 
 NOTHING = NetworkRecipe(hit=0.0, miss=0.0, behind=0.0, still=0.0)
@@ -109,3 +112,14 @@ def test_the_plan_tells_left_from_right():
     assert plan[0].action == "unknown"
     assert plan[0].value > plan[4].value > plan[7].value
     assert plan[0].value > 0.0 > plan[7].value
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not can_compile(), reason="numba is not installed")
+def test_it_beats_the_hand_made_robot_within_a_minute_at_the_speed_of_real_matches():
+    with ThreadPoolExecutor(1) as threads:
+        taught = Lesson(Begin(0, 3), threads)
+        assert taught.report().share < 0.2
+        while taught.training.updates * lesson.LESSON < 60.0:
+            taught.learn(NetworkRecipe())
+        assert win_rates(lesson.TASK, packed_layers(taught.training.layers()), 50, threads)[RIVAL].wins >= 40

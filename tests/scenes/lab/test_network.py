@@ -210,6 +210,15 @@ def test_without_numba_the_switch_gives_one_sentence(
     assert not here.shown.networks
 
 
+def test_in_another_language_the_switch_has_another_width(arcade: Arcade) -> None:
+    here = lab(arcade)
+    before = here.focus.rect("kind")
+    arcade.context.words.switch("pt")
+    here.on_enter()
+    lab(arcade)
+    assert here.focus.rect("kind") == kind_rect(arcade.context.words) != before
+
+
 @needs_numba
 def test_when_nobody_is_there_the_process_ends_and_the_next_visitors_begin_with_a_table(arcade: Arcade) -> None:
     trainer = learn(arcade)
