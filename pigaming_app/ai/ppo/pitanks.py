@@ -79,15 +79,15 @@ def duel(share: int, rival: str, arenas: tuple[str, ...] = ()) -> LineUp:
 TASK = Task(
     encoding=ENCODING,
     arenas=("classic", "courtyard", "islands", "labyrinth", "trenches"),
-    variants=("pickups", "pickups", "party", "party", "plain", "classic", "original"),
+    variants=("pickups", "pickups", "party", "party", "party", "plain", "classic", "original"),
     minutes=(2.0,),
     line_ups=(
-        duel(4, "hand3"),
+        duel(5, "hand3"),
         duel(1, "hand2"),
         duel(2, "classic", WALLED),
         duel(2, "idle", WALLED),
         duel(1, "q1"),
-        duel(1, "q2"),
+        duel(2, "q2"),
         duel(1, "q2", WALLED),
         duel(3, LEARNER),
         duel(2, POOL),
