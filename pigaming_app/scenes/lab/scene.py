@@ -183,11 +183,11 @@ class Lab:
             self.table.open(robot)
             self.show_kind(TABLE)
         elif not self.network.available:
-            raise RobotFileError("lab.no_network")
+            raise RobotFileError(self.network.refusal)
         else:
             self.network.open(robot)
             self.show_kind(NETWORK)
-        self.name = name
+        self.name, self.page = name, None  # the old curve is not this robot's
 
     def show_kind(self, kind: str) -> None:
         """Show the robot of this kind."""
@@ -236,7 +236,7 @@ class Lab:
     def _change_kind(self, kind: str) -> None:
         """Change to the other kind, if it can learn here, and explain it in one sentence."""
         if kind == NETWORK and not self.network.available:
-            self.show_message(self.context.words("lab.no_network"), wrong=True)
+            self.show_message(self.context.words(self.network.refusal), wrong=True)
         elif kind != self.kind:
             self.show_kind(kind)
             self.show_message(self.context.words(f"lab.{kind}_how"))

@@ -123,6 +123,7 @@ def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opene
     assert (lab(arcade).kind, here.name) == (NETWORK, "NEON")
     assert trainer.trained("").updates == updates
     assert len(trainer.progress.measures) == len(saved.curve.rows) >= 2
+    assert here.sentence == arcade.context.words("lab.opened", name="NEON")
     learn(arcade, updates + 2)
 
 
@@ -187,7 +188,7 @@ def test_where_the_network_cannot_train_only_the_table_is_left(arcade: Arcade, b
     here.network = NetworkTrainer(5, compiler, BROKEN)
     choose_network(arcade)
     wait(arcade, lambda: here.kind == TABLE)
-    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.no_network"))
+    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.failed"))
     assert here.network._deaths == DEATHS
     choose_network(arcade)
     assert here.kind == TABLE
@@ -269,5 +270,5 @@ def test_the_switch_leaves_room_for_the_title(language: str) -> None:
     size = fit_size(words("lab.title"), TITLE, room)
     assert size >= 80
     assert text_width(words("lab.title"), size) <= room
-    for key in ("table_how", "network_how", "no_network", "interrupted"):
+    for key in ("table_how", "network_how", "no_network", "failed", "interrupted"):
         assert text_width(words(f"lab.{key}"), BODY, "body") < 1600
