@@ -32,6 +32,7 @@ from pigaming_app.sim.world import DT, HZ
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 PLAN = 25  # ticks between two plans
 SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
+WARM = 60 * HZ  # ticks from the beginning after which it is warm
 CLOSE = 120.0  # px from a slot that is not ready, within which waiting is not being stuck
 
 
@@ -44,7 +45,9 @@ class PlannerMind:
     plan: Plan
     ways: Ways
     random: int
-    speed: float  # share of full speed
+    speed: float  # share of full speed, at present
+    best_speed: float  # the same once it is warm
+    warm_up: float  # share of its speed that it lacks at the beginning of a match
     hesitation: float  # s of pause after each job, on average
     noise: float  # error of the cost of schedules, as a share of BLUNDER
     dash: int  # 1: may use turbo
@@ -82,6 +85,8 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     observe(match, seat, mind.senses, mind.obs)
     if match.rules.party:  # orders never end, so there is no last delivery
         mind.plan.last = 0.0
+    cold = 1.0 - match.tick / WARM if match.tick < WARM else 0.0
+    mind.speed = mind.best_speed * (1.0 - mind.warm_up * cold)
     choose_job(mind.obs, mind, elapsed)
     slot = mind.obs.slots[mind.via if mind.detour > 0 else mind.target]
     find_way(match, match.robots[seat], mind.obs, mind.ways, slot.x, slot.y)
@@ -164,20 +169,22 @@ def make_reset(
     rules: int = 3,
     form: float = 0.0,
     start: float = 0.5,
+    warm_up: float = 0.0,
 ) -> Any:
     """A `reset` for a strength.
 
     `speed`: share of full speed; `hesitation`: s of pause after each job, on average; `noise`: error of the cost of
     schedules, as a share of BLUNDER; `delay`: reaction time to others, s; `dash`: 1 if it may use turbo; `slip`: share
     of jobs that begin the wrong way; `rules`: dispatch rules that it compares; `form`: by how much it may be faster or
-    slower in a match than in others, as a share; `start`: upper limit of the random delay before the first job, s.
+    slower in a match than in others, as a share; `start`: upper limit of the random delay before the first job, s;
+    `warm_up`: share of its speed that it lacks at the beginning, and gains in the first minute.
     """
 
     def fill(mind: PlannerMind, seed: int) -> None:
         mind.random, mind.target = seeded(seed), -1
         mind.resting = int(uniform(mind) * start * HZ)  # staggered starts
         today = 1.0 + form * (2.0 * uniform(mind) - 1.0)
-        mind.speed, mind.hesitation = speed * today, hesitation / today
+        mind.best_speed, mind.hesitation, mind.warm_up = speed * today, hesitation / today, warm_up
         mind.noise, mind.dash, mind.slip = noise, dash, slip
         mind.senses.delay, mind.plan.rules = delay, rules
 
