@@ -5,6 +5,7 @@ successor begins with these and replays what has been played since. Play depends
 the same bits as one without Ray, as long as the machines are of one kind.
 """
 
+import socket
 from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import Any
@@ -19,6 +20,7 @@ from pigaming_app.sim.kernel import PACKAGE
 
 LOCAL = "local"
 SYNCED_EVERY = 10  # updates
+REACHED = 10.0  # s, for the head of a cluster to answer
 ATTEMPTS = 5  # to replace a worker, in a row
 NOT_SENT = [".git", ".venv", "docs", "tests"]  # to other machines
 Chunk = tuple[Sequence[Any], Any, int]  # policy, pool and number of decisions of a call of `collect`
@@ -69,8 +71,9 @@ class RayShards:
         if address == LOCAL:
             options = {"address": LOCAL, "num_cpus": workers, "include_dashboard": False}
         try:
+            _reach(address)
             ray.init(log_to_driver=False, logging_level="ERROR", **options)
-        except (OSError, RuntimeError, ValueError, RayError) as error:
+        except (OSError, OverflowError, RuntimeError, ValueError, RayError) as error:
             raise NoCluster(f"--ray: {address}: {' '.join(str(error).split())}") from None
         self._chunks: list[Any] = []  # played since the shards of the training were up to date
         self._workers = [self._hired(number, workers) for number in range(workers)]
@@ -132,6 +135,13 @@ class RayShards:
 
     def _numbers(self) -> range:
         return range(len(self._training.shards))
+
+
+def _reach(address: str) -> None:
+    """Raises OSError unless something listens at HOST:PORT; Ray itself would try for minutes."""
+    host, _, port = address.removeprefix("ray://").rpartition(":")
+    if host and port.isdecimal():
+        socket.create_connection((host, int(port)), REACHED).close()
 
 
 def _sources() -> dict[str, Any]:

@@ -47,7 +47,8 @@ class Training:
         counts = [choices for _, choices in task.encoding.heads]
         self.learner = Learner(task.encoding.size, counts, hyper, np.random.default_rng(seeds[-1]))
         self.pool: Any = packed_layers(self.layers())
-        self.updates, self.decisions, self.entropy, self.seconds = 0, 0, 0.0, 0.0
+        self.updates, self.decisions, self.seconds = 0, 0, 0.0
+        self.entropy = float(np.log(counts).sum())  # of an even choice
         self.points: list[tuple[float, ...]] = []  # progress, by `columns`
 
     @property
