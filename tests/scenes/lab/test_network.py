@@ -88,7 +88,8 @@ def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opene
     trainer = choose_network(arcade)
     assert here.kind == NETWORK
     assert here.sentence == arcade.context.words("lab.network_how")
-    assert not any(here.shown.levels)
+    arcade.frame()
+    assert not any(here.shown.levels), "the table's plan is still shown"
     trainer.speed = 2
     wait(arcade, lambda: len(trainer.progress.measures) >= 2 and trainer.snapshot.matches >= 1)
     assert not trainer.compiling

@@ -5,7 +5,7 @@ network plays here against the hand-made robot.
 """
 
 import logging
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from math import inf
 from time import monotonic
 from typing import Any
@@ -117,6 +117,11 @@ class NetworkTrainer:
     def checkpoints(self) -> dict[int, Checkpoint]:
         """Checkpoints after some numbers of matches, as far as reached."""
         return dict(self.progress.checkpoints)
+
+    def turn(self, knob: str, value: int) -> None:
+        """Change one reward."""
+        reward: dict[str, Any] = {knob: float(value)}
+        self.recipe = replace(self.recipe, **reward)
 
     def begin(self, seed: int) -> None:
         """Start again with a fresh network."""
