@@ -33,9 +33,9 @@ def driver(
 
 
 LEVELS = (
-    driver("level1", 0.21, 0.9, 14.0, 0.15, 0.3, (5, 40), 0.03, 0.02, 260.0, 0.2),
-    driver("level2", 0.145, 1.0, 7.0, 0.15, 0.2, (5, 25), 0.02, 0.01, 280.0, 0.25),
+    driver("level1", 0.165, 0.95, 13.0, 0.15, 0.3, (5, 35), 0.03, 0.01, 200.0, 0.1),
+    driver("level2", 0.133, 1.0, 7.0, 0.15, 0.2, (5, 25), 0.02, 0.01, 240.0, 0.18),
     driver("level3", 0.095, 1.0, 4.0, 0.15, 0.1, (2, 20), 0.02, 0.0, 300.0, 0.4),
     driver("level4", 0.055, 1.0, 3.0, 0.12, 0.05, (2, 20), 0.02, 0.0, 340.0, 0.8),
-    shipped_brain("level5", "race", NETWORK, Handicap(sharpness=4.0, form=0.04)),
+    shipped_brain("level5", "race", NETWORK, Handicap(sharpness=4.0, form=0.034)),
 )
