@@ -123,7 +123,7 @@ def test_the_table_counts_what_the_game_counts():
 def test_the_series_tells_every_change_and_ends_at_the_score():
     match = Match(setup(minutes=0.5))
     for seat in range(4):
-        match.sit(seat, make_brain("pitanks", "hard", seat))
+        match.sit(seat, make_brain("pitanks", "hand3", seat))
     while not match.over:
         match.tick()
     outcome = match.outcome()

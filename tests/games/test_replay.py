@@ -16,7 +16,7 @@ from pigaming_app.games.replay import ReplayError, decode, encode, to_match, ver
 from pigaming_app.sim.record import digest
 
 OLD = sorted((Path(__file__).parents[1] / "data").rglob("*.replay"))
-BRAINS = ("hard", "random", "fsm", "random")
+BRAINS = ("hand3", "random", "fsm", "random")
 
 
 def played(minutes, brains=BRAINS, arena="classic"):
@@ -99,7 +99,7 @@ def test_a_match_is_saved_as_far_as_it_has_been_played(tmp_path):
 
 
 def test_a_minute_takes_less_than_10_kb(tmp_path):
-    for brains in (("hard",) * 4, ("random",) * 4):
+    for brains in (("hand3",) * 4, ("random",) * 4):
         (tmp_path / "minute").write_bytes(encode(played(1.0, brains)))
         assert (tmp_path / "minute").stat().st_size < 10_000
 

@@ -17,8 +17,8 @@ LENGTH = 3 * EVERY + 30  # ticks
 @pytest.fixture(scope="module", params=games())
 def played(request: pytest.FixtureRequest) -> tuple[Replay, dict[int, str], object]:
     """A replay, digests of some of its ticks, and the outcome at its end."""
-    brains = ["random"] * 3 + ["normal"]
-    match = new_match(make_setup(request.param, brains, None, 2.0, 4, None, None, ["normal", "random"]))
+    brains = ["random"] * 3 + ["hand2"]
+    match = new_match(make_setup(request.param, brains, None, 2.0, 4, None, None, ["hand2", "random"]))
     digests = {0: digest(match.state)}
     while match.state.tick < LENGTH:
         match.tick()

@@ -76,7 +76,7 @@ def run(match: Match, ticks: int) -> Match:
 @pytest.mark.parametrize(("game", "name"), one_in(2, ALL))
 def test_a_match_plays_out_alike_whether_anybody_asks_or_not(game, name):
     """With `explain` called on every tick and seat, match and minds stay bit-identical."""
-    others = (["hard"] if name == "easy" else ["easy"]) * 3
+    others = (["hand3"] if name == "hand1" else ["hand1"]) * 3
     watched, alone = play(game, name, *others), play(game, name, *others)
     for tick in range(400):
         for seat in range(ROBOTS):
@@ -92,7 +92,7 @@ def test_a_match_plays_out_alike_whether_anybody_asks_or_not(game, name):
 
 @pytest.mark.parametrize(("game", "name"), ALL)
 def test_everything_told_is_plain_finite_and_has_words(game, name):
-    words, match = texts("en"), play(game, name, "hard", name, "normal", seed=3)
+    words, match = texts("en"), play(game, name, "hand3", name, "hand2", seed=3)
     for tick in range(1500):
         if tick % 3 == 0:
             for seat in (0, 2):
@@ -132,7 +132,7 @@ def test_no_text_is_written_that_no_brain_says():
 def test_before_its_first_look_nobody_knows_anything():
     for game, name in ALL:
         if name not in ("idle", "random"):
-            assert thoughts(play(game, name, "easy")).behaviour == "starts"
+            assert thoughts(play(game, name, "hand1")).behaviour == "starts"
 
 
 def test_a_rose_points_where_it_is_told_to():
@@ -205,7 +205,7 @@ def test_it_knows_that_it_is_stuck():
     assert (told.behaviour, told.reason, told.chosen) == ("free", "stuck", "free")
 
 
-def gunner_in_fight(brain: str = "hard", variant: str = "party") -> Match:
+def gunner_in_fight(brain: str = "hand3", variant: str = "party") -> Match:
     """A gunner on seat 0 that has noticed an idle robot 400 px in front of it, in the open, with its gun ready."""
     match = play("pitanks", brain, "idle", variant=variant)
     one, two = match.state.robots[0], match.state.robots[1]
@@ -268,7 +268,7 @@ def test_a_gunner_hunts_whoever_leads():
 
 
 def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
-    match = run(play("race", "hard", "easy"), 100)
+    match = run(play("race", "hand3", "hand1"), 100)
     mind = match.brains[0].mind
     mind.obs.past, mind.obs.return_x, mind.obs.return_y = 2 * racer.SLACK, 321.0, 123.0
     told = thoughts(match)
@@ -277,14 +277,14 @@ def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
 
 
 def test_who_has_finished_is_not_stuck_though_nothing_moves_it_any_more():
-    match = run(play("race", "hard", "easy"), 100)
+    match = run(play("race", "hand3", "hand1"), 100)
     mind = match.brains[0].mind
     mind.obs.finished, mind.state = 1, racer.BREAK_FREE
     assert (thoughts(match).behaviour, thoughts(match).reason) == ("done", "finish")
 
 
 def test_a_driver_makes_way_to_the_side_on_which_it_passes():
-    match = run(play("race", "hard", "easy"), 100)
+    match = run(play("race", "hand3", "hand1"), 100)
     mind = match.brains[0].mind
     mind.obs.past, own = -100.0, mind.line * mind.obs.ahead.ideal
     for aside, behaviour in ((-60.0, "pass_left"), (60.0, "pass_right"), (0.0, None)):
@@ -297,7 +297,7 @@ def test_a_driver_makes_way_to_the_side_on_which_it_passes():
 
 
 def test_who_carries_a_raw_pallet_goes_to_a_machine_a():
-    match = play("factory", "hard", "hard", "hard", "hard")
+    match = play("factory", "hand3", "hand3", "hand3", "hand3")
     told = []
     for _ in range(1500):
         match.tick()
@@ -315,7 +315,7 @@ def test_who_carries_a_raw_pallet_goes_to_a_machine_a():
 
 
 def test_a_frozen_driver_waits():
-    match = run(play("factory", "normal", "normal", "normal", "normal"), 60)
+    match = run(play("factory", "hand2", "hand2", "hand2", "hand2"), 60)
     match.brains[0].mind.obs.frozen = 50
     told = thoughts(match)
     assert (told.behaviour, told.reason, told.chosen) == ("frozen", "bumped", "wait")
@@ -373,7 +373,7 @@ def test_the_rose_of_a_table_says_where_it_would_have_the_opponent():
 
 
 def test_a_bullet_that_comes_is_among_what_a_table_sees():
-    match = play("pitanks", "idle", "hard", variant="classic", seed=4)
+    match = play("pitanks", "idle", "hand3", variant="classic", seed=4)
     match.sit(0, taught())
     kinds = set()
     for _ in range(1500):

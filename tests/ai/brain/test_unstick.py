@@ -96,4 +96,4 @@ def test_it_is_on_for_seats_alone():
 def test_nobody_with_a_table_is_stuck(arena):
     for seed in (1, 2):
         assert stuck(arena, seed, ("q1", "q2", "off", "off"), "pickups") == []
-        assert stuck(arena, seed, ("q2", "normal", "q1", "classic"), "pickups") == []
+        assert stuck(arena, seed, ("q2", "hand2", "q1", "classic"), "pickups") == []

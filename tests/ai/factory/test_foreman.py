@@ -63,7 +63,7 @@ def total(match, name):
 @pytest.mark.parametrize("floor", FLOORS)
 def test_four_hard_drivers_spoil_nothing_and_one_team_delivers_everything(floor, seed):
     """The longest of 1000 such matches took less than 90 s."""
-    match = played(("hard",) * 4, floor, seed)
+    match = played(("hand3",) * 4, floor, seed)
     assert total(match, "spoiled") == 0
     assert match.state.winner
     assert match.seconds < 120.0
@@ -80,17 +80,17 @@ def test_every_strength_alone_against_another_delivers_everything(floor, strengt
 
 def test_mixed_company_gets_to_the_end():
     for floor in FLOORS:
-        assert played(("easy", "normal", "hard", "normal"), floor, 5).state.winner
+        assert played(("hand1", "hand2", "hand3", "hand2"), floor, 5).state.winner
 
 
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
 def test_eight_pallets_are_no_dead_end(floor):
     """Machines and entries are always full then."""
-    assert played(("hard",) * 4, floor, 3, pallets=8).state.winner
+    assert played(("hand3",) * 4, floor, 3, pallets=8).state.winner
 
 
 @pytest.mark.parametrize(
-    ("better", "worse", "least"), one_in(3, [("hard", "easy", 9), ("hard", "normal", 6), ("normal", "easy", 9)])
+    ("better", "worse", "least"), one_in(3, [("hand3", "hand1", 9), ("hand3", "hand2", 6), ("hand2", "hand1", 9)])
 )
 def test_the_strengths_are_ordered(better, worse, least):
     """In nine matches on all three floors, on either side; `normal` beats `hard` in one of five."""
@@ -102,18 +102,18 @@ def test_the_strengths_are_ordered(better, worse, least):
 
 
 def test_two_are_faster_than_one():
-    one, two = (played(brains, "hall", 2) for brains in (("hard", "off", "off", "off"), ("hard", "off", "hard", "off")))
+    one, two = (played(brains, "hall", 2) for brains in (("hand3", "off", "off", "off"), ("hand3", "off", "hand3", "off")))
     assert two.seconds < 0.75 * one.seconds
 
 
 def test_both_mates_do_their_part():
-    match = played(("hard",) * 4, "hall", 1)
+    match = played(("hand3",) * 4, "hall", 1)
     for load in match.state.loads:
         assert load.steps + load.delivered >= 2
 
 
 def test_the_same_seed_is_the_same_match():
-    first, again = (begun(("hard", "normal", "easy", "hard"), "yard", 4) for _ in range(2))
+    first, again = (begun(("hand3", "hand2", "hand1", "hand3"), "yard", 4) for _ in range(2))
     for match in (first, again):
         for _ in range(20 * HZ):
             match.tick()
@@ -138,7 +138,7 @@ def test_it_thinks_without_changing_anything_but_its_action(strength):
 # ----------------------------------------------------------------------------------------------------- choice of target
 
 
-def first_aim(shop, seat=0, strength="hard", seconds=0.6):
+def first_aim(shop, seat=0, strength="hand3", seconds=0.6):
     """Target slot of a driver after `seconds`."""
     shop.match.sit(seat, make_brain("factory", strength, seat))
     shop.tick(round(seconds * HZ))
@@ -147,7 +147,7 @@ def first_aim(shop, seat=0, strength="hard", seconds=0.6):
 
 def test_it_says_what_it_makes_for_and_then_uses_that_slot():
     """Before every lift and put-down the driver has announced that slot for a while."""
-    match = begun(("hard",) * 4, "hall", 9)
+    match = begun(("hand3",) * 4, "hall", 9)
     state, shown, uses = match.state, [[0] * 25 for _ in range(4)], 0
     where = [(pallet.place, pallet.at) for pallet in state.pallets]
     while not match.over:
@@ -199,7 +199,7 @@ def test_it_leaves_alone_what_belongs_to_the_others():
 
 @pytest.mark.parametrize("floor", FLOORS)
 def test_two_mates_begin_with_different_pallets(floor):
-    match = begun(("hard",) * 4, floor, 6)
+    match = begun(("hand3",) * 4, floor, 6)
     for _ in range(HZ):
         match.tick()
     aims = [load.aim for load in match.state.loads]
@@ -208,7 +208,7 @@ def test_two_mates_begin_with_different_pallets(floor):
 
 
 def test_two_laden_mates_never_make_for_the_same_slot():
-    match = begun(("hard", "off", "hard", "off"), "yard", 6)
+    match = begun(("hand3", "off", "hand3", "off"), "yard", 6)
     one, other = match.state.loads[0], match.state.loads[2]
     laden = 0
     while not match.over:
@@ -221,7 +221,7 @@ def test_two_laden_mates_never_make_for_the_same_slot():
 
 def test_what_it_cannot_get_rid_of_it_brings_back_after_a_while():
     """Both machines B are full of the other team's pallets, which nobody removes."""
-    match = begun(("hard", "idle", "off", "off"))
+    match = begun(("hand3", "idle", "off", "off"))
     state = match.state
     state.rules.collect = 10**6
     others = iter(range(MAX_PALLETS, MAX_PALLETS + 4))
@@ -261,7 +261,7 @@ def test_it_leaves_to_a_person_what_the_person_is_about():
 
 
 def test_it_wins_with_a_mate_who_does_nothing():
-    match = played(("hard", "off", "idle", "off"), "hall", 3)
+    match = played(("hand3", "off", "idle", "off"), "hall", 3)
     assert match.state.winner == 1 + ICE
     assert match.state.loads[0].delivered == 4
 
@@ -292,7 +292,7 @@ def test_it_drives_round_people(strength):
 
 def test_somebody_else_can_take_over_at_any_time():
     """A driver hands over to one with a fresh mind, laden or not, repeatedly."""
-    match = begun(("hard", "off", "hard", "off"), "lines", 8)
+    match = begun(("hand3", "off", "hand3", "off"), "lines", 8)
     changes = 0
     while not match.over:
         match.tick()

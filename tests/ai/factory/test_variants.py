@@ -32,7 +32,7 @@ def begun(variant, brains, floor="hall", seed=1, goal=0):
 
 def first_aim(shop, seat=0):
     """The target slot of a strong driver half a second after it sets out."""
-    brain = make_brain("factory", "hard", seat)
+    brain = make_brain("factory", "hand3", seat)
     brain.mind.resting = 0
     shop.match.sit(seat, brain)
     shop.tick(round(0.6 * HZ))
@@ -116,7 +116,7 @@ def test_it_contests_the_fast_machine(fast):
 
 @pytest.mark.long
 def test_both_teams_score_steal_and_deliver_rush_orders():
-    match = begun("party", ("hard",) * 4, "yard")
+    match = begun("party", ("hand3",) * 4, "yard")
     doubles = 0
     before = [0, 0]
     while not match.over and match.seconds < 90.0:
@@ -134,7 +134,7 @@ def test_both_teams_score_steal_and_deliver_rush_orders():
 
 
 def test_four_allies_announce_four_different_jobs():
-    match = begun("together", ("hard",) * 4, goal=8)
+    match = begun("together", ("hand3",) * 4, goal=8)
     shared = 0
     for _ in range(20 * HZ):
         match.tick()
@@ -157,14 +157,14 @@ def ticks_of(brain, seeds):
 
 @pytest.mark.long
 def test_easy_needs_about_twice_as_long_as_hard():
-    easy, hard = (np.mean(ticks_of(brain, range(1, 21))) * DT for brain in ("easy", "hard"))
+    easy, hard = (np.mean(ticks_of(brain, range(1, 21))) * DT for brain in ("hand1", "hand3"))
     assert easy >= 120.0
     assert 55.0 <= hard <= 68.0
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("variant", ["standard", "party"])
-@pytest.mark.parametrize("brain", ["easy", "normal", "hard"])
+@pytest.mark.parametrize("brain", ["hand1", "hand2", "hand3"])
 def test_robots_hardly_ever_stand_still(variant, brain):
     found = measure(Trial("factory", variant, 12, 1, [brain] * 4))["equal teams"]
     assert found["all"]["standing still, median"] <= 0.1
@@ -173,7 +173,7 @@ def test_robots_hardly_ever_stand_still(variant, brain):
 
 def test_a_waiting_robot_moves_to_and_fro_near_its_place():
     """All machines A are occupied for good, and it carries a raw pallet."""
-    match = begun("standard", ("hard", "off", "off", "off"), goal=4)
+    match = begun("standard", ("hand3", "off", "off", "off"), goal=4)
     state = match.state
     state.rules.collect = 10**6
     while not state.loads[0].pallet:
@@ -194,7 +194,7 @@ def test_a_waiting_robot_moves_to_and_fro_near_its_place():
 
 
 def test_the_weakest_sets_out_the_wrong_way_and_says_so():
-    match = begun("standard", ("easy", "off", "off", "off"), goal=4)
+    match = begun("standard", ("hand1", "off", "off", "off"), goal=4)
     mind, wrong = match.brains[0].mind, 0
     while not match.over and match.seconds < 60.0:
         match.tick()
@@ -213,7 +213,7 @@ def test_the_strongest_never_does():
 
 
 def test_while_it_thinks_it_draws_back_but_not_onto_a_person():
-    match = begun("standard", ("easy", "off", "off", "off"), goal=4)
+    match = begun("standard", ("hand1", "off", "off", "off"), goal=4)
     mind, robot = match.brains[0].mind, match.state.robots[0]
     while not match.state.loads[0].pallet:
         match.tick()

@@ -42,7 +42,7 @@ STEPS = {
     (DONE, DAMAGED),
     (DAMAGED, RAW),
 }
-PAIRS, TWO = ("hard", "random", "normal", "easy"), ("hard", "easy", "off", "off")
+PAIRS, TWO = ("hand3", "random", "hand2", "hand1"), ("hand3", "hand1", "off", "off")
 
 
 class Watch:

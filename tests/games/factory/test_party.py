@@ -433,11 +433,11 @@ def test_a_floor_without_shared_slots_has_no_loose_pallets_on_it():
 
     source = (ASSETS / "arenas" / "factory" / "hall.toml").read_text(encoding="utf-8")
     arena = parse("factory", source.split("[[shared]]", maxsplit=1)[0], "bare.toml")
-    one, two, three, four = (Seat("hard", i % 2) for i in range(4))
+    one, two, three, four = (Seat("hand3", i % 2) for i in range(4))
     match = Match(Setup("factory", "bare", (one, two, three, four), 1.0, 1, "party"), arena=arena)
     assert match.state.slot_count == SHARED_SLOTS
     for seat in range(4):
-        match.sit(seat, make_brain("factory", "hard", seat))
+        match.sit(seat, make_brain("factory", "hand3", seat))
     while not match.over and match.seconds < 30.0:
         match.tick()
     assert sum(match.state.delivered) > 0

@@ -120,7 +120,7 @@ def ended(floor, brains, pose=None):
 def test_hard_drivers_get_everything_out_while_one_robot_leans_on_a_machine(floor, m):
     """The longest of 4992 such matches took 117 s; 60 s without an obstacle."""
     poses = against(begun(floor, (PARK, None, None, None)).state, m)
-    match = ended(floor, ("hard", MANNERS[("push", "shake")[m % 2]], "hard", "hard"), poses[m % len(poses)])
+    match = ended(floor, ("hand3", MANNERS[("push", "shake")[m % 2]], "hand3", "hand3"), poses[m % len(poses)])
     assert match.state.winner
     assert match.seconds < 150.0
 
@@ -129,14 +129,14 @@ def test_hard_drivers_get_everything_out_while_one_robot_leans_on_a_machine(floo
 def test_and_while_one_is_parked_in_a_slot_of_a_machine(floor, m):
     state = begun(floor, (PARK, None, None, None)).state
     slot = state.slots[MACHINE_SLOTS + 2 * m + m // 2]
-    match = ended(floor, ("hard", PARK, "hard", "hard"), (slot.x, slot.y, 0.0))
+    match = ended(floor, ("hand3", PARK, "hand3", "hand3"), (slot.x, slot.y, 0.0))
     assert match.state.winner
     assert match.seconds < 150.0
 
 
 def test_a_pair_gets_everything_out_while_both_others_stand_in_its_way():
     """One on a worker's spot, the other in the yard, where it blocks the direct way to the last free exit slot."""
-    match = begun("yard", ("hard", Stick(), "hard", Stick()))
+    match = begun("yard", ("hand3", Stick(), "hand3", Stick()))
     for seat, pose in ((1, against(match.state, 0)[-1]), (3, (800.0, 414.0, -1.57))):
         put(match, seat, *pose)
     while not match.over:
@@ -207,7 +207,7 @@ def test_a_worker_who_cannot_fetch_leaves_that_to_another_too():
 @pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
 def test_a_driver_takes_its_pallet_to_the_other_machine_if_nobody_comes_to_this_one(floor, m):
     """Its worker's spot is unreachable."""
-    match = begun(floor, ("hard", None, None, None))
+    match = begun(floor, ("hand3", None, None, None))
     machine = match.state.machines[m]
     machine.spot_x, machine.spot_y = machine.x, machine.y
     while not match.over:
@@ -219,7 +219,7 @@ def test_a_driver_takes_its_pallet_to_the_other_machine_if_nobody_comes_to_this_
 
 def test_a_driver_that_waits_for_its_turn_leaves_its_pallet_where_it_is():
     """All workers are busy for ten seconds, which is no reason to take the pallet away."""
-    match = begun("hall", ("hard", None, "hard", None))
+    match = begun("hall", ("hand3", None, "hand3", None))
     lifted = 0
     while not match.over:
         before = [match.state.slots[MACHINE_SLOTS + 2 * m].pallet for m in range(MACHINES)]

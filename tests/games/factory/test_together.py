@@ -144,7 +144,7 @@ def test_ais_deliver_everything_and_nothing_is_lost(floor, brains):
         match.tick()
         if match.state.tick % 5 == 0:
             watch.look()
-    least = 1 if "easy" in brains else 3
+    least = 1 if "hand1" in brains else 3
     assert match.state.stars >= least
     assert len(match.outcome().winners) == 4 - brains.split().count("off")
 
@@ -164,10 +164,10 @@ class AlliesWatch(Watch):
 @pytest.mark.long
 def test_four_easy_ones_get_a_star_on_every_floor():
     for floor in FLOORS:
-        one, two, three, four = (Seat("easy", 0) for _ in range(4))
+        one, two, three, four = (Seat("hand1", 0) for _ in range(4))
         match = Match(Setup("factory", floor, (one, two, three, four), 5.0, 5, "together", 8))
         for seat in range(4):
-            match.sit(seat, make_brain("factory", "easy", seat))
+            match.sit(seat, make_brain("factory", "hand1", seat))
         while not match.over:
             match.tick()
         assert 1 <= match.state.stars <= 2
@@ -176,9 +176,9 @@ def test_four_easy_ones_get_a_star_on_every_floor():
 # --------------------------------------------------------------------------------------------------------- who may play
 
 
-@pytest.mark.parametrize("brains", [["hard"], ["hard", "easy"], ["off", "hard", "off", "easy"], ["hard"] * 4])
+@pytest.mark.parametrize("brains", [["hand3"], ["hand3", "hand1"], ["off", "hand3", "off", "hand1"], ["hand3"] * 4])
 def test_one_to_four_robots_play_together(brains):
-    setup = make_setup("factory", brains, None, None, 1, "together", None, ["hard", "easy"])
+    setup = make_setup("factory", brains, None, None, 1, "together", None, ["hand3", "hand1"])
     assert {seat.team for seat in setup.seats} == {0}
     assert (setup.goal, setup.minutes) == (8, 5.0)
 
@@ -186,26 +186,26 @@ def test_one_to_four_robots_play_together(brains):
 @pytest.mark.parametrize(
     ("brains", "teams", "reason"),
     [
-        (["hard", "hard"], (0, 1, 0, 1), "all robots are in team 0"),
-        (["hard", "hard"], (1, 1, 1, 1), "all robots are in team 0"),
+        (["hand3", "hand3"], (0, 1, 0, 1), "all robots are in team 0"),
+        (["hand3", "hand3"], (1, 1, 1, 1), "all robots are in team 0"),
         (["off"], None, "at least one seat"),
     ],
 )
 def test_but_not_in_two_teams_and_not_nobody(brains, teams, reason):
     with pytest.raises(ChoiceError, match=reason):
-        make_setup("factory", brains, None, None, 1, "together", teams, ["hard"])
+        make_setup("factory", brains, None, None, 1, "together", teams, ["hand3"])
 
 
 def test_one_robot_alone_cannot_play_standard():
     with pytest.raises(ChoiceError, match="two seats"):
-        make_setup("factory", ["hard"], None, None, 1, "standard", None, ["hard"])
+        make_setup("factory", ["hand3"], None, None, 1, "standard", None, ["hand3"])
 
 
 @pytest.mark.parametrize("variant", ["party", "together"])
 def test_a_replay_of_a_variant_can_be_verified(variant):
-    match = Match(make_setup("factory", ["hard"] * 4, "yard", 0.2, 3, variant, None, ["hard"]))
+    match = Match(make_setup("factory", ["hand3"] * 4, "yard", 0.2, 3, variant, None, ["hand3"]))
     for seat in range(4):
-        match.sit(seat, make_brain("factory", "hard", seat))
+        match.sit(seat, make_brain("factory", "hand3", seat))
     while not match.over and match.seconds < 15.0:
         match.tick()
     assert verify(decode(encode(match), "match.replay"))

@@ -93,7 +93,7 @@ class Wild:
     """A driver that alternates between random manoeuvres and a competent AI."""
 
     def __init__(self, seat, seed):
-        self.random, self.able = Random(seed * 7 + seat), make_brain("race", "hard", seed)
+        self.random, self.able = Random(seed * 7 + seat), make_brain("race", "hand3", seed)
         self.left, self.mood = 0, "race"
         self.x = self.y = 0.0
 

@@ -378,7 +378,7 @@ def test_the_default_is_three_laps():
     assert Ride(laps=0).state.rules.laps == games()["race"].default.default_goal == 3
 
 
-@pytest.mark.parametrize("seats", [("hard", "off", "off", "off"), ("off", "normal", "easy", "off")])
+@pytest.mark.parametrize("seats", [("hand3", "off", "off", "off"), ("off", "hand2", "hand1", "off")])
 def test_empty_seats_leave_their_lines_but_nothing_else(seats):
     match = race(seats, laps=1)
     while not match.over:

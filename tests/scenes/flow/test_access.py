@@ -503,7 +503,7 @@ def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(ar
     assert scene.call_text == ("Press {button} to play", "SPACE")
     tap(arcade, pad, "down")
     assert arcade.context.controls.last == device
-    assert scene.call_text == ("Lab: press {button}", "Cross")
+    assert scene.call_text == ("Ladder: press {button}", "Cross")
     pad.unplug()
     arcade.frame()
     assert scene.call_text[1] == "SPACE", "not the button of a pad that is gone"
