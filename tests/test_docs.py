@@ -16,7 +16,10 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.brain import driving
+from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.classic import Parameters
+from pigaming_app.ai.pitanks.levels import HANDICAPS
+from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
@@ -55,7 +58,9 @@ CONSTANTS = {  # by section of docs/games.md, the modules in which its constants
 }
 
 ROOT = Path(__file__).resolve().parent.parent
-GAMES_PAGE, OPPONENTS_PAGE, THESIS_PAGE = (ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "thesis"))
+GAMES_PAGE, OPPONENTS_PAGE, NETWORKS_PAGE, QLEARNING_PAGE, GYM_PAGE, THESIS_PAGE = (
+    ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "networks", "qlearning", "gym", "thesis")
+)
 PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
 PAGES += sorted((ROOT / "docs").glob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
@@ -256,11 +261,47 @@ def test_the_page_on_the_thesis_says_of_this_program_what_is_so():
     assert [text for text in quoted() if text not in page] == []
 
 
-def test_the_page_on_the_thesis_has_the_results_of_the_page_on_opponents():
+def test_the_page_on_the_thesis_has_the_results_of_the_page_on_qlearning():
     triple = re.compile(r"\d+ / \d+ / \d+")
-    thesis, opponents = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, OPPONENTS_PAGE))
-    assert thesis == opponents
+    thesis, qlearning = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, QLEARNING_PAGE))
+    assert thesis == qlearning
     assert len(thesis) == 10
+
+
+def tables(page):
+    """Tables of a page: its heading, and rows of cells without units and quotation marks."""
+    for block in re.findall(r"(?:^\|.*\n)+", page.read_text(encoding="utf-8"), flags=re.MULTILINE):
+        head, _, *body = map(cells, block.splitlines())
+        yield head, [[cell.replace("`", "") for cell in row] for row in body]
+
+
+def test_the_page_on_networks_lists_the_inputs_of_every_game():
+    listed = []
+    for head, body in tables(NETWORKS_PAGE):
+        if head[:2] == ["group", "inputs"]:
+            names = [(name.split(", "), re.findall(r"\d+", count)) for name, count, _ in body]
+            listed.append(
+                [one for many, counts in names for one in zip(many, map(int, counts * len(many)), strict=False)]
+            )
+    assert listed == [[*ENCODINGS[game].groups] for game in ("pitanks", "race", "factory")]
+
+
+def test_the_page_on_networks_has_the_hyper_parameters():
+    (body,) = [body for head, body in tables(NETWORKS_PAGE) if head[:3] == ["name", "PiTanks", "Robot Race"]]
+    for place, game in enumerate(("pitanks", "race"), start=1):
+        for row in body:
+            shown = row[1] if row[place] == "the same" else row[place]
+            for name, number in zip(re.split(", | to ", row[0]), re.split(", | to ", shown), strict=True):
+                assert float(number) == getattr(TASKS[game].hyper, name), row
+
+
+def test_the_page_on_opponents_has_the_handicaps_of_pitanks():
+    (body,) = [
+        body for _, body in tables(OPPONENTS_PAGE) if body[0][0] == "sees others late by" and "rad" in body[1][1]
+    ]
+    for row, name in zip(body, ("delay", "error", "sharpness", "thrift"), strict=True):
+        shown = [0.0 if cell == "–" else float(cell.split()[0]) for cell in row[1:]]
+        assert shown == [getattr(handicap, name) for handicap in HANDICAPS], row
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -82,7 +82,7 @@ class TestWithTheExtra:
 
 
 def test_the_contract_names_the_shapes():
-    text = (ROOT / "docs" / "opponents.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "networks.md").read_text(encoding="utf-8")
     assert f"float32, (1, {ENCODING.size})" in text
     assert f"one output (1, {ENCODING.outputs})" in text
     flat = " ".join(text.split())
