@@ -67,7 +67,7 @@ class TestWithTheExtra:
             ("pitanks", b"hello", "not an ONNX model"),
             ("pitanks", b"", "not an ONNX model"),
             ("pitanks", model(MATRIX)[:-500], "not an ONNX model"),
-            ("pitanks", model(MATRIX[:-1]), r"its input is tensor\(float\) \(1, 121\); pitanks needs float \(1, 122\)"),
+            ("pitanks", model(MATRIX[:-1]), r"its input is tensor\(float\) \(1, 123\); pitanks needs float \(1, 124\)"),
             ("pitanks", model(MATRIX[:, :-1]), r"its output is .*\(1, 13\); pitanks needs float \(1, 14\)"),
             ("pitanks", model(*HEADS[::-1]), "its output is "),
             ("pitanks", model(MATRIX, batch=4), "its input is "),
