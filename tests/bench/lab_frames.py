@@ -1,4 +1,4 @@
-"""Frame times of the Lab at 60 frames/s while it trains, compiled and plain, at every speed.
+"""Frame times of the Lab at 60 frames/s while it trains at every speed: a table, compiled and plain, and a network.
 
     python -m tests.bench.lab_frames [SECONDS]
 
@@ -10,12 +10,14 @@ frame exceeds its limit.
 import os
 import sys
 import tempfile
+from collections.abc import Callable
 from time import perf_counter, thread_time
 
 os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
 
 import pygame
 
+from pigaming_app.scenes.lab.network.kind_switch import NETWORK
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.scenes.lab.view import SPEEDS
 from pigaming_app.sim.kernel import _cache_folder, can_compile
@@ -25,6 +27,7 @@ from tests.scenes.arcade import Arcade
 FPS = 60
 MEDIAN, P99 = 4.0, 8.0  # ms of work; plain training adds PLAIN
 PLAIN = 8.0  # ms, slice of plain training in a frame
+WAITS, PREPARATION = ("compiling", "preparing"), 900.0  # measured until done, s at most
 WARM = 60  # frames of warm-up, not counted
 
 
@@ -39,24 +42,31 @@ def main(seconds: float) -> int:
     print(f"first frame: {1000 * (perf_counter() - began):.0f} ms")
     good = True
     if can_compile():
-        good &= measured("compiling", arcade, lab, seconds, until_fast=True)
-        for lab.trainer.speed in range(len(SPEEDS)):
+        good &= measured("compiling", arcade, lab, seconds, lambda: lab.table.fast)
+        for lab.table.speed in range(len(SPEEDS)):
             good &= measured("compiled", arcade, lab, seconds)
-    lab.trainer.close()
-    lab.trainer.join()
+        lab.show_kind(NETWORK)
+        good &= measured("preparing", arcade, lab, seconds, lambda: bool(lab.network.progress.measures))
+        for lab.network.speed in range(len(SPEEDS)):
+            lab.begin()
+            good &= measured("network", arcade, lab, seconds)
+            print(f"           wins {[round(measure.share, 2) for measure in lab.network.progress.measures]}")
+    lab.network.end()
+    lab.table.close()
+    lab.table.join()
     plain = Lab(arcade.context, fast=False)
     arcade.open(plain)
-    for plain.trainer.speed in range(len(SPEEDS)):
+    for plain.table.speed in range(len(SPEEDS)):
         good &= measured("plain", arcade, plain, seconds)
     return 0 if good else 1
 
 
-def measured(name: str, arcade: Arcade, lab: Lab, seconds: float, until_fast: bool = False) -> bool:
-    """Run frames for `seconds`, or until compiled; true if their work is within the limits."""
+def measured(name: str, arcade: Arcade, lab: Lab, seconds: float, done: Callable[[], bool] = lambda: False) -> bool:
+    """Run frames for `seconds`, or until `done`; true if their work is within the limits."""
     clock, work, frames = pygame.time.Clock(), [], []
     began = last = perf_counter()
     matches = lab.trainer.snapshot.matches
-    while not lab.trainer.fast if until_fast else last - began < seconds:
+    while last - began < (PREPARATION if name in WAITS else seconds) and not done():
         now, busy = perf_counter(), thread_time()
         arcade.frame(min(0.1, now - last), draw=True)
         work.append(1000 * (thread_time() - busy))
@@ -64,7 +74,7 @@ def measured(name: str, arcade: Arcade, lab: Lab, seconds: float, until_fast: bo
         last = now
         clock.tick(FPS)
     matches = lab.trainer.snapshot.matches - matches
-    slice_ms = PLAIN if name != "compiled" else 0.0
+    slice_ms = PLAIN if name in ("compiling", "plain") else 0.0
     work, frames = sorted(work[WARM:]), sorted(frames[WARM:])
     if not work:
         print(f"{name:9}  too short to tell: it was compiled before")

@@ -1,4 +1,4 @@
-"""PiTanks as a network sees it: 124 inputs, and four heads of choices.
+"""PiTanks as a network sees it: 128 inputs, and four heads of choices.
 
 Directions are given as cosine and sine relative to the own heading. The other robots are sorted by how much they matter
 now, so that the first of them is nearly always the one to fight. Aiming errors are measured in angular sizes of the
@@ -17,12 +17,12 @@ from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, HZ, ROBOTS, WIDTH
+from pigaming_app.sim.sweep import is_aside, is_clear, wall_contact
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, HZ, ROBOTS, SOLID, WIDTH
 
 GROUPS = (
     ("motion", 5),
-    ("gun", 4),
+    ("gun", 8),
     ("powers", 6),
     ("score", 8),
     ("place", 4),
@@ -38,7 +38,7 @@ GROUPS = (
     ("habits", 2),
 )
 MOTION, GUN, POWERS, SCORE, PLACE, WAY, OTHERS, PICKUP, BULLETS, MINE, ROOM, RULES, HABITS, SIZE = (
-    0, 5, 9, 15, 23, 27, 35, 86, 89, 104, 107, 119, 122, 124
+    0, 5, 13, 19, 27, 31, 39, 90, 93, 108, 111, 123, 126, 128
 )  # first input of each group  # fmt: skip
 OTHER = 17  # inputs for each of the others
 HEADS = (("drive", 3), ("turn", 7), ("fire", 2), ("turbo", 2))
@@ -52,6 +52,7 @@ STEP, STEPS = 40.0, 8  # px and number of the steps by which it looks for room
 FURTHER = 3  # nodes down the field at which the further way points, whatever lies in between
 COS30, SIN30 = 0.8660254037844386, 0.5
 MINE_NEAR = 250.0  # px
+RANGE = 1200.0  # px within which walls in the line of fire count
 
 
 @record
@@ -73,7 +74,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
     me = match.robots[seat]
     ahead_x, ahead_y = cos(me.heading), sin(me.heading)
     encode_self(match, seat, inputs)
-    inputs[HABITS], inputs[HABITS + 1] = whole(3.0 * senses.thrift), whole(2.0 * senses.delay)
+    inputs[HABITS], inputs[HABITS + 1] = whole(senses.thrift), whole(2.0 * senses.delay)
     inputs[PLACE] = whole(2.0 * me.x / WIDTH - 1.0)
     inputs[PLACE + 1] = whole(2.0 * me.y / HEIGHT - 1.0)
     inputs[PLACE + 2], inputs[PLACE + 3] = whole(ahead_x), whole(ahead_y)
@@ -82,6 +83,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
     if match.rules.pickups:
         encode_things(match, seat, ahead_x, ahead_y, inputs)
     encode_room(match, me, ahead_x, ahead_y, inputs)
+    encode_wall(match, me, RANGE * ahead_x, RANGE * ahead_y, GUN + 4, inputs)
 
 
 @kernel
@@ -153,6 +155,10 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
     route = senses.route
     route.active, route.goal_x, route.goal_y = 1, match.robots[target].x, match.robots[target].y
     update_route(match, route, me.x, me.y)
+    if not (senses.clears >> target) & 1:
+        dx, dy = match.robots[target].x - me.x, match.robots[target].y - me.y
+        wall, _ = first_wall(match, me.x, me.y, dx, dy)
+        inputs[GUN + 7] = whole(1.0 if wall >= 0 and match.walls[wall].health == SOLID else 0.0)
     towards(me, route.waypoint_x, route.waypoint_y, ahead_x, ahead_y, WAY, inputs)
     length, further_x, further_y = sqrt(target2), route.goal_x, route.goal_y
     if not route.straight:
@@ -290,6 +296,30 @@ def encode_things(match: Any, seat: int, ahead_x: float, ahead_y: float, inputs:
         inputs[MINE] = whole((ahead_x * to_x + ahead_y * to_y) / distance)
         inputs[MINE + 1] = whole((ahead_x * to_y - ahead_y * to_x) / distance)
         inputs[MINE + 2] = whole(1.0 - distance / MINE_NEAR)
+
+
+@kernel
+def encode_wall(match: Any, me: Any, dx: float, dy: float, k: int, inputs: Any) -> None:
+    """The inner wall that a shot along (dx, dy) would hit, in three inputs from k on: nearness, health, solid."""
+    wall, when = first_wall(match, me.x, me.y, dx, dy)
+    if wall >= 0:
+        health = match.walls[wall].health
+        inputs[k] = whole(300.0 / (300.0 + when * RANGE))
+        inputs[k + 1], inputs[k + 2] = whole(health / 5.0), whole(1.0 if health == SOLID else 0.0)
+
+
+@kernel
+def first_wall(match: Any, x: float, y: float, dx: float, dy: float) -> tuple[int, float]:
+    """The first inner wall that a bullet moving by (dx, dy) would hit, -1 if none, and the share of the way to it."""
+    radius, first, found = match.rules.bullet_radius, 1.0, -1
+    length = sqrt(dx * dx + dy * dy)
+    for i in range(match.wall_count):
+        wall = match.walls[i]
+        if wall.health and not is_aside(x, y, dx, dy, wall, (wall.half + radius) * length):
+            when = wall_contact(x, y, dx, dy, wall, radius)
+            if when < first:
+                first, found = when, i
+    return found, first
 
 
 @kernel

@@ -18,9 +18,10 @@ POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
 CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of the training on
 SHAPING, SHAPED = 0.5, 0.3  # weight of the potential, at the begin and at the end of the training
 FAR = 10.0  # by which 1600 px more on the way to an opponent out of sight lower the potential
-BLIND = 0.05  # cost of a shot with nobody in the line of fire
+BLIND = 0.1  # cost of a shot with nobody in the line of fire
+CROWD, CLOSE = 0.03, 160.0  # cost of a decision within so many px of an opponent: blows at arm's length end level
 BORED = 0.02  # cost of a decision with nobody in the line of fire: who waits loses
-THRIFTY, MOST_THRIFT = 0.4, 0.33  # share of matches in which a shot has a cost, and the highest
+THRIFTY, MOST_THRIFT = 0.4, 0.9  # share of matches in which a shot has a cost, and the highest
 LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
 WIN = 2.0  # reward of a win; a tie costs half of it
 PAIRS = (0, 1, 0, 1)
@@ -50,17 +51,20 @@ def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
     """Rewards (T, S) of the decisions."""
     care = min(FULL_CARE, CARE + (FULL_CARE - CARE) * share / 0.5)
     shaping = SHAPING + (SHAPED - SHAPING) * share
-    blind = np.ones(gains.shape[:2], bool)
-    for k in range(OTHERS, OTHERS + 3 * OTHER, OTHER):  # an opponent in the line of fire
-        blind &= (inputs[..., k + 11] <= 0) | (inputs[..., k + 1] > 0)
+    blind, crowded = np.ones(gains.shape[:2], bool), np.zeros(gains.shape[:2], bool)
+    for k in range(OTHERS, OTHERS + 3 * OTHER, OTHER):
+        opponent = (inputs[..., k] > 0) & (inputs[..., k + 1] <= 0)
+        blind &= ~(opponent & (inputs[..., k + 11] > 0))
+        crowded |= opponent & (inputs[..., k + 2] < CLOSE / 800.0 - 1.0)
     fired = (choices[..., 2] == 1) & (inputs[..., GUN] < 0.15)
     return (
         gains[..., POINTS]
         - care * gains[..., TAKEN]
         + shaping * gains[..., POTENTIAL]
-        - inputs[..., HABITS] / 3.0 * gains[..., SHOTS]
+        - inputs[..., HABITS] * gains[..., SHOTS]
         - BLIND * (fired & blind)
         - BORED * blind
+        - CROWD * crowded
     ).astype(np.float32)
 
 

@@ -4,8 +4,10 @@ from datetime import datetime
 
 import pygame
 
+from pigaming_app.scenes.files import is_network
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
+from pigaming_app.scenes.lab.network.kind_switch import SIGN, network_sign, table_sign
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, file_of, load_robot, names
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
@@ -26,6 +28,7 @@ class OpenPage:
     def __init__(self, lab: LabHost) -> None:
         self.lab, self.context = lab, lab.context
         self.names = names()
+        self.networks: dict[str, bool] = {}  # whether a robot has a network, once it was shown
         self.page, self.age = 0, 0.0
         self.focus = Focus(self._spots())
         self.prompts = self.context.prompts(self._hints())
@@ -63,7 +66,10 @@ class OpenPage:
         if self.names:
             black_out(screen, *(spot.rect for spot in self.focus.spots))
             for spot in self.focus.spots:
-                card(spot.name, saved(spot.name), spot.name == self.focus.name).draw(screen, *spot.rect.topleft)
+                if spot.name not in self.networks:
+                    self.networks[spot.name] = is_network(file_of(spot.name))
+                hot = spot.name == self.focus.name
+                card(spot.name, saved(spot.name), self.networks[spot.name], hot).draw(screen, *spot.rect.topleft)
             self.focus.draw(screen)
         else:
             text(words("lab.none"), LABEL, MIST, "head").draw(screen, 960, 520)
@@ -112,11 +118,12 @@ def saved(name: str) -> str:
 
 
 @cached
-def card(name: str, when: str, hot: bool) -> LitImage:
-    """Name and save time of a robot; top left at (0, 0)."""
+def card(name: str, when: str, network: bool, hot: bool) -> LitImage:
+    """Kind, name and save time of a robot; top left at (0, 0)."""
     w = span(0, 4)[1]
     layer = Layer(0, 0, w, HIGH)
     layer.glow.line(cut_box(0, 0, w, HIGH, 16), STEEL, THIN, True)
-    layer.canvas.text(name, fit_size(name, SUB, w - 330, "hero"), 36, HIGH / 2, FOCUS if hot else ICE, "hero")
+    (network_sign if network else table_sign)(layer.canvas.crisp, 32 + SIGN, HIGH / 2, MIST)
+    layer.canvas.text(name, fit_size(name, SUB, w - 374, "hero"), 84, HIGH / 2, FOCUS if hot else ICE, "hero")
     layer.canvas.body(when, w - 32, HIGH / 2, MIST, "r", BODY)
     return layer.render()

@@ -6,13 +6,11 @@ as during a challenge match.
 
 import math
 from dataclasses import replace
-from typing import Any, TypeVar
 
 import pygame
 
 from pigaming_app.ai.networks.files import TrainedNetwork
-from pigaming_app.ai.ppo.lab.task import NetworkRecipe
-from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
+from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
@@ -39,7 +37,6 @@ CONFIRM_SECONDS = 20.0  # s before the end of IDLE at which a confirmation promp
 MESSAGE_SECONDS = 4.0  # s, display time of a message
 COMPILE_NOTICE = 2.0  # s of compiling before a notice is shown
 MIN_SCALE = 2.0  # Q value that fills at least one petal
-AnyRecipe = TypeVar("AnyRecipe", Recipe, NetworkRecipe)
 TURNS = {Button.LEFT: -1, Button.DOWN: -1, Button.RIGHT: 1, Button.UP: 1}
 
 
@@ -183,11 +180,11 @@ class Lab:
             self.table.open(robot)
             self.show_kind(TABLE)
         elif not self.network.available:
-            raise RobotFileError("lab.no_network")
+            raise RobotFileError(self.network.refusal)
         else:
             self.network.open(robot)
             self.show_kind(NETWORK)
-        self.name = name
+        self.name, self.page = name, None  # the old curve is not this robot's
 
     def show_kind(self, kind: str) -> None:
         """Show the robot of this kind."""
@@ -236,7 +233,7 @@ class Lab:
     def _change_kind(self, kind: str) -> None:
         """Change to the other kind, if it can learn here, and explain it in one sentence."""
         if kind == NETWORK and not self.network.available:
-            self.show_message(self.context.words("lab.no_network"), wrong=True)
+            self.show_message(self.context.words(self.network.refusal), wrong=True)
         elif kind != self.kind:
             self.show_kind(kind)
             self.show_message(self.context.words(f"lab.{kind}_how"))
@@ -273,11 +270,7 @@ class Lab:
         """Set a knob, clamped to its range."""
         value = max(-LIMIT, min(LIMIT, value))
         if value != self._value(knob):
-            trainer = self.trainer
-            if isinstance(trainer, Trainer):
-                trainer.recipe = turned(trainer.recipe, knob, value)
-            else:
-                trainer.recipe = turned(trainer.recipe, knob, value)
+            self.trainer.turn(knob, value)
             self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
@@ -312,9 +305,3 @@ class Lab:
 def level(share: float) -> int:
     """Petal length for a value relative to the largest, -1..1; square root, so that small values stay visible."""
     return round(math.copysign(LEVELS * math.sqrt(abs(share)), share))
-
-
-def turned(recipe: AnyRecipe, knob: str, value: int) -> AnyRecipe:
-    """A recipe with one reward changed."""
-    reward: dict[str, Any] = {knob: float(value)}
-    return replace(recipe, **reward)

@@ -9,7 +9,9 @@ import gc
 import logging
 import sys
 import threading
+from dataclasses import replace
 from time import monotonic, perf_counter, sleep
+from typing import Any
 
 from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.ai.experiments.evaluation import compile_all
@@ -100,6 +102,11 @@ class Trainer:
         """Checkpoints after 0, 10, 50 and 200 matches, as far as reached."""
         with self._lock:
             return dict(self.progress.checkpoints)
+
+    def turn(self, knob: str, value: int) -> None:
+        """Change one reward."""
+        reward: dict[str, Any] = {knob: float(value)}
+        self.recipe = replace(self.recipe, **reward)
 
     def begin(self, seed: int) -> None:
         """Restart from an empty table."""

@@ -144,7 +144,7 @@ def ground(language: str) -> Steps[pygame.Surface]:
     out = black_out(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, kind_rect(words), SPEED, PLAY)
     yield
     title = words("lab.title")
-    canvas.text(title, fit_size(title, TITLE, kind_rect(words).left - LEFT - 28), LEFT, TITLE_Y, ICE)
+    canvas.text(title, fit_size(title, TITLE, kind_rect(words).left - LEFT - 20), LEFT, TITLE_Y, ICE)
     yield
     canvas.glow.line(outline(MATCH, 20), WALL, THIN, True)
     yield

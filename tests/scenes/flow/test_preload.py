@@ -98,12 +98,13 @@ def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, ho
 
 
 @pytest.mark.skipif(not can_compile(), reason="numba is not installed")
-def test_the_compiler_runs_once_from_the_title_on_and_ends_with_the_arcade(
-    home: Path, prepared: list[tuple[str, str]]
+@pytest.mark.parametrize("name", ["compiler", "network_compiler"])
+def test_the_compilers_run_once_from_the_title_on_and_end_with_the_arcade(
+    home: Path, prepared: list[tuple[str, str]], name: str
 ) -> None:
     with opened(Options(headless=True)) as app:
-        compiler = app.context.compiler
-        compiler._command = ENDLESS
+        compiler: Compiler = getattr(app.context, name)
+        app.context.compiler._command = app.context.network_compiler._command = ENDLESS
         app.compose(1 / 60)
         assert compiler.code is None
         assert compiler._process is None, "the first picture comes first"

@@ -353,9 +353,12 @@ def test_nothing_in_the_lab_lies_on_something_else(arcade: Arcade) -> None:
     assert not [(a.name, b.name) for a, b in combinations(spots, 2) if a.rect.colliderect(b.rect)]
 
 
+@pytest.mark.parametrize("key", ["lab.warming", "lab.preparing"])
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_line_about_warming_up_stays_in_its_panel_and_off_the_match(controls: Controls, language: str) -> None:
-    lit = warming(Words(language)("lab.warming"))
+def test_the_line_about_warming_up_stays_in_its_panel_and_off_the_match(
+    controls: Controls, language: str, key: str
+) -> None:
+    lit = warming(Words(language)(key))
     box = pygame.mask.from_threshold(lit.image, (0, 0, 0), (40, 40, 40, 255))
     box.invert()
     rects = box.get_bounding_rects()

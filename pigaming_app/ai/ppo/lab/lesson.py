@@ -13,6 +13,7 @@ from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, TURNS
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin, Habit, Report, State, Weights
 from pigaming_app.ai.ppo.lab.task import HYPER, MINUTES, RELOADED, RIVAL, STAND, TASK, NetworkRecipe, task_of
+from pigaming_app.ai.ppo.learner import Network
 from pigaming_app.ai.ppo.training import Training, in_threads
 from pigaming_app.ai.ppo.win_rates import win_rates
 from pigaming_app.sim.world import HZ
@@ -22,7 +23,7 @@ SECTORS = 16
 ACTIONS = ("shoot", "turn_left", "turn_right", "ahead", "behind", "stay")
 CHANCES = np.array([1 / 2, 3 / 7, 3 / 7, 1 / 3, 1 / 3, 1 / 21])  # of the actions in random play
 CLEAR = 0.15  # excess over random play, relative to certainty, that counts as a preference
-MEMORY = 300.0  # decisions of each direction that count
+KEPT = 32  # situations of each direction
 HELD = 20  # updates in which a network from a file is not changed, while its value function is learned
 MATCHES = 20  # in a measurement
 GRAIN, INTERVAL = 25, 0.5  # measurements over the length of the curve, about; s between two of them at least
@@ -38,7 +39,7 @@ class Lesson:
         self.training = Training(TASK, begin.seed, updates=2**31, hyper=HYPER)
         self.before = begin.state
         self.opened = self._restored(begin.state) if begin.state else None
-        self.habits = Habits()
+        self.situations = Situations()
         self.entropy = MOST
         self._measured, self._measured_at = -1.0, 0.0
         self._play = in_threads(self.training, threads)
@@ -64,7 +65,9 @@ class Lesson:
         updates, decisions = before.updates + self.training.updates, before.decisions + self.training.decisions
         state = State(self._weights(), updates, decisions, self.matches)
         share = self._share() if measured and self._due() else None
-        return Report(self.number, state, 1.0 - self.entropy / MOST, self.habits.summary(), share)
+        learner = self.training.learner
+        habits = self.situations.habits(learner.policy, learner.value)
+        return Report(self.number, state, 1.0 - self.entropy / MOST, habits, share)
 
     def _due(self) -> bool:
         since = self.matches - self._measured
@@ -80,9 +83,7 @@ class Lesson:
     def _gather(self, policy: Any, pool: Any, decisions: int) -> Any:
         experiences = self._play(policy, pool, decisions)
         for experience in experiences:
-            inputs = experience.inputs[:-1][experience.valid]
-            values = self.training.learner.value.forward(inputs)[0][0]
-            self.habits.add(inputs, experience.choices[experience.valid], values)
+            self.situations.add(experience.inputs[:-1][experience.valid])
         return experiences
 
     def _weights(self) -> Weights:
@@ -100,41 +101,56 @@ class Lesson:
         return deepcopy(policy)
 
 
-class Habits:
-    """What the network does, and the value it expects, by direction of the opponent. Old decisions fade."""
+class Situations:
+    """The latest situations of the training by direction of the opponent, and how the network sees them now."""
 
     def __init__(self) -> None:
-        self.seen, self.values = np.zeros(SECTORS), np.zeros(SECTORS)
-        self.ready, self.actions = np.zeros(SECTORS), np.zeros((SECTORS, len(ACTIONS)))
+        self.known = [np.zeros((0, ENCODING.size + 1), np.float32) for _ in range(SECTORS)]
 
-    def add(self, inputs: Any, choices: Any, values: Any) -> None:
-        """Add decisions: inputs (n, inputs), choices (n, heads), values (n,)."""
+    def add(self, inputs: Any) -> None:
+        """Add situations (n, inputs + 1); the last input is 1."""
         angles = np.arctan2(inputs[:, OTHERS + 5], inputs[:, OTHERS + 4])
         sectors = np.rint(angles * (SECTORS / (2.0 * np.pi))).astype(int) % SECTORS
-        ready = inputs[:, GUN] < RELOADED
-        drive, turn, fire = choices[:, 0], choices[:, 1], choices[:, 2]
-        left, right = turn < len(TURNS) // 2, turn > len(TURNS) // 2
-        stays = (drive == STAND) & ~left & ~right
-        done = np.column_stack([ready & (fire == 1), left, right, drive > STAND, drive < STAND, stays])
-        for sums, parts in ((self.seen, 1.0), (self.values, values), (self.ready, ready), (self.actions, done)):
-            np.add.at(sums, sectors, parts)
-        kept = np.minimum(1.0, MEMORY / np.maximum(self.seen, 1.0))
-        for sums in (self.seen, self.values, self.ready, self.actions.T):
-            sums *= kept
+        for sector in np.unique(sectors):
+            self.known[sector] = np.concatenate([self.known[sector], inputs[sectors == sector]])[-KEPT:]
 
-    def summary(self) -> tuple[Habit | None, ...]:
-        """The habit of each direction."""
-        result: list[Habit | None] = []
-        values = self.values / np.maximum(self.seen, 1.0)
-        usual = values[self.seen >= 1.0].mean() if (self.seen >= 1.0).any() else 0.0
-        for sector in range(SECTORS):
-            seen = self.seen[sector]
-            if seen < 1.0:
-                result.append(None)
-                continue
-            counts = np.array([max(self.ready[sector], 1.0), *[seen] * (len(ACTIONS) - 1)])
-            excess = (self.actions[sector] / counts - CHANCES) / (1.0 - CHANCES)
-            best = int(excess.argmax())
-            action = ACTIONS[best] if excess[best] > CLEAR else "unknown"
-            result.append(Habit(float(values[sector] - usual), action))
-        return tuple(result)
+    def habits(self, policy: Network, value: Network) -> tuple[Habit | None, ...]:
+        """What the network does with the opponent in each direction, and what it expects from it."""
+        inputs = np.concatenate(self.known)
+        values, chances = value.forward(inputs)[0][0], probabilities(policy.forward(inputs)[0].T)
+        usual = float(np.mean([values[rows].mean() for rows in self._rows() if rows.stop > rows.start] or [0.0]))
+        return tuple(
+            Habit(float(values[rows].mean()) - usual, action_of(chances[rows], inputs[rows]))
+            if rows.stop > rows.start
+            else None
+            for rows in self._rows()
+        )
+
+    def _rows(self) -> list[slice]:
+        ends = np.cumsum([len(known) for known in self.known]).tolist()
+        return [slice(end - len(known), end) for end, known in zip(ends, self.known, strict=True)]
+
+
+def probabilities(logits: Any) -> Any:
+    """Probabilities of the choices of all heads (n, outputs), from their logits."""
+    parts = np.split(logits, np.cumsum([choices for _, choices in ENCODING.heads])[:-1], axis=1)
+    powers = [np.exp(part - part.max(axis=1, keepdims=True)) for part in parts]
+    return np.hstack([power / power.sum(axis=1, keepdims=True) for power in powers])
+
+
+def action_of(chances: Any, inputs: Any) -> str:
+    """The action that exceeds random play most, from probabilities (n, outputs) in situations (n, inputs)."""
+    drive, turn, fire = chances[:, :3], chances[:, 3:10], chances[:, 10:12]
+    loaded = inputs[:, GUN] < RELOADED
+    middle = len(TURNS) // 2
+    means = [
+        fire[loaded, 1].mean() if loaded.any() else CHANCES[0],
+        turn[:, :middle].sum(axis=1).mean(),
+        turn[:, middle + 1 :].sum(axis=1).mean(),
+        drive[:, STAND + 1].mean(),
+        drive[:, STAND - 1].mean(),
+        (drive[:, STAND] * turn[:, middle]).mean(),
+    ]
+    excess = (np.array(means) - CHANCES) / (1.0 - CHANCES)
+    best = int(excess.argmax())
+    return ACTIONS[best] if excess[best] > CLEAR else "unknown"

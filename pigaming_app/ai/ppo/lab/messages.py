@@ -53,7 +53,7 @@ class Order(NamedTuple):
 class Habit(NamedTuple):
     """The usual behaviour with the opponent in one direction."""
 
-    value: float  # mean of the value function, less the mean over all directions
+    value: float  # expected reward, less its mean over all directions
     action: str  # key of a sign
 
 

@@ -9,7 +9,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.i18n import Words
 
 KINDS = TABLE, NETWORK = "table", "network"
-SIGN, GAP, EDGE = 17, 14, 24  # px: half a sign, from the sign to the label, from the sign or label to the edge
+SIGN, GAP, EDGE = 17, 14, 20  # px: half a sign, from the sign to the label, from the sign or label to the edge
 DIMMED = 0.6  # brightness of a kind that cannot learn here
 
 

@@ -56,7 +56,7 @@ class TrainingProcess:
         return [self._reports.popleft() for _ in range(len(self._reports))]
 
     def end(self) -> None:
-        """Kill the process."""
+        """Kill the process, if it was started."""
         if self._process:
             self._process.kill()
             self._process.wait()
@@ -64,6 +64,7 @@ class TrainingProcess:
                 if pipe:
                     with contextlib.suppress(OSError):  # what was still to be sent
                         pipe.close()
+            self._process = None
 
 
 def _read(process: "Popen[bytes]", reports: "deque[Report]") -> None:

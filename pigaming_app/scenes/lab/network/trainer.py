@@ -4,7 +4,8 @@ The network learns in a process of its own, from many matches at once. The page 
 network plays here against the hand-made robot.
 """
 
-from dataclasses import asdict
+import logging
+from dataclasses import asdict, replace
 from math import inf
 from time import monotonic
 from typing import Any
@@ -31,6 +32,8 @@ SHOWN = (1, 10, 10)  # of the match that is shown, times real time
 MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
 HEARTBEAT = PATIENCE / 4  # s between two orders at most
 DEATHS = 3  # ends of the process without a report in between, after which it is not started again
+
+log = logging.getLogger("pigaming")
 
 
 class NetworkProgress:
@@ -70,7 +73,7 @@ class NetworkTrainer:
         """`compiler`: it compiles the loop of the process, which starts afterwards."""
         self._compiler, self._process = compiler, TrainingProcess(command)
         self.recipe, self.speed = NetworkRecipe(), 0
-        self.available = can_compile()
+        self.refusal = "" if can_compile() else "lab.no_network"  # text key of why no network can learn here
         self.compiling = False  # nothing is learned yet
         self.trouble = ""  # text key of what has happened to the process; the page clears it
         self._deaths = 0
@@ -83,6 +86,11 @@ class NetworkTrainer:
     def snapshot(self) -> TrainingState:
         """The latest snapshot."""
         return self.progress.snapshot
+
+    @property
+    def available(self) -> bool:
+        """True if networks can learn here."""
+        return not self.refusal
 
     def feed(self, seconds: float) -> None:
         """Called every frame, `seconds` after the last call: keep the training running, and play on."""
@@ -109,6 +117,11 @@ class NetworkTrainer:
     def checkpoints(self) -> dict[int, Checkpoint]:
         """Checkpoints after some numbers of matches, as far as reached."""
         return dict(self.progress.checkpoints)
+
+    def turn(self, knob: str, value: int) -> None:
+        """Change one reward."""
+        reward: dict[str, Any] = {knob: float(value)}
+        self.recipe = replace(self.recipe, **reward)
 
     def begin(self, seed: int) -> None:
         """Start again with a fresh network."""
@@ -170,6 +183,7 @@ class NetworkTrainer:
         self.compiling = True
         if self._process.code is not None:
             if self._process.code:
+                log.warning("the training of the network ended with exit code %d", self._process.code)
                 self._deaths += 1
                 self.trouble = "lab.interrupted"
         elif self._compiler.code is None:
@@ -189,8 +203,8 @@ class NetworkTrainer:
         return True
 
     def _give_up(self) -> None:
-        self.available = self.compiling = False
-        self.trouble = "lab.no_network"
+        self.compiling = False
+        self.refusal = self.trouble = "lab.failed"
 
     def _take_reports(self) -> None:
         reports = [report for report in self._process.reports() if report.number == self._number]

@@ -1,0 +1,275 @@
+"""The robot with a network in the Lab: switch, training in a process, challenge, files, and the ends of the process."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.ai.networks.files import TrainedNetwork
+from pigaming_app.scenes.lab import saved_robots, scene
+from pigaming_app.scenes.lab.challenge import ROBOT, Challenge
+from pigaming_app.scenes.lab.compare_page import ComparePage
+from pigaming_app.scenes.lab.layout import MATCH
+from pigaming_app.scenes.lab.menu import LabMenu
+from pigaming_app.scenes.lab.network.kind_switch import NETWORK, TABLE, kind_rect
+from pigaming_app.scenes.lab.network.trainer import DEATHS, NetworkTrainer
+from pigaming_app.scenes.lab.scene import Lab
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.theme import BODY, TITLE, text_width
+from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button
+from tests.scenes.arcade import Arcade
+from tests.scenes.lab.test_trainer import runs
+
+needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not installed")
+PLAIN = (sys.executable, "-m", "tests.scenes.lab.plain_process")
+NOTHING = (sys.executable, "-c", "")
+BROKEN = (sys.executable, "-c", "exit(1)")
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path) -> Iterator[Arcade]:
+    arcade = Arcade(controls)
+    arcade.context.network_compiler = Compiler(NOTHING)
+    lab = Lab(arcade.context, fast=False)
+    lab.network = NetworkTrainer(5, arcade.context.network_compiler, PLAIN)
+    arcade.open(lab)
+    arcade.wait(0.5)
+    yield arcade
+    lab.network.end()
+    arcade.context.network_compiler.end()
+
+
+def lab(arcade: Arcade) -> Lab:
+    return arcade.shown(Lab)
+
+
+def wait(arcade: Arcade, condition: Callable[[], bool], timeout: float = 120.0) -> None:
+    """Run frames in real time until a condition holds."""
+    end = time.monotonic() + timeout
+    while not condition():
+        assert time.monotonic() < end, "timeout"
+        arcade.frame(draw=True)
+        time.sleep(0.01)
+
+
+def choose_network(arcade: Arcade) -> NetworkTrainer:
+    lab(arcade).focus.move_to("kind")
+    arcade.press(Button.FIRE)
+    return lab(arcade).network
+
+
+def learn(arcade: Arcade, updates: int = 3) -> NetworkTrainer:
+    """Have the network learn at full speed."""
+    trainer = choose_network(arcade) if lab(arcade).kind == TABLE else lab(arcade).network
+    trainer.speed = 2
+    wait(arcade, lambda: trainer.trained("").updates >= updates)
+    return trainer
+
+
+def pid_of(trainer: NetworkTrainer) -> int:
+    process = trainer._process._process
+    assert process
+    return process.pid
+
+
+@needs_numba
+def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opened(arcade: Arcade) -> None:
+    here = lab(arcade)
+    trainer = choose_network(arcade)
+    assert here.kind == NETWORK
+    assert here.sentence == arcade.context.words("lab.network_how")
+    arcade.frame()
+    assert not any(here.shown.levels), "the table's plan is still shown"
+    trainer.speed = 2
+    wait(arcade, lambda: len(trainer.progress.measures) >= 2 and trainer.snapshot.matches >= 1)
+    assert not trainer.compiling
+    assert any(here.shown.levels)
+    assert [a.matches < b.matches for a, b in pairwise(here.shown.measures)] == [True] * (len(here.shown.measures) - 1)
+    assert 0 in trainer.checkpoints()
+
+    arcade.press(Button.X)
+    fight = arcade.shown(Challenge)
+    updates = trainer.trained("").updates
+    while fight.inner.match.state.tick < 200:
+        fight.inner.match.tick()
+    robot, start = fight.inner.match.state.robots[ROBOT], fight.inner.match.arena.starts[ROBOT]
+    assert (robot.x, robot.y, robot.heading) != (start.x, start.y, start.heading), "the robot moves"
+    arcade.press(Button.BRAIN)
+    arcade.shown(Challenge)
+    assert fight.inner.runner.brain.seats == [ROBOT]
+    fight.inner.stop_requested = True
+    arcade.frame()
+
+    here.network.save("NEON")
+    saved = saved_robots.load_robot("NEON")
+    assert isinstance(saved, TrainedNetwork)
+    assert saved.updates == updates, "training is paused"
+    here.begin()
+    arcade.press(Button.START)
+    arcade.shown(LabMenu).focus.move_to("open")
+    arcade.press(Button.FIRE)
+    here.show_kind(TABLE)
+    arcade.wait(0.5)
+    arcade.press(Button.FIRE)
+    assert (lab(arcade).kind, here.name) == (NETWORK, "NEON")
+    assert trainer.trained("").updates == updates
+    assert len(trainer.progress.measures) == len(saved.curve.rows) >= 2
+    assert here.sentence == arcade.context.words("lab.opened", name="NEON")
+    learn(arcade, updates + 2)
+
+
+@needs_numba
+def test_turning_a_knob_reaches_the_process_and_a_mouse_goes_back_to_the_table(arcade: Arcade) -> None:
+    trainer = learn(arcade)
+    here = lab(arcade)
+    here.focus.move_to("still")
+    arcade.press(Button.FIRE)
+    arcade.press(Button.LEFT)
+    assert trainer.recipe.still == -1.0
+    arcade.frame()
+    assert trainer._sent[0].recipe.still == -1.0
+    arcade.press(Button.BACK)
+    experiences = here.table.training.experiences
+    box = kind_rect(arcade.context.words)
+    arcade.click(box.left + 20, box.centery)
+    assert here.kind == TABLE
+    assert here.table.recipe.still == 0.0
+    arcade.frame()
+    updates = trainer.trained("").updates
+    wait(arcade, lambda: here.table.training.experiences > experiences + 20)
+    assert trainer.trained("").updates == updates, "the network pauses"
+    arcade.click(box.right - 20, box.centery)
+    assert here.kind == NETWORK
+    learn(arcade, updates + 2)
+
+
+@needs_numba
+def test_checkpoints_of_a_network_play_in_the_table_of_robots(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pigaming_app.scenes.lab.compare_page.MINUTES", 0.02)
+    monkeypatch.setattr("pigaming_app.scenes.lab.compare_page.SLICE", 0.2)
+    trainer = learn(arcade)
+    wait(arcade, lambda: trainer.snapshot.matches >= 1)
+    arcade.press(Button.START)
+    arcade.shown(LabMenu).focus.move_to("compare")
+    arcade.press(Button.FIRE)
+    table = arcade.shown(ComparePage)
+    assert [player.own for player in table.players] == [True, True, False]
+    arcade.until(lambda: not table.pairs, 600.0)
+    assert {player.won + player.tied + player.lost for player in table.players} == {4}
+
+
+@needs_numba
+def test_a_process_that_is_killed_starts_again_where_it_was_and_the_page_shows_one_sentence(arcade: Arcade) -> None:
+    trainer = learn(arcade)
+    number, updates = pid_of(trainer), trainer.trained("").updates
+    os.kill(number, signal.SIGKILL)
+    wait(arcade, lambda: pid_of(trainer) != number)
+    here = lab(arcade)
+    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.interrupted"))
+    assert trainer.trained("").updates >= updates
+    learn(arcade, updates + 2)
+    assert here.kind == NETWORK
+
+
+@needs_numba
+@pytest.mark.parametrize("broken", ["process", "compiler"])
+def test_where_the_network_cannot_train_only_the_table_is_left(arcade: Arcade, broken: str) -> None:
+    here = lab(arcade)
+    compiler = Compiler(BROKEN) if broken == "compiler" else arcade.context.network_compiler
+    here.network = NetworkTrainer(5, compiler, BROKEN)
+    choose_network(arcade)
+    wait(arcade, lambda: here.kind == TABLE)
+    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.failed"))
+    assert here.network._deaths == DEATHS
+    choose_network(arcade)
+    assert here.kind == TABLE
+    experiences = here.table.training.experiences
+    arcade.wait(0.5)
+    assert here.table.training.experiences > experiences
+    compiler.end()
+
+
+def test_without_numba_the_switch_gives_one_sentence(
+    controls: Controls, home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pigaming_app.scenes.lab.network.trainer.can_compile", lambda: False)
+    arcade = Arcade(controls, "pt")
+    arcade.open(Lab(arcade.context, fast=False))
+    arcade.wait(0.5)
+    choose_network(arcade)
+    here = lab(arcade)
+    assert (here.kind, here.wrong, here.sentence) == (TABLE, True, arcade.context.words("lab.no_network"))
+    assert not here.shown.networks
+
+
+def test_in_another_language_the_switch_has_another_width(arcade: Arcade) -> None:
+    here = lab(arcade)
+    before = here.focus.rect("kind")
+    arcade.context.words.switch("pt")
+    here.on_enter()
+    lab(arcade)
+    assert here.focus.rect("kind") == kind_rect(arcade.context.words) != before
+
+
+@needs_numba
+def test_when_nobody_is_there_the_process_ends_and_the_next_visitors_begin_with_a_table(arcade: Arcade) -> None:
+    trainer = learn(arcade)
+    number, here = pid_of(trainer), lab(arcade)
+    arcade.context.idle = scene.IDLE + 1.0
+    arcade.frame()
+    assert arcade.stack.top is arcade.title
+    assert not runs(number)
+    assert (here.kind, trainer.trained("").updates, trainer.progress.measures) == (TABLE, 0, [])
+
+
+CRASHING = f"""
+import time
+from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.scenes.lab.network.trainer import NetworkTrainer
+trainer = NetworkTrainer(1, Compiler({NOTHING!r}), {PLAIN!r})
+trainer.speed = 2
+while not trainer.trained("").updates:
+    trainer.feed(1 / 60)
+    time.sleep(1 / 60)
+print(trainer._process._process.pid, flush=True)
+while True:
+    trainer.feed(1 / 60)
+    time.sleep(1 / 60)
+"""
+
+
+@needs_numba
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc says whether a process is there")
+def test_when_the_arcade_is_killed_the_training_ends_by_itself() -> None:
+    arcade = subprocess.Popen([sys.executable, "-c", CRASHING], stdout=subprocess.PIPE, text=True)
+    assert arcade.stdout
+    with arcade, arcade.stdout:
+        training = int(arcade.stdout.readline())
+        assert runs(training)
+        os.kill(arcade.pid, signal.SIGKILL)
+    end = time.monotonic() + 20.0
+    while runs(training):
+        assert time.monotonic() < end, "the process is still running"
+        time.sleep(0.05)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_switch_leaves_room_for_the_title(language: str) -> None:
+    words = Words(language)
+    box = kind_rect(words)
+    room = box.left - 20 - MATCH.left
+    size = fit_size(words("lab.title"), TITLE, room)
+    assert size >= 80
+    assert text_width(words("lab.title"), size) <= room
+    for key in ("table_how", "network_how", "no_network", "failed", "interrupted"):
+        assert text_width(words(f"lab.{key}"), BODY, "body") < 1600
