@@ -19,6 +19,8 @@ from pigaming_app.ai.brain import driving
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.pitanks.levels import HANDICAPS
+from pigaming_app.ai.ppo import pitanks as fights
+from pigaming_app.ai.ppo import race as races
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
@@ -293,6 +295,30 @@ def test_the_page_on_networks_has_the_hyper_parameters():
             shown = row[1] if row[place] == "the same" else row[place]
             for name, number in zip(re.split(", | to ", row[0]), re.split(", | to ", shown), strict=True):
                 assert float(number) == getattr(TASKS[game].hyper, name), row
+
+
+def rewards():
+    """Statements of docs/networks.md about the rewards of `train ppo`, with the numbers of the code."""
+    yield f"| a hit taken | −{fights.CARE:g}, falling to −{fights.FULL_CARE:g} by half"
+    yield f"| a win, a tie, a defeat | +{fights.WIN:g}, −{fights.WIN / 2:g}, −{fights.WIN:g} |"
+    yield f"| a decision without an opponent in the line of fire | −{fights.BORED:g} |"
+    yield f"| a shot without an opponent in the line of fire | −{fights.BLIND:g} |"
+    yield f"| a decision within {fights.CLOSE:g} px of an opponent | −{fights.CROWD:g} |"
+    yield f"| a shot, in {fights.THRIFTY:.0%} of the matches | up to −{fights.MOST_THRIFT:g},".replace("%", " %")
+    yield f"| the change of a potential, × {fights.SHAPING:g} falling to × {fights.SHAPED:g} |"
+    yield f"else −{fights.FAR / 2:g} for each 1600 px"
+    yield f"In {fights.LATE:.0%} of the matches it sees others up to {fights.LATEST:g} s late".replace("%", " %")
+    yield f"| progress | +1 for each {races.STRIDE:g} px |"
+    yield f"| +{races.LEADING:g} for each {races.STRIDE:g} px it grows |"
+    yield f"| +{races.FINISH:g} for each place up to the last, +{races.WIN:g} for a win |"
+    yield f"Steps of more than {races.LONGEST:g} px a decision"
+    yield f"Of {sum(line_up.share for line_up in fights.TASK.line_ups)} matches:"
+    yield f"alone (4 of {sum(line_up.share for line_up in races.TASK.line_ups)})"
+
+
+def test_the_page_on_networks_has_the_rewards():
+    page = " ".join(NETWORKS_PAGE.read_text(encoding="utf-8").split())
+    assert [text for text in rewards() if text not in page] == []
 
 
 def test_the_page_on_opponents_has_the_handicaps_of_pitanks():
