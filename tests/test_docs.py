@@ -297,6 +297,18 @@ def test_the_page_on_networks_has_the_hyper_parameters():
                 assert float(number) == getattr(TASKS[game].hyper, name), row
 
 
+def test_the_page_on_environments_lists_the_rewards():
+    pytest.importorskip("gymnasium")
+    tallies = import_module("pigaming_app.gym.rewards").TALLIES
+    (body,) = [body for head, body in tables(ROOT / "docs" / "gym.md") if head[:2] == ["game", "tallies"]]
+    for game, names, weights in body:
+        wanted = tallies[GAME_OF[game]]
+        assert tuple(re.sub(r" \(.*?\)", "", names).split(", ")) == wanted.names
+        assert dict(weight.replace("−", "-").rsplit(" ", 1) for weight in weights.split(", ")) == {
+            name: f"{weight:g}" for name, weight in wanted.weights.items()
+        }
+
+
 def rewards():
     """Statements of docs/networks.md about the rewards of `train ppo`, with the numbers of the code."""
     yield f"| a hit taken | −{fights.CARE:g}, falling to −{fights.FULL_CARE:g} by half"
