@@ -324,7 +324,10 @@ def rewards():
     yield f"| +{races.LEADING:g} for each {races.STRIDE:g} px it grows |"
     yield f"| +{races.FINISH:g} for each place up to the last, +{races.WIN:g} for a win |"
     yield f"Steps of more than {races.LONGEST:g} px a decision"
-    yield f"Of {sum(line_up.share for line_up in fights.TASK.line_ups)} matches:"
+    shares = [line_up.share for line_up in fights.TASK.line_ups]
+    yield f"Of {sum(shares)} matches:"
+    for places in ((0, 1, 4, 5), (2, 3, 6), (7, 8), (9, 10, 11)):  # rows of the page
+        yield f"| {', '.join(str(shares[place]) for place in places)} |"
     yield f"alone (4 of {sum(line_up.share for line_up in races.TASK.line_ups)})"
 
 
