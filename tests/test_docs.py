@@ -16,7 +16,12 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.brain import driving
+from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.classic import Parameters
+from pigaming_app.ai.pitanks.levels import HANDICAPS
+from pigaming_app.ai.ppo import pitanks as fights
+from pigaming_app.ai.ppo import race as races
+from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
@@ -55,7 +60,9 @@ CONSTANTS = {  # by section of docs/games.md, the modules in which its constants
 }
 
 ROOT = Path(__file__).resolve().parent.parent
-GAMES_PAGE, OPPONENTS_PAGE, THESIS_PAGE = (ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "thesis"))
+GAMES_PAGE, OPPONENTS_PAGE, NETWORKS_PAGE, QLEARNING_PAGE, THESIS_PAGE = (
+    ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "networks", "qlearning", "thesis")
+)
 PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
 PAGES += sorted((ROOT / "docs").glob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
@@ -256,11 +263,85 @@ def test_the_page_on_the_thesis_says_of_this_program_what_is_so():
     assert [text for text in quoted() if text not in page] == []
 
 
-def test_the_page_on_the_thesis_has_the_results_of_the_page_on_opponents():
+def test_the_page_on_the_thesis_has_the_results_of_the_page_on_qlearning():
     triple = re.compile(r"\d+ / \d+ / \d+")
-    thesis, opponents = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, OPPONENTS_PAGE))
-    assert thesis == opponents
+    thesis, qlearning = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, QLEARNING_PAGE))
+    assert thesis == qlearning
     assert len(thesis) == 10
+
+
+def tables(page):
+    """Tables of a page: its heading, and rows of cells without units and quotation marks."""
+    for block in re.findall(r"(?:^\|.*\n)+", page.read_text(encoding="utf-8"), flags=re.MULTILINE):
+        head, _, *body = map(cells, block.splitlines())
+        yield head, [[cell.replace("`", "") for cell in row] for row in body]
+
+
+def test_the_page_on_networks_lists_the_inputs_of_every_game():
+    listed = []
+    for head, body in tables(NETWORKS_PAGE):
+        if head[:2] == ["group", "inputs"]:
+            names = [(name.split(", "), re.findall(r"\d+", count)) for name, count, _ in body]
+            listed.append(
+                [one for many, counts in names for one in zip(many, map(int, counts * len(many)), strict=False)]
+            )
+    assert listed == [[*ENCODINGS[game].groups] for game in ("pitanks", "race", "factory")]
+
+
+def test_the_page_on_networks_has_the_hyper_parameters():
+    (body,) = [body for head, body in tables(NETWORKS_PAGE) if head[:3] == ["name", "PiTanks", "Robot Race"]]
+    for place, game in enumerate(("pitanks", "race"), start=1):
+        for row in body:
+            shown = row[1] if row[place] == "the same" else row[place]
+            for name, number in zip(re.split(", | to ", row[0]), re.split(", | to ", shown), strict=True):
+                assert float(number) == getattr(TASKS[game].hyper, name), row
+
+
+def test_the_page_on_environments_lists_the_rewards():
+    pytest.importorskip("gymnasium")
+    tallies = import_module("pigaming_app.gym.rewards").TALLIES
+    (body,) = [body for head, body in tables(ROOT / "docs" / "gym.md") if head[:2] == ["game", "tallies"]]
+    for game, names, weights in body:
+        wanted = tallies[GAME_OF[game]]
+        assert tuple(re.sub(r" \(.*?\)", "", names).split(", ")) == wanted.names
+        assert dict(weight.replace("−", "-").rsplit(" ", 1) for weight in weights.split(", ")) == {
+            name: f"{weight:g}" for name, weight in wanted.weights.items()
+        }
+
+
+def rewards():
+    """Statements of docs/networks.md about the rewards of `train ppo`, with the numbers of the code."""
+    yield f"| a hit taken | −{fights.CARE:g}, falling to −{fights.FULL_CARE:g} by half"
+    yield f"| a win, a tie, a defeat | +{fights.WIN:g}, −{fights.WIN / 2:g}, −{fights.WIN:g} |"
+    yield f"| a decision without an opponent in the line of fire | −{fights.BORED:g} |"
+    yield f"| a shot without an opponent in the line of fire | −{fights.BLIND:g} |"
+    yield f"| a decision within {fights.CLOSE:g} px of an opponent | −{fights.CROWD:g} |"
+    yield f"| a shot, in {fights.THRIFTY:.0%} of the matches | up to −{fights.MOST_THRIFT:g},".replace("%", " %")
+    yield f"| the change of a potential, × {fights.SHAPING:g} falling to × {fights.SHAPED:g} |"
+    yield f"else −{fights.FAR / 2:g} for each 1600 px"
+    yield f"In {fights.LATE:.0%} of the matches it sees others up to {fights.LATEST:g} s late".replace("%", " %")
+    yield f"| progress | +1 for each {races.STRIDE:g} px |"
+    yield f"| +{races.LEADING:g} for each {races.STRIDE:g} px it grows |"
+    yield f"| +{races.FINISH:g} for each place up to the last, +{races.WIN:g} for a win |"
+    yield f"Steps of more than {races.LONGEST:g} px a decision"
+    shares = [line_up.share for line_up in fights.TASK.line_ups]
+    yield f"Of {sum(shares)} matches:"
+    for places in ((0, 1, 4, 5), (2, 3, 6), (7, 8), (9, 10, 11)):  # rows of the page
+        yield f"| {', '.join(str(shares[place]) for place in places)} |"
+    yield f"alone (4 of {sum(line_up.share for line_up in races.TASK.line_ups)})"
+
+
+def test_the_page_on_networks_has_the_rewards():
+    page = " ".join(NETWORKS_PAGE.read_text(encoding="utf-8").split())
+    assert [text for text in rewards() if text not in page] == []
+
+
+def test_the_page_on_opponents_has_the_handicaps_of_pitanks():
+    levels = [body for head, body in tables(OPPONENTS_PAGE) if head[1:] == [f"`level{n}`" for n in range(1, 6)]]
+    (body,) = [body for body in levels if body[0][0] == "sees others late by"]
+    for row, name in zip(body, ("delay", "error", "sharpness", "thrift"), strict=True):
+        shown = [0.0 if cell == "–" else float(cell.split()[0]) for cell in row[1:]]
+        assert shown == [getattr(handicap, name) for handicap in HANDICAPS], row
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -1,6 +1,6 @@
 """Policies from elsewhere: ONNX models as brains of a game's networks. Plain play only; needs onnxruntime.
 
-Contract in docs/opponents.md: input float32 (1, inputs) from -1 to 1; output float32 logits (1, choices of all heads),
+Contract in docs/networks.md: input float32 (1, inputs) from -1 to 1; output float32 logits (1, choices of all heads),
 or one output a head, (1, choices), in the order of the heads.
 """
 

@@ -102,7 +102,9 @@ def test_the_strengths_are_ordered(better, worse, least):
 
 
 def test_two_are_faster_than_one():
-    one, two = (played(brains, "hall", 2) for brains in (("hand3", "off", "off", "off"), ("hand3", "off", "hand3", "off")))
+    one, two = (
+        played(brains, "hall", 2) for brains in (("hand3", "off", "off", "off"), ("hand3", "off", "hand3", "off"))
+    )
     assert two.seconds < 0.75 * one.seconds
 
 
