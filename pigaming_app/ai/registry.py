@@ -37,6 +37,7 @@ KINDS: dict[str, dict[str, BrainKind]] = {
         "classic": replace(classic.CLASSIC, explain=classic_thoughts.explain),
         "q1": table_files.shipped_brain("q1"),
         "q2": table_files.shipped_brain("q2"),
+        "net": pitanks_levels.NET,
         **{level.name: level for level in pitanks_levels.LEVELS},
     },
     "factory": {
