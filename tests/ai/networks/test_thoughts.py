@@ -23,7 +23,7 @@ from tests.ai.networks.random_network import random_network
 ENCODING = ENCODINGS["pitanks"]
 
 
-def match_of(network, seed=3, others="hard easy hard"):
+def match_of(network, seed=3, others="hand3 hand1 hand3"):
     """A match with a network on seat 0."""
     one, two, three = (Seat(brain, team) for team, brain in enumerate(others.split(), 1))
     match = new_match(Setup("pitanks", "classic", (Seat("idle", 0), one, two, three), 2.0, seed, "party"))
