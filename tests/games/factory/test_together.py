@@ -132,7 +132,7 @@ def test_limits_follow_the_number_of_robots_and_pallets(floor):
 
 
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
-@pytest.mark.parametrize("brains", one_in(3, ["hard hard hard hard", "hard off off off", "hard easy normal off"]))
+@pytest.mark.parametrize("brains", one_in(3, ["hand3 hand3 hand3 hand3", "hand3 off off off", "hand3 hand1 hand2 off"]))
 def test_ais_deliver_everything_and_nothing_is_lost(floor, brains):
     one, two, three, four = (Seat(brain, 0) for brain in brains.split())
     match = Match(Setup("factory", floor, (one, two, three, four), 5.0, 5, "together", 6))
