@@ -1,4 +1,4 @@
-"""A tank written by hand, on the PettingZoo environment: two of them against two level1.
+"""A tank written by hand, on the PettingZoo environment: two of them against two hand1.
 
     pip install "pigaming-app[gym,train]"  # train compiles the matches; it also runs without
     python3 examples/hand_written_agent.py
@@ -39,7 +39,7 @@ def stick(error: float) -> int:
 
 def play(seed: int, **options: Any) -> dict[str, float]:
     """Play a match; the first agent's tallies at its end."""
-    env = parallel_env("pitanks", agents=2, teams=(0, 0, 1, 1), opponents=("level1", "level1"), **options)
+    env = parallel_env("pitanks", agents=2, teams=(0, 0, 1, 1), opponents=("hand1", "hand1"), **options)
     observations, infos = env.reset(seed=seed)
     while env.agents:
         actions = {agent: act(observations[agent]) for agent in env.agents}
