@@ -9,9 +9,11 @@ from dataclasses import dataclass
 from math import floor
 from typing import Any
 
+from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 
 UNIT = 256.0  # 1.0 in inputs, activations and weights
+STEP = 40.0  # px, by which a robot looks for room to drive
 PERIOD = 5  # ticks between decisions: 10 Hz
 
 
@@ -55,3 +57,30 @@ def whole(value: float) -> float:
 def saturating(value: float) -> float:
     """A smooth bend of any number into (-1, 1): 1/2 at 1."""
     return value / (1.0 + value) if value >= 0.0 else value / (1.0 - value)
+
+
+@kernel
+def encode_room(
+    match: Any,
+    me: Any,
+    ahead_x: float,
+    ahead_y: float,
+    rays: int,
+    steps: int,
+    turn_cos: float,
+    turn_sin: float,
+    k: int,
+    inputs: Any,
+) -> None:
+    """The room to drive in some directions, clockwise from ahead, from input k on. Neighbours differ by the turn."""
+    x, y = STEP * ahead_x, STEP * ahead_y
+    for ray in range(rays):
+        free, to_x, to_y = 0, me.x, me.y
+        while free < steps:
+            to_x += x
+            to_y += y
+            if match.grid[node_at(to_x, to_y)] & BLOCKED:
+                break
+            free += 1
+        inputs[k + ray] = whole(free / (0.5 * steps) - 1.0)
+        x, y = turn_cos * x - turn_sin * y, turn_sin * x + turn_cos * y

@@ -8,14 +8,14 @@ are pallets to lift, else places for the load. A warehouse counts once, by its b
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.networks.encoding import Encoding, saturating, whole
+from pigaming_app.ai.networks.encoding import Encoding, encode_room, saturating, whole
 from pigaming_app.ai.networks.factory_targets import CHOSEN, STALLED, FactorySenses, find_targets, is_left_to_mate
 from pigaming_app.games.factory.rules import slot_for
 from pigaming_app.games.factory.state import INPUT, MACHINE_SLOTS, MACHINES, WORKERS, WORKING, A, B
 from pigaming_app.games.factory.workers import fits
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import update_route
-from pigaming_app.sim.grid import BLOCKED, node_at
+from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import CELL, HEIGHT, HZ, ROBOTS, WIDTH
 
@@ -43,7 +43,7 @@ TURNS = (-1.0, -0.36, -0.11, 0.0, 0.11, 0.36, 1.0)  # positions of the stick; a 
 
 NEAR = 300.0  # px at which nearness is 1/2
 FINE = 60.0  # px between fork and slot that fill the range
-STEP, STEPS = 40.0, 6  # px and number of the steps by which it looks for room
+RAYS, STEPS = 8, 6  # directions in which it looks for room, and steps in each
 DIAGONAL = 0.7071067811865476
 
 
@@ -64,7 +64,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
     encode_machines(match, seat, ahead_x, ahead_y, inputs)
     encode_others(match, seat, senses, ahead_x, ahead_y, inputs)
     encode_people(match, me, ahead_x, ahead_y, inputs)
-    encode_room(match, me, ahead_x, ahead_y, inputs)
+    encode_room(match, me, ahead_x, ahead_y, RAYS, STEPS, DIAGONAL, DIAGONAL, ROOM, inputs)
 
 
 @kernel
@@ -255,22 +255,6 @@ def encode_people(match: Any, me: Any, ahead_x: float, ahead_y: float, inputs: A
         inputs[k + 2] = whole((ahead_x * dy - ahead_y * dx) / distance)
         if worker.walking:
             inputs[k + 3] = whole(-(cos(worker.heading) * dx + sin(worker.heading) * dy) / distance)
-
-
-@kernel
-def encode_room(match: Any, me: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
-    """The room to drive in eight directions, 45 degrees apart, clockwise from ahead."""
-    x, y = STEP * ahead_x, STEP * ahead_y
-    for ray in range(8):
-        free, to_x, to_y = 0, me.x, me.y
-        while free < STEPS:
-            to_x += x
-            to_y += y
-            if match.grid[node_at(to_x, to_y)] & BLOCKED:
-                break
-            free += 1
-        inputs[ROOM + ray] = whole(free / (0.5 * STEPS) - 1.0)
-        x, y = DIAGONAL * (x - y), DIAGONAL * (x + y)
 
 
 @kernel

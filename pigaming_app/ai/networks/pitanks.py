@@ -8,12 +8,11 @@ target, since a degree matters far away and hardly at close range.
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.networks.encoding import Encoding, saturating, whole
+from pigaming_app.ai.networks.encoding import Encoding, encode_room, saturating, whole
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime, lead
 from pigaming_app.games.pitanks.state import MINES, OWN_BULLETS, OWN_MINES
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import Route, descend, free_node, update_route
-from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
@@ -48,7 +47,7 @@ HIDDEN = 400.0  # px by which a robot out of sight counts as farther away
 MATE = 5000.0  # px; team mates come last
 SOON = 1.6  # s; bullets that pass later are left out
 PASSING = 130.0  # px; so are those that pass farther away
-STEP, STEPS = 40.0, 8  # px and number of the steps by which it looks for room
+RAYS, STEPS = 12, 8  # directions in which it looks for room, and steps in each
 FURTHER = 3  # nodes down the field at which the further way points, whatever lies in between
 COS30, SIN30 = 0.8660254037844386, 0.5
 MINE_NEAR = 250.0  # px
@@ -82,7 +81,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
     encode_bullets(match, seat, senses.delay, ahead_x, ahead_y, inputs)
     if match.rules.pickups:
         encode_things(match, seat, ahead_x, ahead_y, inputs)
-    encode_room(match, me, ahead_x, ahead_y, inputs)
+    encode_room(match, me, ahead_x, ahead_y, RAYS, STEPS, COS30, SIN30, ROOM, inputs)
     encode_wall(match, me, RANGE * ahead_x, RANGE * ahead_y, GUN + 4, inputs)
 
 
@@ -320,22 +319,6 @@ def first_wall(match: Any, x: float, y: float, dx: float, dy: float) -> tuple[in
             if when < first:
                 first, found = when, i
     return found, first
-
-
-@kernel
-def encode_room(match: Any, me: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
-    """The room to drive in twelve directions, 30 degrees apart, clockwise from ahead."""
-    x, y = STEP * ahead_x, STEP * ahead_y
-    for ray in range(12):
-        free, to_x, to_y = 0, me.x, me.y
-        while free < STEPS:
-            to_x += x
-            to_y += y
-            if match.grid[node_at(to_x, to_y)] & BLOCKED:
-                break
-            free += 1
-        inputs[ROOM + ray] = whole(free / (0.5 * STEPS) - 1.0)
-        x, y = COS30 * x - SIN30 * y, SIN30 * x + COS30 * y
 
 
 @kernel
