@@ -37,7 +37,7 @@ MOTION, POWERS, PLACE, WAY, COURSE, OTHERS, OILS, PAD, BOX, RACE, SIZE = (
 OTHER = 9  # inputs for each of the others
 HEADS = (("drive", 5), ("turn", 9), ("fire", 2), ("turbo", 2))
 DRIVES = (-0.5, 0.3, 0.6, 0.8, 1.0)  # positions of the stick
-TURNS = (-1.0, -0.6, -0.35, -0.15, 0.0, 0.15, 0.35, 0.6, 1.0)  # a full turn is 17 degrees a decision
+TURNS = (-1.0, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 1.0)  # a full turn is 17 degrees a decision
 
 AHEAD = (25.0, 60.0, 100.0, 150.0, 210.0, 280.0, 360.0, 450.0)  # px along the course
 FASTEST = 550.0  # px/s, with turbo on a boost pad

@@ -79,6 +79,6 @@ TASK = Task(
     rivals=("hand3",),
     habits=habits,
     cut=0.03,
-    hyper=Hyper(matches=160, discount=0.985, last_entropy=0.001),
+    hyper=Hyper(matches=160, minibatch=4096, last_entropy=0.001, discount=0.975, trace=0.9),
     sharpness=4.0,
 )
