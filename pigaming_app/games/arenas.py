@@ -1,5 +1,6 @@
-"""Loading of arenas: files under assets/arenas/GAME/, parsed by the game they belong to."""
+"""Loading of arenas: files under assets/arenas/GAME/, parsed by the game they belong to, and arenas from a seed."""
 
+import re
 from pathlib import Path
 
 from pigaming_app import ASSETS
@@ -8,6 +9,7 @@ from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_arena
 
 MAX_BYTES = 100_000  # per file; replays contain a copy
+SURPRISE = re.compile(r"surprise-(\d{1,9})")  # name of an arena that is made from this seed
 
 
 def arenas(game: str) -> list[str]:
@@ -17,7 +19,10 @@ def arenas(game: str) -> list[str]:
 
 
 def load(game: str, name: str) -> Arena:
-    """Load an arena of a game by its name, or by the path of a file that ends in .toml. Raises ArenaError."""
+    """Load an arena of a game by its name, `surprise-SEED`, or the path of a file that ends in .toml. Raises ArenaError."""
+    make, seed = games()[game].surprise, SURPRISE.fullmatch(name)
+    if make and seed:
+        return parse(game, make(int(seed[1])), name)
     path = Path(name) if name.endswith(".toml") else ASSETS / "arenas" / game / f"{name}.toml"
     try:
         if not path.exists():

@@ -101,6 +101,7 @@ class Game:
     times: Callable[[Any, int], tuple[float, ...]]
     goal: str = ""  # unit of `goals`: laps, pallets
     rounds: tuple[int, ...] = (1,)  # the choices: the number of rounds of which most decide a match
+    surprise: Callable[[int], str] | None = None  # the text of an arena file, from a seed
 
     def records_of(self, variant: str) -> tuple[RecordKind, ...]:
         """The high-score tables of a variant; of an unknown one, those of the default."""

@@ -25,6 +25,8 @@ THRIFTY, MOST_THRIFT = 0.4, 0.9  # share of matches in which a shot has a cost, 
 LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
 WIN = 2.0  # reward of a win; a tie costs half of it
 PAIRS = (0, 1, 0, 1)
+OWN = ("classic", "courtyard", "islands", "labyrinth", "trenches")  # arenas that ship with the game
+MADE = tuple(f"surprise-{seed}" for seed in range(1, 16))  # others, so that it learns no arena by heart
 WALLED = ("labyrinth", "trenches")  # arenas in which somebody who waits must be looked for
 
 
@@ -82,7 +84,7 @@ def duel(share: int, rival: str, arenas: tuple[str, ...] = ()) -> LineUp:
 
 TASK = Task(
     encoding=ENCODING,
-    arenas=("classic", "courtyard", "islands", "labyrinth", "trenches"),
+    arenas=OWN * 3 + MADE,
     variants=("pickups", "pickups", "party", "party", "party", "plain", "classic", "original"),
     minutes=(2.0,),
     line_ups=(
@@ -92,6 +94,7 @@ TASK = Task(
         duel(2, "idle", WALLED),
         duel(1, "q1"),
         duel(2, "q2"),
+        duel(1, "q1", WALLED),
         duel(1, "q2", WALLED),
         duel(3, LEARNER),
         duel(2, POOL),

@@ -5,6 +5,7 @@ from pigaming_app.games.pitanks.observation import Observation, Senses, observe
 from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.start import VARIANTS, ranking_key, read, records, start, stats, times
 from pigaming_app.games.pitanks.state import PiTanks
+from pigaming_app.games.pitanks.surprise import surprise
 from pigaming_app.games.rounds import BEST_OF
 
 PITANKS = Game(
@@ -24,4 +25,5 @@ PITANKS = Game(
     records=records,
     times=times,
     rounds=BEST_OF,
+    surprise=surprise,
 )
