@@ -19,7 +19,7 @@ def arenas(game: str) -> list[str]:
 
 
 def load(game: str, name: str) -> Arena:
-    """Load an arena of a game by its name, `surprise-SEED`, or the path of a file that ends in .toml. Raises ArenaError."""
+    """Load an arena of a game: by its name, as `surprise-SEED`, or by the path of a .toml file. Raises ArenaError."""
     make, seed = games()[game].surprise, SURPRISE.fullmatch(name)
     if make and seed:
         return parse(game, make(int(seed[1])), name)
