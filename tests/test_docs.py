@@ -9,6 +9,7 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib import import_module
+from itertools import pairwise
 from math import atan2, degrees
 from operator import attrgetter
 from pathlib import Path
@@ -286,6 +287,23 @@ def test_the_page_on_networks_lists_the_inputs_of_every_game():
                 [one for many, counts in names for one in zip(many, map(int, counts * len(many)), strict=False)]
             )
     assert listed == [[*ENCODINGS[game].groups] for game in ("pitanks", "race", "factory")]
+
+
+def test_models_on_the_page_have_the_shapes_of_the_games():
+    page = NETWORKS_PAGE.read_text(encoding="utf-8")
+    (block,) = re.findall(r"^```python\n(.*?torch\.onnx\.export.*?)^```$", page, re.M | re.S)
+    layers = [tuple(map(int, pair)) for pair in re.findall(r"Linear\((\d+), (\d+)\)", block)]
+    encoding = ENCODINGS["pitanks"]
+    assert (layers[0][0], layers[-1][1]) == (encoding.size, encoding.outputs)
+    assert all(before[1] == after[0] for before, after in pairwise(layers))
+    assert re.findall(r"zeros\((\d+), (\d+)\)", block) == [("1", str(encoding.size))]
+    drive, turn, fire, turbo = (count for _, count in ENCODINGS["race"].heads)
+    shapes = {game: f"(1, {one.size}) and (1, {one.outputs})" for game, one in ENCODINGS.items()}
+    assert f"Race has {shapes['race']}, in heads of {drive}, {turn}, {fire} and {turbo}; Robot Factory" in page
+    assert f"Robot Factory {shapes['factory']}." in page
+    heads = ", ".join(f"(1, {count})" for _, count in encoding.heads)
+    assert f"| input | one, float32, (1, {encoding.size}):" in page
+    assert f"one output (1, {encoding.outputs}), or four outputs {heads} in this order" in page
 
 
 def test_the_page_on_networks_has_the_hyper_parameters():

@@ -17,6 +17,7 @@ import pytest
 from pigaming_app import ASSETS, cli
 from pigaming_app.scenes import app
 from pigaming_app.storage.parsing import MESSAGE_LENGTH
+from tests.ai.ppo.plain import SET
 from tests.cases import one_in
 from tests.disks import content, room_for
 
@@ -39,6 +40,7 @@ PLAY = ["play", *SHORT]
 DUEL = ["duel", "pitanks", "easy", "idle", "--matches", "1", "--minutes", "0.05"]
 LEAGUE = ["league", "pitanks", "easy", "idle", "--matches", "1", "--minutes", "0.05"]
 TRAIN = ["train", "qlearning", "--matches", "1", "--minutes", "0.05", "--plain", "--out", "a.npz"]
+PPO = ["train", "ppo", *SET, "--out", "foreign.npz", "--resume"]  # refused at the latest for its foreign checkpoint
 OPTIONS = {
     (): ("--display", "--frames", "--camera", "--port", "--baud", "--radio", "--emulate", ""),
     tuple(PLAY): (
@@ -50,6 +52,9 @@ OPTIONS = {
     tuple(DUEL): ("--matches", "--seed", "--minutes", "--arena", "--variant", "--laps", "--pallets", ""),
     tuple(LEAGUE): ("--matches", "--seed", "--minutes", "--arena", "--variant", "--laps", "--pallets", ""),
     tuple(TRAIN): ("--reward", "--matches", "--minutes", "--seed", "--arena", "--out", "--set", "--curve", "--csv", ""),
+    tuple(PPO): (
+        "--updates", "--minutes", "--against", "--seed", "--out", "--set", "--curve", "--csv", "--ray", "--workers", "",
+    ),
     ("replay", "--verify"): ("",),
     ("bench",): ("",),
     ("train", "qlearning", "--out", "a.npz"): ("",),
@@ -88,6 +93,7 @@ def furnish(here):
     (here / "FILE").write_text("text")
     (here / "BINARY.toml").write_bytes(bytes(range(256)))
     (here / "DEEP.toml").write_text("a = " + "[" * 5000)
+    (here / "foreign.checkpoint.npz").write_text("text")
     (here / "LOOP").symlink_to("LOOP")
     if hasattr(os, "mkfifo"):
         os.mkfifo(here / "PIPE")

@@ -96,11 +96,23 @@ def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, caps
         (["--set", "speed=2"], "speed"),
         (["--out", "a.txt"], ".npz"),
         (["--out", "a.npz", "--csv", "a.checkpoint.npz"], "another file"),
+        (["--set", "rate=nan"], "rate is nan"),
+        (["--set", "=1"], "NAME=NUMBER is needed"),
+        (["--updates", "0"], "less than 1"),
+        (["--updates", "-1"], "less than 1"),
+        (["--workers", "0"], "less than 1"),
+        (["--workers", "2"], "only with --ray"),
+        (["--against", "nobody"], "no brain 'nobody'"),
+        (["--out", "nowhere/a.npz"], "no such folder"),
+        (["nonsense"], "no game 'nonsense'"),
+        (["factory"], "learns pitanks, race only"),
         (["--resume"], "a.checkpoint.npz: cannot be read"),
+        ([*SET, "--resume", "--out", "foreign.npz"], "foreign.checkpoint.npz: not a checkpoint"),
     ],
 )
 def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, capsys, monkeypatch, more, word):
     monkeypatch.chdir(tmp_path)
+    Path("foreign.checkpoint.npz").write_text("text")
     length = [] if "--minutes" in more and "nan" in more else ["--updates", "1"]
     assert main(["train", "ppo", *length, "--out", "a.npz", *more]) == 2
     output = capsys.readouterr()

@@ -1,22 +1,20 @@
 """Driving of the factory brain: reach a slot round walls, robots and people, and use the fork there.
 
-In every function `obs` is the Observation, `mind` a ForemanMind and `action` the seat's Action to set.
+In every function `obs` is the Observation, `mind` a Mind and `action` the seat's Action to set.
 """
 
 from math import cos, pi, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.steering import turn_stick
-from pigaming_app.ai.brain.unstick import choose_escape, ticks_stuck
+from pigaming_app.ai.factory.mind import FAR, PERIOD, keep_patience
 from pigaming_app.games.factory.observation import OTHERS
 from pigaming_app.games.factory.state import WORKERS
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.world import CELL, HZ
+from pigaming_app.sim.world import CELL
 
-PERIOD = 5
 AT = 24.0  # px between fork and slot within which it presses fire
 TURN_IN = 30.0  # px short of the slot, measured at the fork, at which it turns towards the slot
 ASIDE = 120.0  # px; a waiting robot makes way for a person nearer than this
@@ -28,13 +26,6 @@ LOOK = 130.0  # px ahead that must be free
 LOOKS, LEAN = 11, 0.32  # candidate directions around the route, and rad between neighbours
 ROBOT_ROOM = 78.0  # px between the centres of two passing robots
 PERSON_ROOM = 70.0  # px between the centres of a robot and a person it passes
-STOP = 96.0  # px; it never backs out towards a person nearer than this
-STUCK_DISTANCE = 16.0  # px; a smaller displacement within STUCK_TICKS counts as stuck
-STUCK_TICKS = 45
-FREEING = 25  # ticks of backing out
-NEARER = 10.0  # px that count as progress towards a slot
-PATIENCE, AVOID_TICKS = 8 * HZ, 12 * HZ  # ticks without progress before a slot is avoided, and ticks of avoiding it
-DETOUR = 4 * HZ  # ticks of a detour towards another slot
 
 
 @kernel
@@ -148,25 +139,11 @@ def free_gap(distance: float, bearing: float, clearance: float) -> float:
 
 @kernel
 def update_patience(obs: Any, mind: Any) -> None:
-    """Avoid the target for AVOID_TICKS ticks after PATIENCE ticks without progress, measured along the route.
-
-    If that target fails again while it is avoided, for want of another, start a detour to approach from elsewhere.
-    """
+    """`keep_patience`, with progress measured along the route."""
     left = obs.goal_distance
     if not obs.straight:
         left = CELL * mind.senses.route.reach[node_at(obs.x, obs.y)]
-    if mind.near or mind.progress_target != mind.target:
-        mind.progress_target, mind.closest, mind.progress_ticks = mind.target, 1e9, 0
-    if 0.0 < left < mind.closest - NEARER:
-        mind.closest, mind.progress_ticks = left, 0
-    else:
-        mind.progress_ticks += PERIOD
-    if mind.progress_ticks <= PATIENCE:
-        return
-    if mind.avoid_ticks > 0 and mind.avoided == mind.target:
-        mind.detour, mind.via = DETOUR, int(uniform(mind) * obs.slot_count)
-    mind.avoided, mind.avoid_ticks = mind.target, AVOID_TICKS
-    mind.closest, mind.progress_ticks, mind.plan_in = 1e9, 0, 0
+    keep_patience(obs, mind, left if left > 0.0 else FAR)
 
 
 @kernel
@@ -182,23 +159,3 @@ def make_detour(obs: Any, mind: Any, action: Any) -> None:
     if obs.goal_distance < STAND_OFF:
         mind.detour = 0
     follow_route(obs, mind, action)
-
-
-@kernel
-def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
-    """Start backing out if it has been stuck for STUCK_TICKS."""
-    if ticks_stuck(mind, obs.x, obs.y, False, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
-        mind.stuck_ticks, mind.freeing = 0, FREEING
-        choose_escape(mind, -0.8, 0.7)
-
-
-@kernel
-def back_out(obs: Any, mind: Any, action: Any) -> None:
-    """Back out with a turn, away from any person within STOP px."""
-    mind.freeing -= PERIOD
-    for w in range(WORKERS):
-        person = obs.people[w]
-        if person.distance < STOP:
-            ahead = abs(person.bearing) < 1.57
-            mind.escape = -0.8 if ahead else 0.8
-    set_action(action, mind.escape, mind.escape_turn, 0, 0)

@@ -13,53 +13,25 @@ In party it prefers rush orders and the fast machine, and takes whatever pallet 
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.factory.driving import back_out, detect_stuck, draw_back, drive_to, make_detour, update_patience
+from pigaming_app.ai.factory.driving import draw_back, drive_to, make_detour, update_patience
+from pigaming_app.ai.factory.mind import PERIOD, PLAN, Mind, back_out, detect_stuck, perhaps_slip
 from pigaming_app.ai.factory.task_allocation import choose_job
-from pigaming_app.games.factory.observation import Observation, Senses, observe
+from pigaming_app.games.factory.observation import observe
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import HZ
 
-PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
-PLAN = 25  # ticks between two allocations
-SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
 START = 150  # upper limit of the random delay before the first job, ticks; with 20, Ice won 70 % in yard
 
 
 @record
-class ForemanMind:
+class ForemanMind(Mind):
     """Memory of the driver."""
 
-    senses: Senses
-    obs: Observation
-    random: int
-    speed: float  # share of full speed
     pause: int  # ticks of pause after each job
-    noise: float  # error of cost estimates, as a share of NOISE
-    dash: int  # 1: may use turbo
-    slip: float  # share of jobs to which it first sets out the wrong way
     joint: int  # 1: considers the job of its mate when it chooses its own
-    target: int  # slot number, -1: none
-    near: int  # 1: wait near the target, which is occupied
-    plan_in: int  # ticks until the next allocation
-    resting: int  # ticks left of the pause
-    carried: int  # load at the last decision, as in `obs.carries`
-    waiting: int  # allocations in a row without a job
-    anchor_x: float  # position at the last progress, px
-    anchor_y: float
-    stuck_ticks: int  # ticks since then
-    progress_target: int  # target to which `closest` and `progress_ticks` refer
-    closest: float  # shortest remaining route so far, px
-    progress_ticks: int  # ticks since then
-    avoided: int  # slot that could not be reached
-    avoid_ticks: int  # ticks left of avoiding it
-    via: int  # slot that a detour leads towards
-    detour: int  # ticks left of the detour
-    freeing: int  # ticks left of backing out
-    escape: float  # forward stick while backing out
-    escape_turn: float
 
 
 @kernel
@@ -78,8 +50,7 @@ def act(obs: Any, mind: Any, action: Any) -> None:
     """Allocate a job when due, then work on it."""
     if obs.carries != mind.carried:  # a job has just ended
         mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause
-        if mind.slip > 0.0 and uniform(mind) < mind.slip:
-            mind.detour, mind.via = SLIP, int(uniform(mind) * obs.slot_count)
+        perhaps_slip(obs, mind)
     mind.plan_in -= PERIOD
     mind.avoid_ticks -= PERIOD
     if mind.plan_in <= 0:

@@ -9,7 +9,8 @@ from math import pi, tau
 from typing import Any
 
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Percept, Thoughts, blend, clamp, towards
-from pigaming_app.ai.factory.driving import LOOK, ROBOT_ROOM, STUCK_TICKS, free_distance
+from pigaming_app.ai.factory.driving import LOOK, ROBOT_ROOM, free_distance
+from pigaming_app.ai.factory.mind import STUCK_TICKS
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, cheapest_place, cost_of, distance_to
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, B
 

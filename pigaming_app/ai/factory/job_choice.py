@@ -5,8 +5,9 @@ In every function `obs` is the Observation and `mind` a PlannerMind.
 
 from typing import Any
 
-from pigaming_app.ai.factory.driving import AVOID_TICKS, STAND_OFF
+from pigaming_app.ai.factory.driving import STAND_OFF
 from pigaming_app.ai.factory.floor_model import NEVER
+from pigaming_app.ai.factory.mind import AVOID_TICKS
 from pigaming_app.ai.factory.schedule import cheapest_schedule, look, promised
 from pigaming_app.ai.factory.task_allocation import cheapest_place, distance_to, waiting_place
 from pigaming_app.games.factory.observation import OTHERS

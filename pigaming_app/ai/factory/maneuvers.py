@@ -8,7 +8,8 @@ from math import pi, sin
 from typing import Any
 
 from pigaming_app.ai.brain.steering import turn_stick
-from pigaming_app.ai.factory.driving import LEAN, LOOK, LOOKS, PERIOD, ROBOT_ROOM, free_distance
+from pigaming_app.ai.factory.driving import LEAN, LOOK, LOOKS, ROBOT_ROOM, free_distance
+from pigaming_app.ai.factory.mind import PERIOD
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel

@@ -7,72 +7,34 @@ announces nothing, take what is nearest to them. It goes to a machine before the
 
 from typing import Any
 
-from pigaming_app.ai.factory.driving import (
-    AVOID_TICKS,
-    DETOUR,
-    NEARER,
-    PATIENCE,
-    STAND_OFF,
-    back_out,
-    detect_stuck,
-    draw_back,
-    make_way,
-)
+from pigaming_app.ai.factory.driving import STAND_OFF, draw_back, make_way
 from pigaming_app.ai.factory.job_choice import plan_job
 from pigaming_app.ai.factory.maneuvers import cruise, reach
+from pigaming_app.ai.factory.mind import PERIOD, PLAN, Mind, back_out, detect_stuck, keep_patience, perhaps_slip
 from pigaming_app.ai.factory.navigation import Ways, find_way
 from pigaming_app.ai.factory.schedule import Plan
-from pigaming_app.games.factory.observation import Observation, Senses, observe
+from pigaming_app.games.factory.observation import observe
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import DT, HZ
 
-PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
-PLAN = 25  # ticks between two plans
-SLIP = 4 * HZ  # ticks for which it drives the wrong way before it notices
 WARM = 60 * HZ  # ticks from the beginning after which it is warm
 CLOSE = 120.0  # px from a slot that is not ready, within which waiting is not being stuck
 
 
 @record
-class PlannerMind:
+class PlannerMind(Mind):
     """Memory of the planner."""
 
-    senses: Senses
-    obs: Observation
     plan: Plan
     ways: Ways
-    random: int
-    speed: float  # share of full speed, at present
-    best_speed: float  # the same once it is warm
+    best_speed: float  # share of full speed once it is warm
     warm_up: float  # share of its speed that it lacks at the beginning of a match
     hesitation: float  # s of pause after each job, on average
-    noise: float  # error of the cost of schedules, as a share of BLUNDER
-    dash: int  # 1: may use turbo
-    slip: float  # share of jobs to which it first sets out the wrong way
-    target: int  # slot number, -1: none
-    wait: float  # s until the fork can be used there
-    near: int  # 1: wait near the target, which is occupied
-    plan_in: int  # ticks until the next plan
-    resting: int  # ticks left of the pause
-    carried: int  # load at the last decision, as in `obs.carries`
+    wait: float  # s until the fork can be used at the target
     pressed: int  # 1: fire was pressed at the last decision
-    waiting: int  # plans in a row without a job
-    anchor_x: float  # position at the last progress, px
-    anchor_y: float
-    stuck_ticks: int  # ticks since then
-    progress_target: int  # target to which `closest` and `progress_ticks` refer
-    closest: float  # shortest remaining way so far, px
-    progress_ticks: int  # ticks since then
-    avoided: int  # slot that could not be reached
-    avoid_ticks: int  # ticks left of avoiding it
-    via: int  # slot that a detour leads towards
-    detour: int  # ticks left of the detour
-    freeing: int  # ticks left of backing out
-    escape: float  # forward stick while backing out
-    escape_turn: float
 
 
 @kernel
@@ -100,8 +62,7 @@ def choose_job(obs: Any, mind: Any, elapsed: int) -> None:
     if obs.carries != mind.carried:
         mind.carried, mind.plan_in, mind.waiting = obs.carries, 0, 0
         mind.resting = int(2.0 * HZ * mind.hesitation * uniform(mind))
-        if mind.slip > 0.0 and uniform(mind) < mind.slip:
-            mind.detour, mind.via = SLIP, int(uniform(mind) * obs.slot_count)
+        perhaps_slip(obs, mind)
     mind.plan_in -= elapsed
     mind.avoid_ticks -= elapsed
     mind.resting -= elapsed
@@ -133,30 +94,10 @@ def act(obs: Any, mind: Any, action: Any) -> None:
         ready = slot.put if obs.carries else slot.lift and slot.holds
         reach(obs, mind, action, 1 if ready else 0)
         if ready or obs.goal_distance > CLOSE:
-            keep_patience(obs, mind)
+            keep_patience(obs, mind, mind.ways.to_go)
             detect_stuck(obs, mind, action)
         else:
             mind.stuck_ticks = 0
-
-
-@kernel
-def keep_patience(obs: Any, mind: Any) -> None:
-    """Avoid the target for AVOID_TICKS ticks after PATIENCE ticks without progress on the way.
-
-    If that target fails again while it is avoided, for want of another, make a detour to approach from elsewhere.
-    """
-    if mind.near or mind.progress_target != mind.target:
-        mind.progress_target, mind.closest, mind.progress_ticks = mind.target, 1e9, 0
-    if mind.ways.to_go < mind.closest - NEARER:
-        mind.closest, mind.progress_ticks = mind.ways.to_go, 0
-    else:
-        mind.progress_ticks += PERIOD
-    if mind.progress_ticks <= PATIENCE:
-        return
-    if mind.avoid_ticks > 0 and mind.avoided == mind.target:
-        mind.detour, mind.via = DETOUR, int(uniform(mind) * obs.slot_count)
-    mind.avoided, mind.avoid_ticks = mind.target, AVOID_TICKS
-    mind.closest, mind.progress_ticks, mind.plan_in = 1e9, 0, 0
 
 
 def make_reset(

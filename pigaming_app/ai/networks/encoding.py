@@ -11,9 +11,11 @@ from typing import Any
 
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.world import ROBOTS
 
 UNIT = 256.0  # 1.0 in inputs, activations and weights
 STEP = 40.0  # px, by which a robot looks for room to drive
+ANYWHERE = 1e18  # px², more than any distance
 PERIOD = 5  # ticks between decisions: 10 Hz
 
 
@@ -57,6 +59,21 @@ def whole(value: float) -> float:
 def saturating(value: float) -> float:
     """A smooth bend of any number into (-1, 1): 1/2 at 1."""
     return value / (1.0 + value) if value >= 0.0 else value / (1.0 - value)
+
+
+@kernel
+def nearest_robot(match: Any, seat: int, told: int, within2: float) -> int:
+    """The nearest of the other robots whose bit in `told` is 0, -1 if none; `within2`: square of the range, px²."""
+    me = match.robots[seat]
+    best, nearest2 = -1, within2
+    for i in range(1, ROBOTS):
+        j = (seat + i) % ROBOTS
+        robot = match.robots[j]
+        if robot.present and not (told >> j) & 1:
+            dx, dy = robot.x - me.x, robot.y - me.y
+            if dx * dx + dy * dy < nearest2:
+                best, nearest2 = j, dx * dx + dy * dy
+    return best
 
 
 @kernel

@@ -8,7 +8,7 @@ are pallets to lift, else places for the load. A warehouse counts once, by its b
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.networks.encoding import Encoding, encode_room, saturating, whole
+from pigaming_app.ai.networks.encoding import ANYWHERE, Encoding, encode_room, nearest_robot, saturating, whole
 from pigaming_app.ai.networks.factory_targets import CHOSEN, STALLED, FactorySenses, find_targets, is_left_to_mate
 from pigaming_app.games.factory.rules import slot_for
 from pigaming_app.games.factory.state import INPUT, MACHINE_SLOTS, MACHINES, WORKERS, WORKING, A, B
@@ -201,21 +201,13 @@ def encode_machine(match: Any, me: Any, m: int, ahead_x: float, ahead_y: float, 
 @kernel
 def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
     """The other robots, the nearest first."""
-    me = match.robots[seat]
     told = 0
     for place in range(ROBOTS - 1):
-        best, least = -1, 1e18
-        for i in range(1, ROBOTS):
-            j = (seat + i) % ROBOTS
-            robot = match.robots[j]
-            if robot.present and not (told >> j) & 1:
-                dx, dy = robot.x - me.x, robot.y - me.y
-                if dx * dx + dy * dy < least:
-                    best, least = j, dx * dx + dy * dy
-        if best < 0:
-            return
-        told |= 1 << best
-        encode_other(match, me, best, senses, ahead_x, ahead_y, OTHERS + OTHER * place, inputs)
+        j = nearest_robot(match, seat, told, ANYWHERE)
+        if j < 0:
+            break
+        told |= 1 << j
+        encode_other(match, match.robots[seat], j, senses, ahead_x, ahead_y, OTHERS + OTHER * place, inputs)
 
 
 @kernel

@@ -8,6 +8,7 @@ from typing import Any
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PRIZE, WAY, Percept
 from pigaming_app.ai.networks import factory, pitanks, race
 from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.ai.networks.pitanks_things import MINE_NEAR
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 Point = tuple[float, float]
@@ -71,7 +72,7 @@ def in_pitanks(match: Any, inputs: Sequence[float], at: At) -> Found:
         yield "pickups", Percept(PRIZE, *at(distance_of(inputs[k + 2], 300.0), inputs[k], inputs[k + 1]))
     k = pitanks.MINE
     if inputs[k + 2]:
-        yield "mines", Percept(BULLET, *at(pitanks.MINE_NEAR * (1.0 - inputs[k + 2]), inputs[k], inputs[k + 1]))
+        yield "mines", Percept(BULLET, *at(MINE_NEAR * (1.0 - inputs[k + 2]), inputs[k], inputs[k + 1]))
 
 
 def in_factory(match: Any, inputs: Sequence[float], at: At) -> Found:

@@ -8,7 +8,7 @@ the course and across it, relative to the robot.
 from math import cos, sin, sqrt
 from typing import Annotated, Any
 
-from pigaming_app.ai.networks.encoding import Encoding, saturating, whole
+from pigaming_app.ai.networks.encoding import Encoding, nearest_robot, saturating, whole
 from pigaming_app.games.race.course import CoursePosition, locate, segment_at
 from pigaming_app.games.race.observation import SIGHT, SLICKS, Feature, observe_features, observe_next_line
 from pigaming_app.games.race.state import OIL, SHIELD, TURBO
@@ -156,21 +156,13 @@ def encode_course(match: Any, robot: Any, along: float, ahead_x: float, ahead_y:
 @kernel
 def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
     """The other robots, the nearest first."""
-    me = match.robots[seat]
     told = 0
     for place in range(ROBOTS - 1):
-        best, nearest2 = -1, NEAR * NEAR
-        for i in range(1, ROBOTS):
-            j = (seat + i) % ROBOTS
-            robot = match.robots[j]
-            if robot.present and not (told >> j) & 1:
-                dx, dy = robot.x - me.x, robot.y - me.y
-                if dx * dx + dy * dy < nearest2:
-                    best, nearest2 = j, dx * dx + dy * dy
-        if best < 0:
+        j = nearest_robot(match, seat, told, NEAR * NEAR)
+        if j < 0:
             break
-        told |= 1 << best
-        encode_other(match, seat, best, senses, ahead_x, ahead_y, OTHERS + OTHER * place, inputs)
+        told |= 1 << j
+        encode_other(match, seat, j, senses, ahead_x, ahead_y, OTHERS + OTHER * place, inputs)
 
 
 @kernel

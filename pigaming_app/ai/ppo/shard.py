@@ -6,7 +6,6 @@ on its state and on the policy, so shards may be played in any order, in threads
 
 from collections.abc import Callable, Sequence
 from functools import cache
-from math import exp, log
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,15 +14,16 @@ from pigaming_app.ai.experiments.cast import Cast, dispatcher, family_of
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import HIDDEN, Policy, network_brain
+from pigaming_app.ai.ppo.forward import bend, make_layer, sample
 from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.batch import matches as new_matches
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.kernel import compiled, compiled_before, kernel
+from pigaming_app.sim.kernel import compiled, compiled_before
 from pigaming_app.sim.record import packed
-from pigaming_app.sim.rng import MASK, uniform
+from pigaming_app.sim.rng import MASK
 from pigaming_app.sim.world import ROBOTS
 
 NOBODY, LEARNING = -1, -2  # families of a seat that no brain of the cast plays
@@ -49,49 +49,6 @@ class ShardState(NamedTuple):
     matches: Any
     minds: Any
     random: Any  # state of the generator
-
-
-@kernel
-def bend(values: Any) -> None:
-    """Padé's tanh in single precision."""
-    for i in range(HIDDEN):
-        y = min(max(values[i] * np.float32(1.0 / 3.0), np.float32(-1.0)), np.float32(1.0))
-        square = y * y
-        values[i] = y * (square + np.float32(3.0)) / (np.float32(3.0) * square + np.float32(1.0))
-
-
-def make_layer(inputs: int, units: int) -> Callable[[Any, Any, Any], None]:
-    """A kernel for out = x @ matrix[:-1] + matrix[-1]. Six times as fast as one that serves all sizes."""
-
-    def layer(x: Any, matrix: Any, out: Any) -> None:
-        for unit in range(units):
-            out[unit] = matrix[inputs, unit]
-        for i in range(inputs):
-            value = x[i]
-            if value != 0.0:
-                for unit in range(units):
-                    out[unit] += value * matrix[i, unit]
-
-    return kernel(layer)
-
-
-@kernel
-def sample(logits: Any, first: int, count: int, mind: Any) -> tuple[int, float]:
-    """A choice of one head and the logarithm of its probability."""
-    best = logits[first]
-    for i in range(1, count):
-        if logits[first + i] > best:
-            best = logits[first + i]
-    total = 0.0
-    for i in range(count):
-        total += exp(logits[first + i] - best)
-    left, choice = uniform(mind) * total, count - 1
-    for i in range(count):
-        left -= exp(logits[first + i] - best)
-        if left < 0.0:
-            choice = i
-            break
-    return choice, logits[first + choice] - best - log(total)
 
 
 def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable[..., None]:

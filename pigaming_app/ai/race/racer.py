@@ -11,6 +11,7 @@ are alike: its reaction at the start, its line and how early it brakes vary with
 In `party` it uses its item when that pays (see `wants_item`). FIRE also asks for the way back when it is lost for good.
 """
 
+from dataclasses import dataclass
 from math import atan2, cos, pi, sin, sqrt
 from typing import Any
 
@@ -47,33 +48,33 @@ RACE, GO_BACK, BREAK_FREE = range(3)
 
 @record
 class RacerMind:
-    """Memory of the driver."""
+    """Memory of the driver; the fields without a comment are as in Driver."""
 
     senses: Senses
     obs: Observation
-    speed: float  # share of full speed
-    form: float  # share of that which it reaches today
-    line: float  # 0: middle of the course, 1: fastest line
-    spread: float  # standard deviation of the line error, px
-    boost: float  # share of the turbo meter needed to start turbo; above 1: never
-    random: int
-    state: int
+    speed: float
+    form: float  # share of its speed that it reaches today
+    line: float
+    spread: float
+    boost: float
+    random: int  # state of the generator
+    state: int  # one of the three above
     since: int  # ticks in this state
     reaction: float  # ticks from GO to its first action
-    care: float  # share of the speed in bends that it may give away, braking early
-    mistakes: float  # probability of a mistake, per draw of the line error in a bend
-    foresight: float  # px ahead, within which it reacts to pads, boxes and oil
-    alert: float  # probability, per decision, of noticing that it should use its item
+    care: float
+    mistakes: float
+    foresight: float
+    alert: float
     stray: float  # present line error, px
     caution: float  # share of the speed in bends that it gives away at present
     blunder: int  # ticks left of a mistake
     stray_left: int  # ticks until the next draw
     lane: float  # present lane, px right of the middle
     anchor_x: float  # position at the last progress, px
-    anchor_y: float
+    anchor_y: float  # px
     stuck_ticks: int  # ticks since then
     escape: float  # forward stick while backing out
-    escape_turn: float
+    escape_turn: float  # turn stick then
 
 
 @kernel
@@ -258,59 +259,56 @@ def wants_turbo(obs: Any, mind: Any, bend: float) -> int:
     return 1 if obs.boosting or obs.turbo > mind.boost else 0
 
 
-def make_reset(
-    speed: float,
-    form: float,
-    line: float,
-    spread: float,
-    boost: float,
-    delay: float,
-    reaction: tuple[int, int],
-    care: float,
-    mistakes: float,
-    foresight: float,
-    alert: float,
-) -> Any:
-    """A `reset` for a strength: `form` is the share of its speed that it may lack on a bad day; `delay` the reaction
-    time to others, s; `reaction` the fewest ticks to its start, and how many more are possible, a multiple of PERIOD,
-    so that no seat has an advantage; the rest as in RacerMind.
-    """
+@dataclass(frozen=True)
+class Driver:
+    """In what drivers differ."""
 
-    def fill(mind: RacerMind, seed: int) -> None:
-        mind.senses.delay, mind.senses.look = delay, LOOK
-        mind.speed, mind.line, mind.spread, mind.boost = speed, line, spread, boost
-        mind.care, mind.mistakes, mind.foresight, mind.alert = care, mistakes, foresight, alert
+    form: float  # share of its speed that it may lack on a bad day
+    line: float  # 0: middle of the course, 1: fastest line
+    spread: float  # standard deviation of the line error, px
+    boost: float  # share of the turbo meter needed to start turbo; above 1: never
+    delay: float  # reaction time to others, s
+    reaction: tuple[int, int]  # fewest ticks to its start, and how many more are possible
+    care: float  # share of the speed in bends that it may give away, braking early
+    mistakes: float  # probability of a mistake, per draw of the line error in a bend
+    foresight: float  # px ahead, within which it reacts to pads, boxes and oil
+    alert: float  # probability, per decision, of noticing that it should use its item
+    speed: float = 1.0  # share of full speed, on a good day
+
+    def reset(self, mind: RacerMind, seed: int) -> None:
+        """Initialise a fresh mind. The range of reactions is a multiple of PERIOD: no seat has an advantage."""
+        mind.senses.delay, mind.senses.look = self.delay, LOOK
+        mind.speed, mind.line, mind.spread, mind.boost = self.speed, self.line, self.spread, self.boost
+        mind.care, mind.mistakes, mind.foresight, mind.alert = self.care, self.mistakes, self.foresight, self.alert
         mind.random = seeded(seed)
-        mind.reaction = reaction[0] + int(reaction[1] * uniform(mind))
-        mind.form = 1.0 - form * uniform(mind)
+        fewest, more = self.reaction
+        mind.reaction = fewest + int(more * uniform(mind))
+        mind.form = 1.0 - self.form * uniform(mind)
 
-    return fill
+
+def racer(name: str, driver: Driver) -> BrainKind:
+    """The brain of a driver."""
+    return BrainKind(name, RacerMind, think, driver.reset)
 
 
-HAND1 = BrainKind(
+HAND1 = racer(
     "hand1",
-    RacerMind,
-    think,
-    make_reset(
-        speed=0.93, form=0.03, line=0.2, spread=10.0, boost=2.0, delay=0.35, reaction=(10, 30), care=0.2, mistakes=0.15,
-        foresight=160.0, alert=0.03,
+    Driver(
+        form=0.03, line=0.2, spread=10.0, boost=2.0, delay=0.35, reaction=(10, 30), care=0.2, mistakes=0.15,
+        foresight=160.0, alert=0.03, speed=0.93,
     ),
 )  # fmt: skip
-HAND2 = BrainKind(
+HAND2 = racer(
     "hand2",
-    RacerMind,
-    think,
-    make_reset(
-        speed=1.0, form=0.02, line=0.35, spread=6.0, boost=0.5, delay=0.2, reaction=(5, 25), care=0.1, mistakes=0.03,
+    Driver(
+        form=0.02, line=0.35, spread=6.0, boost=0.5, delay=0.2, reaction=(5, 25), care=0.1, mistakes=0.03,
         foresight=240.0, alert=0.1,
     ),
 )  # fmt: skip
-HAND3 = BrainKind(
+HAND3 = racer(
     "hand3",
-    RacerMind,
-    think,
-    make_reset(
-        speed=1.0, form=0.012, line=1.0, spread=2.0, boost=0.12, delay=0.05, reaction=(2, 20), care=0.02, mistakes=0.0,
+    Driver(
+        form=0.012, line=1.0, spread=2.0, boost=0.12, delay=0.05, reaction=(2, 20), care=0.02, mistakes=0.0,
         foresight=320.0, alert=0.5,
     ),
 )  # fmt: skip

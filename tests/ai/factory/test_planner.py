@@ -12,24 +12,18 @@ from pigaming_app.ai.factory.levels import LEVELS
 from pigaming_app.ai.factory.navigation import FAR
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (
     DONE,
-    ENTRY,
     HALF,
     ICE,
-    IN_SLOT,
-    INPUT,
     MACHINE_SLOTS,
-    MAX_PALLETS,
-    ON_ROBOT,
     A,
     B,
 )
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT, HZ
+from tests.ai.factory.begun import begun
 from tests.bench.fairness_factory import measure
 from tests.bench.makespan_bound import Floor, Search, bound
 from tests.bench.trial import Trial
@@ -38,15 +32,6 @@ from tests.games.factory.shop import Shop
 
 FLOORS = arenas("factory")
 NAMES = [level.name for level in LEVELS]
-
-
-def begun(brains, floor="hall", seed=1, pallets=4, variant="standard"):
-    one, two, three, four = (Seat(brain, i % 2) for i, brain in enumerate(brains))
-    match = Match(Setup("factory", floor, (one, two, three, four), 5.0, seed, variant, pallets))
-    for seat, brain in enumerate(brains):
-        if brain != "off":
-            match.sit(seat, make_brain("factory", brain, seed * 4 + seat))
-    return match
 
 
 @cache
@@ -136,27 +121,6 @@ def test_it_leaves_to_a_person_what_the_person_is_about():
         shop.match.sit(0, make_brain("factory", "level5", 0))
         shop.tick(round(0.6 * HZ))
         assert shop.loads[0].aim - 1 != person
-
-
-def test_what_it_cannot_get_rid_of_it_brings_back_after_a_while():
-    """Both machines B are full of the other team's pallets, which nobody removes."""
-    match = begun(("level5", "idle", "off", "off"))
-    state = match.state
-    state.rules.collect = 10**6
-    others = iter(range(MAX_PALLETS, MAX_PALLETS + 4))
-    for s, slot in enumerate(state.slots):
-        if slot.machine >= 0 and state.machines[slot.machine].kind == B:
-            p = next(others)
-            move(state, p, IN_SLOT, s)
-            state.pallets[p].state = HALF if slot.kind == INPUT else DONE
-    while not state.loads[0].pallet:
-        match.tick()
-    pallet = state.pallets[state.loads[0].pallet - 1]
-    pallet.state = HALF
-    while pallet.place == ON_ROBOT and match.seconds < 60.0:
-        match.tick()
-    assert pallet.place == IN_SLOT
-    assert state.slots[pallet.at].kind == ENTRY
 
 
 def test_the_way_round_a_machine_is_the_shorter_one():

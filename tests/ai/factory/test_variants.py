@@ -8,26 +8,15 @@ from pigaming_app.ai.factory.foreman_thoughts import explain
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.state import DONE, ENTRY, EXIT, FIRE, ICE, INPUT, MACHINE_SLOTS, SHARED, A, B
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.setup import make_setup
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT, HZ
+from tests.ai.factory.begun import begun
 from tests.bench.fairness_factory import measure
 from tests.bench.trial import Trial
 from tests.games.factory.test_party import loose, party, put
 
 FLOORS = arenas("factory")
-
-
-def begun(variant, brains, floor="hall", seed=1, goal=0):
-    teams = (0, 0, 0, 0) if variant == "together" else (0, 1, 0, 1)
-    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
-    match = Match(Setup("factory", floor, (one, two, three, four), 3.0, seed, variant, goal))
-    for seat, brain in enumerate(brains):
-        if brain != "off":
-            match.sit(seat, make_brain("factory", brain, seed * 4 + seat))
-    return match
 
 
 def first_aim(shop, seat=0):
@@ -116,7 +105,7 @@ def test_it_contests_the_fast_machine(fast):
 
 @pytest.mark.long
 def test_both_teams_score_steal_and_deliver_rush_orders():
-    match = begun("party", ("hand3",) * 4, "yard")
+    match = begun(("hand3",) * 4, "yard", pallets=0, minutes=3.0, variant="party")
     doubles = 0
     before = [0, 0]
     while not match.over and match.seconds < 90.0:
@@ -134,7 +123,7 @@ def test_both_teams_score_steal_and_deliver_rush_orders():
 
 
 def test_four_allies_announce_four_different_jobs():
-    match = begun("together", ("hand3",) * 4, goal=8)
+    match = begun(("hand3",) * 4, pallets=8, minutes=3.0, variant="together")
     shared = 0
     for _ in range(20 * HZ):
         match.tick()
@@ -173,7 +162,7 @@ def test_robots_hardly_ever_stand_still(variant, brain):
 
 def test_a_waiting_robot_moves_to_and_fro_near_its_place():
     """All machines A are occupied for good, and it carries a raw pallet."""
-    match = begun("standard", ("hand3", "off", "off", "off"), goal=4)
+    match = begun(("hand3", "off", "off", "off"), minutes=3.0)
     state = match.state
     state.rules.collect = 10**6
     while not state.loads[0].pallet:
@@ -194,7 +183,7 @@ def test_a_waiting_robot_moves_to_and_fro_near_its_place():
 
 
 def test_the_weakest_sets_out_the_wrong_way_and_says_so():
-    match = begun("standard", ("hand1", "off", "off", "off"), goal=4)
+    match = begun(("hand1", "off", "off", "off"), minutes=3.0)
     mind, wrong = match.brains[0].mind, 0
     while not match.over and match.seconds < 60.0:
         match.tick()
@@ -213,7 +202,7 @@ def test_the_strongest_never_does():
 
 
 def test_while_it_thinks_it_draws_back_but_not_onto_a_person():
-    match = begun("standard", ("hand1", "off", "off", "off"), goal=4)
+    match = begun(("hand1", "off", "off", "off"), minutes=3.0)
     mind, robot = match.brains[0].mind, match.state.robots[0]
     while not match.state.loads[0].pallet:
         match.tick()
