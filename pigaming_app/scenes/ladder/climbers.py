@@ -9,18 +9,19 @@ from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.storage.scores import Score, ScoreTable
-from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, text_width
+from pigaming_app.ui.draw import ICE, LABEL, text_width
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.labels import heading, sign
+from pigaming_app.ui.widgets.arrows import Arrows, as_direction, draw_arrows
+from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.score_board import Board, BoardRow
 
 GAMES = (*FORMATS, ALL)
 SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans in days
 STAY = 20.0  # s without input
 INPUT_LOCKOUT = 0.4  # s during which input is ignored
-LINE_Y, ARROW = 234, 20  # px
+LINE_Y = 234  # px
 CLOSING = Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK
 
 
@@ -33,12 +34,18 @@ class Climbers:
         hints = [(Button.FIRE, "results.on"), (Button.RIGHT, "ladder.hint_games")]
         self.prompts = context.prompts(hints)
 
+    @property
+    def arrows(self) -> Arrows:
+        """Beside the name of the game."""
+        reach = text_width(self._title(), LABEL) / 2 + 60
+        return {Button.LEFT: (960 - reach, LINE_Y), Button.RIGHT: (960 + reach, LINE_Y)}
+
     def on_enter(self) -> None:
         """Nothing to do."""
 
     def handle(self, event: InputEvent) -> StackOperation:
         """LEFT and RIGHT change the game; any button continues."""
-        event = self.prompts.as_button(event)
+        event = as_direction(self.prompts.as_button(event), self.arrows)
         self.idle = 0.0
         if event.button in (Button.LEFT, Button.RIGHT):
             step = 1 if event.button is Button.RIGHT else -1
@@ -59,10 +66,7 @@ class Climbers:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the tables and the prompts."""
         self.paint(screen)
-        name = self.context.words(f"ladder.{ALL}" if self.game == ALL else f"games.{self.game}")
-        reach = text_width(name, LABEL) / 2 + 60
-        for side, x in (("left", 960 - reach), ("right", 960 + reach)):
-            sign(side, ARROW, FOCUS, LINE).draw(screen, x, LINE_Y)
+        draw_arrows(screen, self.arrows)
         self.prompts.draw(screen)
 
     def paint(self, screen: pygame.Surface) -> None:
@@ -70,12 +74,14 @@ class Climbers:
         words, table = self.context.words, table_of(self.game)
         screen.blit(backdrop(), (0, 0))
         heading(words("ladder.climbers"), words("ladder.measure")).draw(screen)
-        name = words(f"ladder.{ALL}" if self.game == ALL else f"games.{self.game}")
-        text(name, LABEL, ICE, "head").draw(screen, 960, LINE_Y)
+        text(self._title(), LABEL, ICE, "head").draw(screen, 960, LINE_Y)
         for column, (title, days) in zip((0, 6), SPANS.items(), strict=True):
             rows = [self._row(row) for row in self.context.scores.best(table, days)]
             board = Board(words(title), rows, words("best.first"), words("ladder.lost_column"))
             board.draw(screen, *span(column, 6), self.turned)
+
+    def _title(self) -> str:
+        return self.context.words(f"ladder.{ALL}" if self.game == ALL else f"games.{self.game}")
 
     def _row(self, row: Score) -> BoardRow:
         level, lost = stars_and_losses(row.score)

@@ -20,18 +20,18 @@ from pigaming_app.scenes.results.high_score_tables import (
     older_tables,
 )
 from pigaming_app.storage.scores import Score, ScoreTable
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, text_width
+from pigaming_app.ui.draw import BODY, ICE, LABEL, MIST, text_width
 from pigaming_app.ui.draw.layers import RIGHT, backdrop, span
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.labels import heading, sign
+from pigaming_app.ui.widgets.arrows import as_direction, draw_arrows
+from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.score_board import Board, BoardRow
 
 WHERE_Y, LINE_Y = 112, 234  # px
 STAY = 12.0  # s without input
 INPUT_LOCKOUT = 0.4  # s during which input is ignored
-ARROW = 20  # px from the centre of an arrow to its tip
 ROOM, WHERE_ROOM = 1360, 800  # px: maximum width of the conditions, and of game and arena
 STEPS = {Button.LEFT: -1, Button.RIGHT: 1, Button.UP: -1, Button.DOWN: 1}
 CLOSING = Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK
@@ -59,9 +59,7 @@ class HighScores:
         """Directions and arrows select other tables; any button continues."""
         event = self.prompts.as_button(event)
         self.idle = 0.0
-        if event.button is Button.CLICK and event.at:
-            near = (button for button, at in self.arrows.items() if hit(at, event.at))
-            event = InputEvent(next(near, Button.CLICK), event.device)
+        event = as_direction(event, self.arrows)
         if event.button in STEPS:
             self._step(event.button)
         elif self.age > INPUT_LOCKOUT and event.button in CLOSING:
@@ -79,8 +77,7 @@ class HighScores:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the tables and the prompt."""
         self.paint(screen)
-        for button, (x, y) in self.arrows.items():
-            sign(button.name.lower(), ARROW, FOCUS, LINE).draw(screen, x, y)
+        draw_arrows(screen, self.arrows)
         self.prompts.draw(screen)
 
     def paint(self, screen: pygame.Surface) -> None:
@@ -150,11 +147,6 @@ def nearest(contest: ScoreTable, shelf: Sequence[ScoreTable]) -> ScoreTable:
         table for table in shelf if table.game == contest.game
     ]
     return contest if contest in shelf or not shelf else next(iter(near or shelf))
-
-
-def hit(arrow: tuple[float, float], at: tuple[float, float]) -> bool:
-    """True if a click at `at` hits an arrow."""
-    return abs(at[0] - arrow[0]) <= 48 and abs(at[1] - arrow[1]) <= ARROW + 4
 
 
 def place_of(contest: ScoreTable) -> tuple[str, str]:

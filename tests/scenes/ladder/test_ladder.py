@@ -205,6 +205,9 @@ def test_the_table_steps_through_the_games_and_a_mouse_drives_by_keyboard(arcade
     for game in ("factory", "race", "all", "pitanks"):
         arcade.press(Button.RIGHT)
         assert arcade.shown(Climbers).game == game
+    for button, game in ((Button.LEFT, "all"), (Button.RIGHT, "pitanks")):
+        arcade.click(*arcade.shown(Climbers).arrows[button])
+        assert arcade.shown(Climbers).game == game
     arcade.wait(0.5)
     arcade.press(Button.BACK)
     choice = arcade.shown(LadderChoice)
