@@ -27,6 +27,7 @@ WIN = 2.0  # reward of a win; a tie costs half of it
 PAIRS = (0, 1, 0, 1)
 OWN = ("classic", "courtyard", "islands", "labyrinth", "trenches")  # arenas that ship with the game
 MADE = tuple(f"surprise-{seed}" for seed in range(1, 16))  # others, so that it learns no arena by heart
+PURE = ("classic",)  # variants by which the tables learned: with neither turbo nor protection, a stray burst decides
 WALLED = ("labyrinth", "trenches")  # arenas in which somebody who waits must be looked for
 
 
@@ -77,9 +78,9 @@ def habits(random: Any) -> dict[str, float]:
     return {"thrift": thrift, "delay": delay}
 
 
-def duel(share: int, rival: str, arenas: tuple[str, ...] = ()) -> LineUp:
+def duel(share: int, rival: str, arenas: tuple[str, ...] = (), variants: tuple[str, ...] = ()) -> LineUp:
     """The learner against one rival."""
-    return LineUp(share, (LEARNER, rival, OFF, OFF), arenas=arenas)
+    return LineUp(share, (LEARNER, rival, OFF, OFF), variants=variants, arenas=arenas)
 
 
 TASK = Task(
@@ -94,8 +95,9 @@ TASK = Task(
         duel(2, "idle", WALLED),
         duel(1, "q1"),
         duel(2, "q2"),
-        duel(1, "q1", WALLED),
         duel(1, "q2", WALLED),
+        duel(3, "q1", variants=PURE),
+        duel(1, "q2", variants=PURE),
         duel(3, LEARNER),
         duel(2, POOL),
         LineUp(2, (LEARNER, "hand3", "hand3", "hand3")),
