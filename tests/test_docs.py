@@ -344,7 +344,7 @@ def rewards():
     yield f"Steps of more than {races.LONGEST:g} px a decision"
     shares = [line_up.share for line_up in fights.TASK.line_ups]
     yield f"Of {sum(shares)} matches:"
-    for places in ((0, 1, 4, 5), (2, 3, 6), (7, 8), (9, 10, 11)):  # rows of the page
+    for places in ((0, 1, 4, 5), (2, 3, 6), (7, 8), (9, 10), (11, 12, 13)):  # rows of the page
         yield f"| {', '.join(str(shares[place]) for place in places)} |"
     yield f"alone (4 of {sum(line_up.share for line_up in races.TASK.line_ups)})"
 

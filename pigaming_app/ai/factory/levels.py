@@ -14,21 +14,21 @@ LEVELS: tuple[BrainKind, ...] = (
         PlannerMind,
         think,
         make_reset(
-            speed=0.785, hesitation=0.36, noise=0.18, delay=0.4, slip=0.05, rules=1, form=0.3, start=6.0, warm_up=0.53
+            speed=0.935, hesitation=0.25, noise=0.12, delay=0.4, slip=0.04, rules=1, form=0.3, start=6.5, warm_up=0.78
         ),
     ),
     BrainKind(
         "level2",
         PlannerMind,
         think,
-        make_reset(speed=0.83, hesitation=0.18, noise=0.1, delay=0.3, rules=1, form=0.3, start=5.0, warm_up=0.44),
+        make_reset(speed=0.945, hesitation=0.12, noise=0.06, delay=0.3, rules=1, form=0.3, start=6.0, warm_up=0.69),
     ),
     BrainKind(
         "level3",
         PlannerMind,
         think,
-        make_reset(speed=0.9, hesitation=0.07, noise=0.04, delay=0.2, rules=1, form=0.25, start=4.0, warm_up=0.34),
+        make_reset(speed=0.965, hesitation=0.04, noise=0.02, delay=0.2, rules=2, form=0.27, start=5.0, warm_up=0.58),
     ),
-    BrainKind("level4", PlannerMind, think, make_reset(speed=0.955, delay=0.15, form=0.15, start=3.0, warm_up=0.2)),
-    BrainKind("level5", PlannerMind, think, make_reset()),
+    BrainKind("level4", PlannerMind, think, make_reset(speed=0.985, delay=0.1, form=0.21, start=3.0, warm_up=0.37)),
+    BrainKind("level5", PlannerMind, think, make_reset(form=0.03)),
 )
