@@ -1,18 +1,21 @@
 """Fixtures. Tests use no display, no sound card and none of the user's files except the cache of compiled code."""
 
+import compileall
+import gc
 import os
 import pickle
 import tempfile
 import threading
 import time
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from pigaming_app.cli import BLAS
-from pigaming_app.sim.kernel import _cache_folder
+from pigaming_app.sim.kernel import PACKAGE, _cache_folder
 
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["SDL_AUDIODRIVER"] = "dummy"
@@ -26,6 +29,35 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))  # before home mo
 def _a_home_of_their_own() -> Iterator[None]:
     with tempfile.TemporaryDirectory() as home, pytest.MonkeyPatch.context() as patch:
         patch.setenv("PIGAMING_HOME", home)
+        yield
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Write the bytecode of the package before the workers start.
+
+    Numba names what it caches by the pickled functions, and those read from bytecode pickle to other bytes than those
+    just compiled from source: with both in a fresh clone, each worker would compile each loop for itself.
+    """
+    if not hasattr(config, "workerinput"):
+        compileall.compile_dir(str(PACKAGE), quiet=2, workers=0)
+
+
+def pytest_collection_finish() -> None:
+    """Leave the collected tests and their modules out of every garbage collection."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000)  # more often, it takes a hundredth of all time
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _one_process_for_many_arcades() -> Iterator[None]:
+    """Parse each text of an arena once, as arenas never change, and keep freed memory for the next test."""
+    from pigaming_app.games import arenas
+    from pigaming_app.ui import memory
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(arenas, "parse_arena", lru_cache(64)(arenas.parse_arena))
+        patch.setattr(memory, "return_large_blocks", lambda: None)
         yield
 
 

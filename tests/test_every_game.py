@@ -39,7 +39,7 @@ def companies():
 
 
 def company(game):
-    """Brains for the four seats: the strongest hand-written ones, if any, and random ones."""
+    """Brains for the four seats: the best one, a machine by hand, if any, and random ones."""
     kinds = BRAINS[game]
     return [kinds.get("hard", kinds["random"]), kinds["random"], kinds.get("fsm", kinds["random"]), kinds["random"]]
 

@@ -4,6 +4,7 @@ import ast
 import subprocess
 import sys
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -43,18 +44,26 @@ DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pet
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 
+@cache
+def nodes(path):
+    """The imports and texts of a file, each with True if at module level."""
+    every = [*ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
+    inside = {id(node) for f in every if isinstance(f, ast.FunctionDef) for node in ast.walk(f)}
+    return [
+        (node, id(node) not in inside) for node in every if isinstance(node, ast.Import | ast.ImportFrom | ast.Constant)
+    ]
+
+
 def imported(path):
     """The modules that a file imports, each with True if at module level: `pigaming_app.sim`, `os.path`."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    inside = {id(node) for f in ast.walk(tree) if isinstance(f, ast.FunctionDef) for node in ast.walk(f)}
-    for node in ast.walk(tree):
+    for node, at_once in nodes(path):
         if isinstance(node, ast.Import):
-            yield from ((alias.name, id(node) not in inside) for alias in node.names)
+            yield from ((alias.name, at_once) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path} imports by a relative name"
             names = [f"pigaming_app.{alias.name}" for alias in node.names if is_module(alias.name)]
             for module in names if node.module == "pigaming_app" and names else [node.module]:
-                yield module, id(node) not in inside
+                yield module, at_once
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(PACKAGE.parent).as_posix())
@@ -90,7 +99,7 @@ def graph():
     names = {name_of(path): path for path in FILES}
     found = {name: set() for name in names}
     for name, path in names.items():
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node, _ in nodes(path):
             if isinstance(node, ast.Import):
                 found[name] |= {alias.name for alias in node.names} & names.keys()
             elif isinstance(node, ast.ImportFrom):
@@ -106,21 +115,13 @@ def name_of(path):
     return ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
 
 
-def circles(arrows):
-    """Groups of nodes that reach each other."""
-    reached = {node: reach(arrows, node) for node in arrows}
-    groups = {tuple(sorted(one for one in reached[node] if node in reached[one])) for node in arrows}
-    return {group for group in groups if len(group) > 1}
-
-
-def reach(arrows, node):
-    """Nodes reachable by a path of at least one edge."""
-    found, ways = set(), [node]
-    while ways:
-        for after in arrows[ways.pop()] - found:
-            found.add(after)
-            ways.append(after)
-    return found
+def circle(arrows):
+    """Nodes that reach each other, if any."""
+    try:
+        TopologicalSorter(arrows).prepare()
+    except CycleError as found:
+        return found.args[1]
+    return []
 
 
 def within(folder):
@@ -141,13 +142,13 @@ FOLDERS = sorted({path.parent for path in FILES} - {PACKAGE.parent})
 
 
 def test_no_circle_between_modules_even_by_late_imports():
-    assert circles(graph()) == set()
+    assert circle(graph()) == []
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.relative_to(PACKAGE).as_posix())
 def test_no_circle_between_the_units_of_a_folder(folder):
     name = ".".join(folder.relative_to(PACKAGE.parent).parts)
-    assert circles(within(name)) == set()
+    assert circle(within(name)) == []
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.relative_to(PACKAGE).as_posix())

@@ -82,8 +82,9 @@ def all_languages(*keys: str) -> list[str]:
     return [Words(language)(key) for language in LANGUAGES for key in keys]
 
 
-def texts(language: str) -> dict[str, str]:
-    """All texts of a language by key. Raises OSError or ValueError for a missing or malformed file."""
+@cache
+def texts(language: str) -> Mapping[str, str]:
+    """All texts of a language by key, cached. Raises OSError or ValueError for a missing or malformed file."""
     file = ASSETS / "text" / f"{language}.toml"
     return dict(_flat(tomllib.loads(file.read_text(encoding="utf-8")), ""))
 
