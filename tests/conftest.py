@@ -1,7 +1,6 @@
 """Fixtures. Tests use no display, no sound card and none of the user's files except the cache of compiled code."""
 
 import compileall
-import gc
 import os
 import pickle
 import tempfile
@@ -40,13 +39,6 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     if not hasattr(config, "workerinput"):
         compileall.compile_dir(str(PACKAGE), quiet=2, workers=0)
-
-
-def pytest_collection_finish() -> None:
-    """Leave the collected tests and their modules out of every garbage collection."""
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(20_000)  # more often, it takes a hundredth of all time
 
 
 @pytest.fixture(autouse=True, scope="session")
