@@ -22,7 +22,7 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.jobs.bench import environments, yardsticks
+from pigaming_app.jobs.bench import environments, networks, yardsticks
 from pigaming_app.jobs.bench.memory import measure as measure_memory
 from pigaming_app.jobs.bench.walk import measure as measure_screens
 from pigaming_app.sim.kernel import can_compile
@@ -52,6 +52,7 @@ def measure(game: str, variant: str) -> dict[str, Any]:
         "plain_us_per_tick": 1e6 * plain,
         "compiled_us_per_tick": None if single is None else 1e6 * single,
         "compiled_ticks_per_second": both,
+        "network": _network(game, variant),
         "environments": environments.measure(game),
         "comparison": _comparison(variant) if game == yardsticks.GAME else None,
         "real_time_factor_plain": 1.0 / (HZ * plain),
@@ -63,6 +64,11 @@ def measure(game: str, variant: str) -> dict[str, Any]:
         "rss_mb": measure_memory(),
         "machine": machine(),
     }
+
+
+def _network(game: str, variant: str) -> dict[str, float | None]:
+    fast = batch(game, variant, 1, MATCHES, True) if can_compile() else None
+    return networks.measure(game, batch(game, variant, 1, 1, False), fast)
 
 
 def batch(game: str, variant: str, seed: int, matches: int, fast: bool) -> Batch:
