@@ -1,8 +1,8 @@
 """The five levels of PiTanks: one network with handicaps.
 
-All see others late and beside where they are, as people do, and save shots. Weaker levels see later, aim worse and drive
-more slowly. The best is the most sparing of shots, since it needs fewest. No level skips decisions, which would look like
-a machine that hangs. The network alone is `net`: no person beats it.
+All see others late and beside where they are, as people do, and save shots. Weaker levels see later, aim worse and
+drive more slowly. The best is the most sparing of shots, since it needs fewest. No level skips decisions, which would
+look like a machine that hangs. The network alone is `net`: no person beats it.
 """
 
 from pigaming_app.ai.networks.files import shipped_brain
