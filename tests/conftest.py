@@ -43,13 +43,37 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.fixture(autouse=True, scope="session")
 def _one_process_for_many_arcades() -> Iterator[None]:
-    """Parse each text of an arena once, as arenas never change, and keep freed memory for the next test."""
+    """Parse each text of an arena once, as arenas never change; keep pictures and freed memory for the next test."""
     from pigaming_app.games import arenas
     from pigaming_app.ui import memory
+    from pigaming_app.ui.draw.surface_cache import surfaces
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(arenas, "parse_arena", lru_cache(64)(arenas.parse_arena))
         patch.setattr(memory, "return_large_blocks", lambda: None)
+        patch.setattr(surfaces, "budget", 1 << 30)
+        patch.setattr(surfaces, "release_matches", lambda: None)
+        yield
+
+
+@pytest.fixture
+def _cache_as_in_the_arcade() -> Iterator[None]:
+    """An empty surface cache with its own budget, released after a match: for tests of memory."""
+    from pigaming_app.ui.draw.surface_cache import BUDGET, SurfaceCache, surfaces
+    from tests.scenes.cache import empty_cache
+
+    with empty_cache(), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(surfaces, "budget", BUDGET)
+        patch.setattr(surfaces, "release_matches", lambda: SurfaceCache.release_matches(surfaces))
+        yield
+
+
+@pytest.fixture(scope="module")
+def _cache_of_its_own() -> Iterator[None]:
+    """A surface cache for a module whose tests damage what it holds."""
+    from tests.scenes.cache import empty_cache
+
+    with empty_cache():
         yield
 
 

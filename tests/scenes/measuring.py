@@ -17,8 +17,8 @@ import pytest
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.glow import GlowCanvas, LayeredCanvas
 from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.draw.theme import CAPITALS, line_width
+from tests.scenes.cache import empty_cache
 
 SAFE = pygame.Rect(60, 16, 1800, 1048)  # slightly more than the safe area of menus: prompts may lie in its margin
 Painting = Callable[..., Steps[pygame.Surface]]
@@ -79,7 +79,7 @@ class Screen(pygame.Surface):
 
 @contextmanager
 def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
-    """Measure everything rendered from now on; caches are cleared first."""
+    """Measure everything rendered in this scope, with empty caches."""
     forget()
     measured = Measured()
     text, line, draw = GlowCanvas.text, GlowCanvas.line, LitImage.draw
@@ -128,13 +128,13 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
         noted(LayeredCanvas.render_steps, lambda page: [page.soft, page.crisp, page.glow]),
     )
     patch.setattr(LitImage, "draw", drawn)
-    yield Screen(measured)
+    with empty_cache():
+        yield Screen(measured)
     forget()
 
 
 def forget() -> None:
-    """Clear every cache of rendered surfaces."""
-    surfaces.clear()
+    """Clear every other cache of rendered surfaces."""
     for name, module in list(sys.modules.items()):
         if name.startswith(("pigaming_app.scenes", "pigaming_app.ui")):
             for part in [module, *(one for one in vars(module).values() if isinstance(one, type))]:

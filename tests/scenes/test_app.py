@@ -14,6 +14,8 @@ from pigaming_app.scenes.flow.stack import Scene, StackOperation
 from pigaming_app.scenes.title.scene import Title
 from tests.scenes.arcade import Floor
 
+pytestmark = pytest.mark.usefixtures("_cache_of_its_own")
+
 STEP = 1 / 60
 
 

@@ -27,11 +27,12 @@ from tests.bench.memory import press
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade, Floor
 
+pytestmark = pytest.mark.usefixtures("_cache_as_in_the_arcade")
+
 
 @pytest.fixture
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    surfaces.clear()
     arcade = Arcade(controls)
     arcade.stack = Stack(Title(arcade.context))
     return arcade
@@ -90,7 +91,6 @@ def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monk
 @pytest.mark.long
 def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    surfaces.clear()
     monkeypatch.setattr(surfaces, "budget", 64 << 20)
     rng, used = random.Random(5), [0]
 

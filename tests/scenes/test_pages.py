@@ -23,7 +23,6 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views import game_tile
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import text as texts
-from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -34,6 +33,7 @@ from pigaming_app.ui.widgets.button_prompts import ButtonPrompts, places
 from pigaming_app.ui.window import Canvas
 from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.cache import empty_cache
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
 SMALLEST = 0.8  # minimum scale of a text
@@ -120,9 +120,8 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
     true_size = texts.fit_size
     for module in (card, choice, dials, gadgets, game_tile, howto, page, player_card, texts):
         monkeypatch.setattr(module, "fit_size", measured)
-    surfaces.clear()
-    scene = top(arcade, name)
-    walk(arcade, scene)
+    with empty_cache():
+        walk(arcade, top(arcade, name))
     assert {text: share for text, share in shrunk.items() if share < SMALLEST} == {}
     assert shrunk or name in ("padtest", "replays")
 

@@ -15,6 +15,8 @@ from pigaming_app.scenes.title import scene as title
 from tests.cases import one_in
 from tests.scenes.arcade import Floor
 
+pytestmark = pytest.mark.usefixtures("_cache_of_its_own")
+
 STEP = 1 / 30
 QUARTER = pygame.Rect(0, 0, 960, 540)
 Damage = Callable[[Context, pygame.Surface], object]

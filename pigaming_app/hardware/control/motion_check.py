@@ -105,6 +105,8 @@ class RobotMotionCheck:
         self._weak_speeds = [0.0, 0.0]
         self._sent: deque[WheelTravel] = deque()
         self._poses: deque[PoseSample] = deque()
+        self._delays = [drivetrain.dead_time + late for late in LATENESS]  # s
+        self._ends: list[tuple[float, ...]] = []  # travel at the newest pose, px, for each delay
 
     def record_command(self, now: float, twist: Twist) -> None:
         """Note a command (px/s, rad/s) in force from `now` on."""
@@ -159,6 +161,7 @@ class RobotMotionCheck:
     def _judge(self) -> None:
         newest, before = self._poses[-1], self._poses[-2]
         dt, old = newest.time - before.time, self.contradiction
+        self._ends = [self._at(newest.time - delay) for delay in self._delays]
         astray = self._astray(self._since(SHORT), newest)
         leaving = self._leaves(self._since(SOON), newest)
         held = self._since(LONG)
@@ -174,7 +177,7 @@ class RobotMotionCheck:
     def _astray(self, since: PoseSample, now: PoseSample) -> bool | None:
         """True if no tolerated wheel moves like this; None if hardly any motion was expected or observed."""
         left, right, side = self._travelled(since, now)
-        options = self._expected(since, now)
+        options = self._expected(since)
         longest = max(abs(travel) for option in options for travel in option[:2])
         if max(abs(left), abs(right)) < SLACK and longest < 2.0 * SLACK:
             return None
@@ -188,7 +191,7 @@ class RobotMotionCheck:
     def _stuck(self, since: PoseSample, now: PoseSample) -> bool:
         """True if a wheel stands although even the weakest tolerated one would have turned."""
         travelled = self._travelled(since, now)
-        options = self._expected(since, now)
+        options = self._expected(since)
         for wheel in (0, 1):
             for sign in (1.0, -1.0):
                 weak = [sign * option[2 + wheel] for option in options]
@@ -203,7 +206,7 @@ class RobotMotionCheck:
         if dt <= 0.0:
             return False
         heading = 0.5 * (since.heading + now.heading)
-        options = self._expected(since, now)[:-1]
+        options = self._expected(since)[:-1]
         ahead = [0.5 * (left + right) for left, right, *_ in options]
         nudge = NUDGE + 0.5 * UNEVEN * max(abs(left - right) for left, right, *_ in options)  # uneven wheels spin off
         for (out_x, out_y), edge in EDGES:
@@ -214,10 +217,16 @@ class RobotMotionCheck:
                 return True
         return False
 
-    def _expected(self, since: PoseSample, now: PoseSample) -> list[tuple[float, float, float, float]]:
-        """Expected travel of the wheels between two poses, for each delay of LATENESS."""
-        delays = [self.drivetrain.dead_time + late for late in LATENESS]
-        return [self._model_travel(since.time - delay, now.time - delay) for delay in delays]
+    def _expected(self, since: PoseSample) -> list[tuple[float, float, float, float]]:
+        """Expected travel of the wheels, and of the weakest tolerated ones, from a pose to the newest one, px.
+
+        One for each delay of LATENESS.
+        """
+        expected = []
+        for delay, after in zip(self._delays, self._ends, strict=True):
+            before = self._at(since.time - delay)
+            expected.append((after[0] - before[0], after[1] - before[1], after[2] - before[2], after[3] - before[3]))
+        return expected
 
     def _travelled(self, since: PoseSample, now: PoseSample) -> tuple[float, float, float]:
         """Travel of both wheels between two poses, and the sideways motion, px."""
@@ -227,12 +236,6 @@ class RobotMotionCheck:
         ahead, side = dx * cos(middle) + dy * sin(middle), dy * cos(middle) - dx * sin(middle)
         half = 0.5 * self.drivetrain.base * turn
         return chord * ahead + half, chord * ahead - half, side
-
-    def _model_travel(self, since: float, until: float) -> tuple[float, float, float, float]:
-        """Travel of the model's wheels and of the weakest tolerated ones between two times, px."""
-        before, after = self._at(since), self._at(until)
-        left, right, weak_left, weak_right = (b - a for a, b in zip(before, after, strict=True))
-        return left, right, weak_left, weak_right
 
     def _at(self, time: float) -> tuple[float, ...]:
         """Cumulative travel at a time, interpolated; constant before the first command."""
@@ -244,7 +247,12 @@ class RobotMotionCheck:
             return sent[-1][1:]
         before, after = sent[at - 1], sent[at]
         share = (time - before.time) / (after.time - before.time)
-        return tuple(a + share * (b - a) for a, b in zip(before[1:], after[1:], strict=True))
+        return (
+            before.left + share * (after.left - before.left),
+            before.right + share * (after.right - before.right),
+            before.weak_left + share * (after.weak_left - before.weak_left),
+            before.weak_right + share * (after.weak_right - before.weak_right),
+        )
 
 
 def _turned_against(left: float, right: float, options: Sequence[tuple[float, ...]]) -> bool:

@@ -67,15 +67,7 @@ class Optics:
 
     def lit_by(self, height: float) -> tuple[Map, Map]:
         """For every px of the sensor, the canvas px that lights its point on the plane at `height` mm: x and y."""
-        x, y = self.plane(height, slice(None), slice(None))
-        lamp, grow = LAMP.astype(np.float32), np.float32(LAMP[2] / (LAMP[2] - height))
-        x, y = lamp[0] + (x - lamp[0]) * grow, lamp[1] + (y - lamp[1]) * grow
-        h = self.to_canvas.astype(np.float32)
-        below = h[2, 0] * x + h[2, 1] * y + h[2, 2]
-        return (
-            (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below,
-            (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below,
-        )
+        return _lit_by(self.lens, self.turn.tobytes(), self.to_canvas.tobytes(), height)
 
 
 def _look_at(lens: TrueLens) -> Floats:
@@ -98,6 +90,21 @@ def _distorted(lens: TrueLens, rays: Floats) -> Floats:
     u = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)
     v = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y
     return np.column_stack([lens.centre[0] + lens.focal * u, lens.centre[1] + lens.focal * v])
+
+
+@lru_cache(maxsize=4)
+def _lit_by(lens: TrueLens, turn: bytes, to_canvas: bytes, height: float) -> tuple[Map, Map]:
+    """Like `Optics.lit_by`, shared by all arenas with the same lens."""
+    rays, up = _rays(lens, turn), np.float32(lens.eye[2] - height)
+    x, y = lens.eye[0] + rays[..., 0] * up, lens.eye[1] + rays[..., 1] * up
+    lamp, grow = LAMP.astype(np.float32), np.float32(LAMP[2] / (LAMP[2] - height))
+    x, y = lamp[0] + (x - lamp[0]) * grow, lamp[1] + (y - lamp[1]) * grow
+    h = np.frombuffer(to_canvas).reshape(3, 3).astype(np.float32)
+    below = h[2, 0] * x + h[2, 1] * y + h[2, 2]
+    return (
+        (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below,
+        (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below,
+    )
 
 
 @lru_cache(maxsize=2)

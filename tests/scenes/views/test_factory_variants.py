@@ -403,9 +403,9 @@ def test_allies_have_warehouses_of_one_colour(screen, variant):
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("_cache_as_in_the_arcade")
 @pytest.mark.parametrize("variant", games()["factory"].variants)
 def test_a_match_fits_the_cache_and_is_left_alone(screen, variant):
-    surfaces.clear()
     scene = BusyFactory(variant)
     view = VIEWS["factory"](scene.arena, scene.state, ["human", "human", "easy", "hard"], AllEffects(), Words("pt"))
     while not view.prewarm(1000.0):
