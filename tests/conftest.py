@@ -51,7 +51,7 @@ def _one_process_for_many_arcades() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(arenas, "parse_arena", lru_cache(64)(arenas.parse_arena))
         patch.setattr(memory, "return_large_blocks", lambda: None)
-        patch.setattr(surfaces, "budget", 1 << 30)
+        patch.setattr(surfaces, "budget", 512 << 20)
         patch.setattr(surfaces, "release_matches", lambda: None)
         yield
 
