@@ -30,5 +30,5 @@ LEVELS: tuple[BrainKind, ...] = (
         make_reset(speed=0.965, hesitation=0.04, noise=0.02, delay=0.2, rules=2, form=0.27, start=5.0, warm_up=0.58),
     ),
     BrainKind("level4", PlannerMind, think, make_reset(speed=0.985, delay=0.1, form=0.21, start=3.0, warm_up=0.37)),
-    BrainKind("level5", PlannerMind, think, make_reset(form=0.03)),
+    BrainKind("level5", PlannerMind, think, make_reset(form=0.06)),
 )

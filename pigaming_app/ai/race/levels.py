@@ -65,5 +65,5 @@ HAND_WRITTEN = (
 )
 LEVELS = (
     *(replace(racer(f"level{n}", driver), explain=explain) for n, driver in enumerate(HAND_WRITTEN, start=1)),
-    shipped_brain("level5", "race", NETWORK, Handicap(sharpness=4.0, form=0.049, delay=0.35, error=0.2)),
+    shipped_brain("level5", "race", NETWORK, Handicap(sharpness=4.0, form=0.052, delay=0.35, error=0.2)),
 )
