@@ -14,21 +14,21 @@ LEVELS: tuple[BrainKind, ...] = (
         PlannerMind,
         think,
         make_reset(
-            speed=0.935, hesitation=0.25, noise=0.12, delay=0.4, slip=0.04, rules=1, form=0.3, start=6.5, warm_up=0.78
+            speed=0.945, hesitation=0.23, noise=0.12, delay=0.4, slip=0.04, rules=1, form=0.3, start=6.5, warm_up=0.78
         ),
     ),
     BrainKind(
         "level2",
         PlannerMind,
         think,
-        make_reset(speed=0.945, hesitation=0.12, noise=0.06, delay=0.3, rules=1, form=0.3, start=6.0, warm_up=0.69),
+        make_reset(speed=0.95, hesitation=0.12, noise=0.06, delay=0.3, rules=1, form=0.3, start=6.0, warm_up=0.68),
     ),
     BrainKind(
         "level3",
         PlannerMind,
         think,
-        make_reset(speed=0.965, hesitation=0.04, noise=0.02, delay=0.2, rules=2, form=0.27, start=5.0, warm_up=0.58),
+        make_reset(speed=0.97, hesitation=0.04, noise=0.02, delay=0.2, rules=2, form=0.27, start=5.0, warm_up=0.56),
     ),
-    BrainKind("level4", PlannerMind, think, make_reset(speed=0.985, delay=0.1, form=0.21, start=3.0, warm_up=0.37)),
-    BrainKind("level5", PlannerMind, think, make_reset(form=0.06)),
+    BrainKind("level4", PlannerMind, think, make_reset(speed=0.995, delay=0.1, form=0.2, start=3.0, warm_up=0.34)),
+    BrainKind("level5", PlannerMind, think, make_reset()),
 )
