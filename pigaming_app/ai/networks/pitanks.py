@@ -6,9 +6,9 @@ target, since a degree matters far away and hardly at close range.
 """
 
 from math import cos, sin, sqrt
-from typing import Any
+from typing import Annotated, Any
 
-from pigaming_app.ai.networks.encoding import Encoding, encode_room, saturating, whole
+from pigaming_app.ai.networks.encoding import PERIOD, Encoding, encode_room, saturating, whole
 from pigaming_app.ai.networks.pitanks_things import (
     RANGE,
     encode_bullets,
@@ -54,18 +54,24 @@ TURNS = (-1.0, -0.36, -0.11, 0.0, 0.11, 0.36, 1.0)  # positions of the stick; a 
 HIDDEN = 400.0  # px by which a robot out of sight counts as farther away
 MATE = 5000.0  # px; team mates come last
 RAYS, STEPS = 12, 8  # directions in which it looks for room, and steps in each
+JUMP = 100.0  # px between two looks, farther than any robot drives: it was put back
 FURTHER = 3  # nodes down the field at which the further way points, whatever lies in between
 COS30, SIN30 = 0.8660254037844386, 0.5
 
 
 @record
 class PiTanksSenses:
-    """Parameters of the observation, and the route to the nearest opponent."""
+    """Parameters of the observation, the poses at the last look, and the route to the nearest opponent."""
 
     delay: float  # s, age of the poses of others
     error: float  # rad by which others appear beside where they are
     thrift: float  # cost of a shot, in points, that it has in mind
     clears: int  # bit j: robot j is in the line of fire
+    looked: int  # tick after the last look, 0 before the first
+    x: Annotated[list[float], ROBOTS]  # px
+    y: Annotated[list[float], ROBOTS]
+    vx: Annotated[list[float], ROBOTS]  # px/s, since the look before
+    vy: Annotated[list[float], ROBOTS]
     route: Route
 
 
@@ -81,6 +87,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
     inputs[PLACE] = whole(2.0 * me.x / WIDTH - 1.0)
     inputs[PLACE + 1] = whole(2.0 * me.y / HEIGHT - 1.0)
     inputs[PLACE + 2], inputs[PLACE + 3] = whole(ahead_x), whole(ahead_y)
+    track(match, senses)
     encode_others(match, seat, senses, ahead_x, ahead_y, inputs)
     encode_bullets(match, seat, senses.delay, ahead_x, ahead_y, BULLETS, inputs)
     if match.rules.pickups:
@@ -116,6 +123,27 @@ def encode_self(match: Any, seat: int, inputs: Any) -> None:
     inputs[RULES] = whole(rules.protection / 37.0)
     inputs[RULES + 1] = whole(1.0 if rules.knockout else 0.0)
     inputs[RULES + 2] = whole(rules.pickups)
+
+
+@kernel
+def track(match: Any, senses: Any) -> None:
+    """The velocities of all robots, from their displacement since the last look, as a camera measures them.
+
+    The speed of a robot's motors says nothing about one that pushes against a wall.
+    """
+    elapsed = match.tick + 1 - senses.looked
+    if elapsed == 0:
+        return
+    tracked = senses.looked > 0 and 0 < elapsed <= 2 * PERIOD
+    senses.looked = match.tick + 1
+    for j in range(ROBOTS):
+        robot = match.robots[j]
+        dx, dy = robot.x - senses.x[j], robot.y - senses.y[j]
+        if tracked and dx * dx + dy * dy < JUMP * JUMP:
+            senses.vx[j], senses.vy[j] = dx * HZ / elapsed, dy * HZ / elapsed
+        else:
+            senses.vx[j], senses.vy[j] = robot.linear * cos(robot.heading), robot.linear * sin(robot.heading)
+        senses.x[j], senses.y[j] = robot.x, robot.y
 
 
 @kernel
@@ -193,7 +221,7 @@ def encode_other(
     me, robot, tank = match.robots[seat], match.robots[j], match.tanks[j]
     heading = robot.heading - senses.delay * robot.angular
     towards_x, towards_y = cos(heading), sin(heading)
-    vx, vy = robot.linear * towards_x, robot.linear * towards_y
+    vx, vy = senses.vx[j], senses.vy[j]
     true_x, true_y = robot.x - me.x - senses.delay * vx, robot.y - me.y - senses.delay * vy
     dx, dy = true_x - senses.error * true_y, true_y + senses.error * true_x
     distance = sqrt(dx * dx + dy * dy) + 1e-9

@@ -10,7 +10,7 @@ import numpy as np
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.pitanks import ENCODING, GUN, HABITS, OTHER, OTHERS, WAY
 from pigaming_app.ai.ppo.learner import Hyper
-from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
+from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, OFF, POOL, LineUp, Task
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.sim.kernel import kernel
 
@@ -26,7 +26,7 @@ LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and t
 WIN = 2.0  # reward of a win; a tie costs half of it
 PAIRS = (0, 1, 0, 1)
 OWN = ("classic", "courtyard", "islands", "labyrinth", "trenches")  # arenas that ship with the game
-MADE = tuple(f"surprise-{seed}" for seed in range(1, 16))  # others, so that it learns no arena by heart
+MADE = tuple(f"surprise-{seed}" for seed in range(1, 61))  # others, so that it learns no arena by heart
 PURE = ("classic",)  # variants by which the tables learned: with neither turbo nor protection, a stray burst decides
 WALLED = ("labyrinth", "trenches")  # arenas in which somebody who waits must be looked for
 
@@ -85,23 +85,25 @@ def duel(share: int, rival: str, arenas: tuple[str, ...] = (), variants: tuple[s
 
 TASK = Task(
     encoding=ENCODING,
-    arenas=OWN * 3 + MADE,
+    arenas=OWN * 12 + MADE,
     variants=("pickups", "pickups", "party", "party", "party", "plain", "classic", "original"),
     minutes=(2.0,),
     line_ups=(
-        duel(5, "hand3"),
+        duel(3, "hand3"),
         duel(1, "hand2"),
-        duel(2, "classic", WALLED),
-        duel(2, "idle", WALLED),
+        duel(1, "classic", WALLED),
+        duel(1, "idle"),
+        duel(1, "idle", WALLED),
         duel(1, "q1"),
-        duel(2, "q2"),
+        duel(1, "q2"),
         duel(1, "q2", WALLED),
         duel(3, "q1", variants=PURE),
         duel(1, "q2", variants=PURE),
         duel(3, LEARNER),
-        duel(2, POOL),
+        duel(22, EXPLOITER),
+        duel(9, POOL),
         LineUp(2, (LEARNER, "hand3", "hand3", "hand3")),
-        LineUp(1, (LEARNER, LEARNER, POOL, "hand3")),
+        LineUp(2, (LEARNER, LEARNER, POOL, "hand3")),
         LineUp(2, (LEARNER, "hand3", LEARNER, "hand3"), PAIRS),
     ),
     gauges=("points", "taken", "shots", "potential"),

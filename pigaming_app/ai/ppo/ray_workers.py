@@ -23,7 +23,7 @@ SYNCED_EVERY = 10  # updates
 REACHED = 10.0  # s, for the head of a cluster to answer
 ATTEMPTS = 5  # to replace a worker, in a row
 NOT_SENT = [".git", ".venv", "docs", "tests"]  # to other machines
-Chunk = tuple[Sequence[Any], Any, int]  # policy, pool and number of decisions of a call of `collect`
+Chunk = tuple[Sequence[Any], Any, int]  # policies, pool and number of decisions of a call of `collect`
 
 
 class NoCluster(Exception):
@@ -45,8 +45,8 @@ class ShardWorker:
 
     def collect(self, number: int, chunk: Chunk) -> Experience:
         """Play on. Ray hands over arrays that cannot be written, which compiled code takes for another type."""
-        policy, pool, decisions = chunk
-        return self._shards[number].collect([np.array(matrix) for matrix in policy], np.array(pool), decisions)
+        policies, pool, decisions = chunk
+        return self._shards[number].collect([np.array(matrices) for matrices in policies], np.array(pool), decisions)
 
     def replay(self, number: int, chunk: Chunk) -> None:
         """Play on, for the state alone."""
@@ -87,9 +87,9 @@ class RayShards:
     ) -> None:
         self._ray.shutdown()
 
-    def gather(self, policy: Sequence[Any], pool: Any, decisions: int) -> list[Experience]:
+    def gather(self, policies: Sequence[Any], pool: Any, decisions: int) -> list[Experience]:
         """Play `decisions` decisions in every shard. Raises NoCluster."""
-        chunk = self._ray.put((policy, pool, decisions))
+        chunk = self._ray.put((policies, pool, decisions))
         experiences = self._ask(lambda worker, number: worker.collect.remote(number, chunk))
         self._chunks.append(chunk)
         if len(self._chunks) >= SYNCED_EVERY:

@@ -15,7 +15,7 @@ from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import HIDDEN, Policy, network_brain
 from pigaming_app.ai.ppo.forward import bend, make_layer, sample
-from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
+from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, LineUp, Task
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.batch import matches as new_matches
 from pigaming_app.games.game import Seat, Setup
@@ -26,13 +26,13 @@ from pigaming_app.sim.record import packed
 from pigaming_app.sim.rng import MASK
 from pigaming_app.sim.world import ROBOTS
 
-NOBODY, LEARNING = -1, -2  # families of a seat that no brain of the cast plays
+NOBODY, LEARNING = -1, -2  # families of a seat that no brain of the cast plays; each learner has its own, downwards
 STARTS = 4  # prepared starts of every kind of match; all else that is random in it is drawn anew
 MINDS = 8  # prepared minds of every brain
 
 
 class Experience(NamedTuple):
-    """What a shard has played: T decisions in S streams. A stream is a seat with the learner."""
+    """What a shard has played: T decisions in S streams. A stream is a seat with a learner."""
 
     inputs: Any  # (T + 1, S, inputs + 1) float32; the last row is the situation after the last decision; see Network
     choices: Any  # (T, S, heads) int64
@@ -41,6 +41,7 @@ class Experience(NamedTuple):
     valid: Any  # (T, S) bool; False after the end of a match
     over: Any  # (S,) bool; the match has ended
     results: Any  # (S,) float32, reward of its end
+    players: Any  # (S,) int64, the learner: its place in `Task.learners`
 
 
 class ShardState(NamedTuple):
@@ -69,9 +70,9 @@ def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable
         minds: Any,
         weights: Any,
         streams: Any,
-        first_matrix: Any,
-        second_matrix: Any,
-        last_matrix: Any,
+        first_matrices: Any,
+        second_matrices: Any,
+        last_matrices: Any,
         inputs: Any,
         choices: Any,
         log_odds: Any,
@@ -79,6 +80,7 @@ def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable
         valid: Any,
         over: Any,
         results: Any,
+        players: Any,
     ) -> None:
         one, two, logits = np.zeros(HIDDEN, np.float32), np.zeros(HIDDEN, np.float32), np.zeros(outputs, np.float32)
         decisions = len(choices)
@@ -100,11 +102,11 @@ def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable
                         continue
                     if t == decisions:
                         continue
-                    first_layer(x, first_matrix, one)
+                    first_layer(x, first_matrices[players[s]], one)
                     bend(one)
-                    second_layer(one, second_matrix, two)
+                    second_layer(one, second_matrices[players[s]], two)
                     bend(two)
-                    last_layer(two, last_matrix, logits)
+                    last_layer(two, last_matrices[players[s]], logits)
                     first = 0
                     for head in range(heads):
                         choice, odds = sample(logits, first, counts[head], mind)
@@ -149,6 +151,7 @@ def empty_experience(task: Task, streams: int, decisions: int) -> Experience:
         np.zeros((decisions, streams), np.bool_),
         np.zeros(streams, np.bool_),
         np.zeros(streams, np.float32),
+        np.zeros(streams, np.int64),
     )
 
 
@@ -174,19 +177,21 @@ class Shard:
             self.matches["tick"][i] = self.random.integers(max(1, ticks))  # so that not all end at the same time
         self._count_streams()
 
-    def collect(self, policy: Sequence[Any], pool: Any, decisions: int) -> Experience:
+    def collect(self, policies: Sequence[Any], pool: Any, decisions: int) -> Experience:
         """Play `decisions` decisions and begin the matches that have ended anew. The next call overwrites the result.
 
-        `policy`: three float32 matrices whose last rows are the biases. `pool`: earlier copies as a row of weights.
+        `policies`: three float32 arrays (learners, inputs + 1, units), whose last rows are the biases. `pool`: earlier
+        copies as a row of weights.
         """
         experience = self._experience
         if experience is None or len(experience.choices) != decisions:
             experience = self._experience = empty_experience(self.task, self.width, decisions)
         for array in experience[2:]:
             array.fill(0)
+        experience.players[:] = LEARNING - self.minds["family"][self.streams >= 0]
         networks = np.concatenate([self.cast.weights[self._number], pool])
         weights = tuple(networks if k == self._number else row for k, row in enumerate(self.cast.weights))
-        loop_of(self.task)(self.matches, self.minds, weights, self.streams, *policy, *experience)
+        loop_of(self.task)(self.matches, self.minds, weights, self.streams, *policies, *experience)
         ended = self.matches["over"] > 0
         if self.task.cut:
             ended |= self.random.random(len(ended)) < self.task.cut
@@ -199,8 +204,8 @@ class Shard:
         """Compile the loop, for a fresh shard."""
         encoding = self.task.encoding
         sizes = ((encoding.size, HIDDEN), (HIDDEN, HIDDEN), (HIDDEN, encoding.outputs))
-        policy = [np.zeros((inputs + 1, units), np.float32) for inputs, units in sizes]
-        self.collect(policy, self.cast.weights[self._number], 0)
+        policies = [np.zeros((len(self.task.learners), inputs + 1, units), np.float32) for inputs, units in sizes]
+        self.collect(policies, self.cast.weights[self._number], 0)
 
     @property
     def width(self) -> int:
@@ -231,15 +236,15 @@ class Shard:
             if name == POOL:
                 self.minds["row"][i, seat] = len(self.cast.weights[self._number]) + random.integers(pool)
             if name != OFF:
-                family = self._number if name == LEARNER else int(self.minds["family"][i, seat])
+                family = self._number if name in LEARNERS else int(self.minds["family"][i, seat])
                 self.minds[f"mind{family}"]["random"][i, seat] = random.integers(MASK + 1)
-            if name in (LEARNER, POOL):
+            if name in (LEARNER, POOL) and EXPLOITER not in line_up.seats:
                 for field, value in self.task.habits(random).items():
                     self.minds[f"mind{self._number}"]["senses"][field][i, seat] = value
 
     def _count_streams(self) -> None:
         """Number the learners' seats."""
-        learning = self.minds["family"] == LEARNING
+        learning = self.minds["family"] <= LEARNING
         self.streams = np.where(learning, np.cumsum(learning).reshape(learning.shape) - 1, -1)
 
     def _start(self, line_up: LineUp) -> Any:
@@ -259,11 +264,11 @@ class Shard:
 
     def _prepared(self, name: str) -> Any:
         """Fresh minds of a brain (n,)."""
-        kind = self.network if name in (LEARNER, POOL) else find_brain(self.task.game, name) if name != OFF else None
+        kind = self.network if name in (*LEARNERS, POOL) else find_brain(self.task.game, name) if name != OFF else None
         minds = [nobody(self.cast) if kind is None else self.cast.mind_of(kind, seed) for seed in range(MINDS)]
-        if name == LEARNER:
+        if name in LEARNERS:
             for mind in minds:
-                mind.family = LEARNING
+                mind.family = LEARNING - LEARNERS.index(name)
         return packed(minds)
 
     @property
@@ -280,7 +285,7 @@ def nobody(cast: Cast) -> Any:
 
 def brains_of(task: Task) -> list[str]:
     """The names on the seats of a task's line-ups, sorted."""
-    return sorted({name for line_up in task.line_ups for name in line_up.seats} | {OFF, POOL, LEARNER})
+    return sorted({name for line_up in task.line_ups for name in line_up.seats} | {OFF, POOL, *LEARNERS})
 
 
 @cache
@@ -289,6 +294,6 @@ def cast_of(task: Task) -> tuple[Cast, Any]:
     sizes = ((task.encoding.size, HIDDEN), (HIDDEN, HIDDEN), (HIDDEN, task.encoding.outputs))
     empty = Layers([np.zeros(size) for size in sizes], [np.zeros(units) for _, units in sizes])
     network = network_brain("network", task.encoding, Policy(empty))
-    names = {*brains_of(task), *task.rivals} - {LEARNER, POOL, OFF}
+    names = {*brains_of(task), *task.rivals} - {*LEARNERS, POOL, OFF}
     rivals = {find_brain(task.game, name) for name in names}
     return Cast([network, *sorted(rivals, key=lambda kind: kind.name)], fast=True), network

@@ -8,14 +8,15 @@ from pigaming_app.ai.networks.encoding import Encoding
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
 
 SHARDS = 4  # independent parts of a training's matches
-LEARNER, POOL, OFF = "learner", "pool", "off"  # on a seat: the network in training, an earlier copy of it, nobody
+LEARNER, EXPLOITER, POOL, OFF = "learner", "exploiter", "pool", "off"  # on a seat
+LEARNERS = (LEARNER, EXPLOITER)  # the network in training, and one that seeks its weaknesses; POOL: copies of both
 
 
 class LineUp(NamedTuple):
     """Who plays a kind of match, by seat, and in which teams; the players are moved on by a random number of seats."""
 
     share: int  # of the matches, relative to the other line-ups
-    seats: tuple[str, ...]  # LEARNER, POOL, OFF or the name of a brain
+    seats: tuple[str, ...]  # LEARNER, EXPLOITER, POOL, OFF or the name of a brain
     teams: tuple[int, ...] | None = None  # None: those of the variant
     variants: tuple[str, ...] = ()  # empty: those of the task
     arenas: tuple[str, ...] = ()  # empty: those of the task
@@ -47,6 +48,11 @@ class Task:
     @property
     def game(self) -> str:
         return self.encoding.game
+
+    @property
+    def learners(self) -> tuple[str, ...]:
+        """Those of the LEARNERS that play."""
+        return tuple(name for name in LEARNERS if any(name in line_up.seats for line_up in self.line_ups))
 
     def against(self, rival: str) -> "Task":
         """The same task with duels against one brain only: what it takes to beat that one."""

@@ -15,15 +15,16 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.learner import Hyper, Learner, advantages
+from pigaming_app.ai.ppo.learner import Hyper, Learner, Network, advantages
 from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
 from pigaming_app.ai.ppo.win_rates import Score, win_rates
 
-POOL, POOLED_EVERY = 40, 15  # earlier copies at most, and updates between two of them
+POOL = 40  # earlier copies of a learner at most
+POOLED_EVERY = (15, 60)  # updates between two copies, by learner: the exploiter's finds must not be forgotten
 LARGEST = 32767  # of a 16-bit weight
 NUMBERS = ("updates", "decisions", "entropy", "seconds")  # counted by a training
-Gather = Callable[[Sequence[Any], Any, int], list[Experience]]  # policy, pool, decisions
+Gather = Callable[[Sequence[Any], Any, int], list[Experience]]  # policies, pool, decisions
 
 
 class Diverged(ValueError):
@@ -45,8 +46,9 @@ class Training:
         seeds = np.random.SeedSequence(abs(seed)).generate_state(SHARDS + 1, np.uint64).tolist()
         self.shards = [Shard(task, line_ups, seeds[k]) for k, line_ups in enumerate(dealt(task, hyper.matches))]
         counts = [choices for _, choices in task.encoding.heads]
-        self.learner = Learner(task.encoding.size, counts, hyper, np.random.default_rng(seeds[-1]))
-        self.pool: Any = packed_layers(self.layers())
+        random = np.random.default_rng(seeds[-1])
+        self.learners = [Learner(task.encoding.size, counts, hyper, random) for _ in task.learners]
+        self.pools = [packed_layers(whole_layers(learner.policy.weights)) for learner in self.learners]
         self.updates, self.decisions, self.seconds = 0, 0, 0.0
         self.entropy = float(np.log(counts).sum())  # of an even choice
         self.points: list[tuple[float, ...]] = []  # progress, by `columns`
@@ -61,18 +63,31 @@ class Training:
         """The part of the training that is done. Hyper-parameters change with it."""
         return self.updates / self.planned if self.minutes is None else self.seconds / (60.0 * self.minutes)
 
+    @property
+    def learner(self) -> Learner:
+        """The learner whose network the training is for."""
+        return self.learners[0]
+
     def update(self, gather: Gather, threads: Executor) -> None:
         """Gather experience and learn from it."""
         began, share = perf_counter(), min(1.0, self.share)
-        experiences = gather(self.learner.policy.weights, self.pool, self.hyper.decisions)
-        data = threads.map(lambda experience: self._digested(experience, share), experiences)
-        joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
-        self.entropy = self.learner.update(joined, share, threads)
+        policies = [np.stack(layer) for layer in zip(*(one.policy.weights for one in self.learners), strict=True)]
+        experiences = gather(policies, np.concatenate(self.pools), self.hyper.decisions)
+        for player in range(len(self.learners) - 1, -1, -1):
+            self._learn(player, experiences, share, threads)
         self.updates += 1
-        self.decisions += len(joined[0])
-        if self.updates % POOLED_EVERY == 0:
-            self.pool = np.concatenate([self.pool, packed_layers(self.layers())])[-POOL:]
+        for k, (learner, every) in enumerate(zip(self.learners, POOLED_EVERY, strict=False)):
+            if self.updates % every == 0:
+                copy = packed_layers(whole_layers(learner.policy.weights))
+                self.pools[k] = np.concatenate([self.pools[k], copy])[-POOL:]
         self.seconds += perf_counter() - began
+
+    def _learn(self, player: int, experiences: Sequence[Experience], share: float, threads: Executor) -> None:
+        """Improve one of the learners."""
+        data = threads.map(lambda experience: self._digested(player, experience, share), experiences)
+        joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
+        self.entropy = self.learners[player].update(joined, share, threads)
+        self.decisions += len(joined[0])
 
     def measure(self, matches: int, threads: Executor) -> dict[str, Score]:
         """Play `matches` matches against each rival, and note the results."""
@@ -83,14 +98,18 @@ class Training:
         self.points.append((self.updates, self.decisions, round(self.seconds, 3), round(self.entropy, 4), *ends))
         return scores
 
-    def _digested(self, experience: Experience, share: float) -> tuple[Any, ...]:
-        """Inputs, choices, log odds, advantages and returns of the valid decisions."""
-        inputs, choices, log_odds, gauges, valid, over, results = experience
+    def _digested(self, player: int, experience: Experience, share: float) -> tuple[Any, ...]:
+        """Inputs, choices, log odds, advantages and returns of a learner's valid decisions."""
+        learner = self.learners[player]
+        if len(self.learners) > 1:
+            own = experience.players == player
+            experience = Experience(*(part[own] if part.ndim == 1 else part[:, own] for part in experience))
+        inputs, choices, log_odds, gauges, valid, over, results, _ = experience
         gains = np.diff(gauges, axis=0)
         rewards = np.where(valid, self.task.reward(gains, inputs[:-1], choices, share), np.float32(0))
         last = np.maximum(valid.sum(0) - 1, 0)
         rewards[last, np.arange(len(last))] += np.where(over, results, np.float32(0))
-        values = self.learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[0].reshape(inputs.shape[:2])
+        values = learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[0].reshape(inputs.shape[:2])
         gained = advantages(rewards, values, valid, over, self.hyper.discount, self.hyper.trace)
         returns = gained + values[:-1]
         return inputs[:-1][valid], choices[valid], log_odds[valid], gained[valid], returns[valid]
@@ -105,7 +124,7 @@ class Training:
 
     def state(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """Everything that changes, for `restore`: numbers, and arrays by name."""
-        networks = {"policy": self.learner.policy, "value": self.learner.value}
+        networks = self._networks()
         states = [shard.state() for shard in self.shards]
         numbers = {
             **{name: getattr(self, name) for name in NUMBERS},
@@ -113,25 +132,29 @@ class Training:
             "random": [self.learner.random.bit_generator.state, *(state.random for state in states)],
             "points": self.points,
         }
-        arrays = {f"{name}{k}": one for name, network in networks.items() for k, one in enumerate(network.arrays)}
+        arrays = {f"{name}_{k}": one for name, network in networks.items() for k, one in enumerate(network.arrays)}
         for k, state in enumerate(states):
             arrays |= {f"matches{k}": state.matches, f"minds{k}": state.minds}
-        return numbers, {**arrays, "pool": self.pool}
+        return numbers, arrays | {f"pool{k}": pool for k, pool in enumerate(self.pools)}
+
+    def _networks(self) -> dict[str, Network]:
+        """All networks in training, by name."""
+        policies = {f"policy{k}": learner.policy for k, learner in enumerate(self.learners)}
+        return policies | {f"value{k}": learner.value for k, learner in enumerate(self.learners)}
 
     def restore(self, numbers: Mapping[str, Any], arrays: Mapping[str, Any]) -> None:
         """Continue from the result of `state`, bit for bit. Raises KeyError, TypeError or ValueError."""
         for name in NUMBERS:
             setattr(self, name, type(getattr(self, name))(numbers[name]))
-        networks = {"policy": self.learner.policy, "value": self.learner.value}
-        for (name, network), steps in zip(networks.items(), numbers["steps"], strict=True):
+        for (name, network), steps in zip(self._networks().items(), numbers["steps"], strict=True):
             network.steps = int(steps)
             for k, one in enumerate(network.arrays):
-                one[:] = arrays[f"{name}{k}"]
+                one[:] = arrays[f"{name}_{k}"]
         own, *others = numbers["random"]
         self.learner.random.bit_generator.state = own
         for k, (shard, random) in enumerate(zip(self.shards, others, strict=True)):
             shard.restore(ShardState(arrays[f"matches{k}"], arrays[f"minds{k}"], random))
-        self.pool = arrays["pool"]
+        self.pools = [arrays[f"pool{k}"] for k in range(len(self.pools))]
         self.points = [tuple(point) for point in numbers["points"]]
 
 
@@ -144,8 +167,8 @@ def columns(task: Task) -> tuple[str, ...]:
 def in_threads(training: Training, threads: Executor) -> Gather:
     """Gather experience in the threads of this process."""
 
-    def gather(policy: Sequence[Any], pool: Any, decisions: int) -> list[Experience]:
-        return list(threads.map(lambda shard: shard.collect(policy, pool, decisions), training.shards))
+    def gather(policies: Sequence[Any], pool: Any, decisions: int) -> list[Experience]:
+        return list(threads.map(lambda shard: shard.collect(policies, pool, decisions), training.shards))
 
     return gather
 

@@ -59,13 +59,13 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
     weights = tuple(networks if k == number else row for k, row in enumerate(cast.weights))
     longest = max(round((task.minutes[0] * 60 + variant.overtime) * HZ) for variant in variants)
     nothing = empty_experience(task, 0, -(-longest // PERIOD))
-    policy = [np.zeros((1, 1), np.float32)] * 3
+    policies = [np.zeros((1, 1, 1), np.float32)] * 3
     loop_of(task)(
         states,
         packed([mind for row in seated for mind in row]).reshape(-1, ROBOTS),
         weights,
         np.full((matches, ROBOTS), -1),
-        *policy,
+        *policies,
         *nothing,
     )
     ends: list[Any] = [unpack(rules.state, state) for state in states]

@@ -107,3 +107,20 @@ def test_a_delay_shows_others_where_they_were():
         sines.append(mind.inputs[first + 5])
     assert sines[0] == 0
     assert sines[1] < -50, "half a second ago it was 100 px further up, to the left"
+
+
+def test_a_robot_that_pushes_against_a_wall_is_seen_at_rest():
+    from pigaming_app.games.match import Match
+
+    match = Match(make_setup("pitanks", ["idle"] * 2, None, 1.0, 1, None, None, ["idle"]))
+    state, mind = match.state, mind_record(ENCODING)()
+    me, other = state.robots[0], state.robots[1]
+    me.x, me.y, me.heading = 400.0, 450.0, 0.0
+    other.x, other.y, other.heading, other.linear = 700.0, 450.0, 0.0, -256.0
+    first = sum(length for name, length in ENCODING.groups[:6])
+    speeds = []
+    for tick, x in ((1, 700.0), (1, 700.0), (6, 700.0), (11, 680.0), (16, 1200.0)):
+        state.tick, other.x = tick, x
+        ENCODING.encode(state, 0, mind.senses, mind.inputs)
+        speeds.append(mind.inputs[first + 14] * 400.0 / UNIT)
+    assert speeds == pytest.approx([-256.0, -256.0, 0.0, -200.0, -256.0], abs=2.0), "by its motors only when it jumps"

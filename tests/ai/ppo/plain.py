@@ -9,13 +9,18 @@ from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.ppo import pitanks, shard, win_rates
 from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.registry import TASKS
-from pigaming_app.ai.ppo.task import LEARNER, POOL
+from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, POOL
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import packed, unpack
 
 TASK = replace(
     pitanks.TASK,
-    line_ups=(pitanks.duel(1, "hand3"), pitanks.duel(1, LEARNER), pitanks.duel(2, POOL)),
+    line_ups=(
+        pitanks.duel(1, "hand3"),
+        pitanks.duel(1, LEARNER),
+        pitanks.duel(1, EXPLOITER),
+        pitanks.duel(1, POOL),
+    ),
     rivals=("idle",),
     minutes=(0.1,),
 )

@@ -10,6 +10,7 @@ from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.networks.files import brain_of, decode, encode
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo import checkpoint
+from pigaming_app.ai.ppo import training as training_module
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.training import Training, in_threads
 from pigaming_app.ai.ppo.win_rates import win_rates
@@ -47,6 +48,20 @@ def test_it_goes_on_from_a_checkpoint_as_if_nothing_had_happened(halfway, tmp_pa
     assert same(trained(2, training=other), whole)
     assert not np.array_equal(whole.learner.policy.weights[0], halfway.learner.policy.weights[0])
     assert whole.decisions > halfway.decisions > 0
+
+
+def test_the_exploiter_learns_by_itself_and_begins_anew_as_a_copy_of_the_learner(halfway, monkeypatch):
+    first, second = halfway.learners
+    assert not np.array_equal(first.policy.weights[0], second.policy.weights[0])
+    monkeypatch.setattr(training_module, "RENEWED_EVERY", 1)
+    monkeypatch.setattr(training_module, "POOLED_EVERY", 1)
+    renewed = trained(1)
+    first, second = renewed.learners
+    for network, other in ((first.policy, second.policy), (first.value, second.value)):
+        assert all(map(np.array_equal, network.arrays, other.arrays))
+        assert network.weights[0] is not other.weights[0]
+    assert [len(pool) for pool in renewed.pools] == [2, 2]
+    assert renewed.pools[0][1].tobytes() != renewed.pools[1][1].tobytes(), "pooled before it began anew"
 
 
 def test_a_damaged_or_foreign_checkpoint_is_refused_in_one_line(halfway, tmp_path):
