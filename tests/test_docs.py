@@ -334,17 +334,19 @@ def rewards():
     yield f"| a decision without an opponent in the line of fire | −{fights.BORED:g} |"
     yield f"| a shot without an opponent in the line of fire | −{fights.BLIND:g} |"
     yield f"| a decision within {fights.CLOSE:g} px of an opponent | −{fights.CROWD:g} |"
-    yield f"| a shot, in {fights.THRIFTY:.0%} of the matches | up to −{fights.MOST_THRIFT:g},".replace("%", " %")
+    yield f"| a shot | −{fights.SHOT:g} |"
+    yield f"| a shot, in {fights.THRIFTY:.0%} of the matches | up to −{fights.MOST_THRIFT:g} more,".replace("%", " %")
     yield f"| the change of a potential, × {fights.SHAPING:g} falling to × {fights.SHAPED:g} |"
     yield f"else −{fights.FAR / 2:g} for each 1600 px"
-    yield f"In {fights.LATE:.0%} of the matches it sees others up to {fights.LATEST:g} s late".replace("%", " %")
+    late = f"In {fights.LATE:.0%} of the matches without the exploiter it sees others up to {fights.LATEST:g} s late"
+    yield late.replace("%", " %")
     yield f"| progress | +1 for each {races.STRIDE:g} px |"
     yield f"| +{races.LEADING:g} for each {races.STRIDE:g} px it grows |"
     yield f"| +{races.FINISH:g} for each place up to the last, +{races.WIN:g} for a win |"
     yield f"Steps of more than {races.LONGEST:g} px a decision"
     shares = [line_up.share for line_up in fights.TASK.line_ups]
     yield f"Of {sum(shares)} matches:"
-    for places in ((0, 1, 4, 5), (2, 3, 6), (7, 8), (9, 10), (11, 12, 13)):  # rows of the page
+    for places in ((0, 1, 2, 6, 7, 4), (3, 5, 8), (9, 10), (11, 13, 12), (14, 15, 16)):  # rows of the page
         yield f"| {', '.join(str(shares[place]) for place in places)} |"
     yield f"alone (4 of {sum(line_up.share for line_up in races.TASK.line_ups)})"
 
@@ -357,7 +359,7 @@ def test_the_page_on_networks_has_the_rewards():
 def test_the_page_on_opponents_has_the_handicaps_of_pitanks():
     levels = [body for head, body in tables(OPPONENTS_PAGE) if head[1:] == [f"`level{n}`" for n in range(1, 6)]]
     (body,) = [body for body in levels if body[0][0] == "sees others late by"]
-    for row, name in zip(body, ("delay", "error", "speed", "thrift"), strict=True):
+    for row, name in zip(body, ("delay", "error", "speed", "thrift", "sharpness"), strict=True):
         shown = [0.0 if cell == "–" else float(cell.split()[0]) for cell in row[1:]]
         assert shown == [getattr(handicap, name) for handicap in HANDICAPS], row
 

@@ -12,7 +12,7 @@ from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo import checkpoint
 from pigaming_app.ai.ppo import training as training_module
 from pigaming_app.ai.ppo.product import trained_network
-from pigaming_app.ai.ppo.training import Training, in_threads
+from pigaming_app.ai.ppo.training import Training, in_threads, whole_layers
 from pigaming_app.ai.ppo.win_rates import win_rates
 from tests.ai.ppo.plain import TASK, TINY, play_plain, same
 
@@ -50,18 +50,18 @@ def test_it_goes_on_from_a_checkpoint_as_if_nothing_had_happened(halfway, tmp_pa
     assert whole.decisions > halfway.decisions > 0
 
 
-def test_the_exploiter_learns_by_itself_and_begins_anew_as_a_copy_of_the_learner(halfway, monkeypatch):
+def test_the_exploiter_learns_from_duels_with_the_learner_alone_and_is_pooled(halfway, monkeypatch):
+    begin = Training(TASK, 5, 4, TINY)
+    for fresh, later in zip(begin.learners, halfway.learners, strict=True):
+        assert not np.array_equal(fresh.policy.weights[0], later.policy.weights[0])
     first, second = halfway.learners
     assert not np.array_equal(first.policy.weights[0], second.policy.weights[0])
-    monkeypatch.setattr(training_module, "RENEWED_EVERY", 1)
-    monkeypatch.setattr(training_module, "POOLED_EVERY", 1)
-    renewed = trained(1)
-    first, second = renewed.learners
-    for network, other in ((first.policy, second.policy), (first.value, second.value)):
-        assert all(map(np.array_equal, network.arrays, other.arrays))
-        assert network.weights[0] is not other.weights[0]
-    assert [len(pool) for pool in renewed.pools] == [2, 2]
-    assert renewed.pools[0][1].tobytes() != renewed.pools[1][1].tobytes(), "pooled before it began anew"
+    assert second.policy.steps < first.policy.steps, "it has less experience"
+    monkeypatch.setattr(training_module, "POOLED_EVERY", (1, 2))
+    pooled = trained(2)
+    assert [len(pool) for pool in pooled.pools] == [3, 2]
+    networks = [whole_layers(learner.policy.weights) for learner in pooled.learners]
+    assert [pool[-1:].tobytes() for pool in pooled.pools] == [packed_layers(layers).tobytes() for layers in networks]
 
 
 def test_a_damaged_or_foreign_checkpoint_is_refused_in_one_line(halfway, tmp_path):
