@@ -345,7 +345,8 @@ def rewards():
     yield f"| +{races.FINISH:g} for each place up to the last, +{races.WIN:g} for a win |"
     yield f"Steps of more than {races.LONGEST:g} px a decision"
     shares = [line_up.share for line_up in fights.TASK.line_ups]
-    yield f"Of {sum(shares)} matches:"
+    made = f"(`{fights.MADE[0]}` to `{fights.MADE[-1]}`), so that it learns no arena by heart"
+    yield f"{made}. Of {sum(shares)} matches: | matches | line-up |"
     for places in ((0, 1, 2, 6, 7, 4), (3, 5, 8), (9, 10), (11, 13, 12), (14, 15, 16)):  # rows of the page
         yield f"| {', '.join(str(shares[place]) for place in places)} |"
     yield f"alone (4 of {sum(line_up.share for line_up in races.TASK.line_ups)})"

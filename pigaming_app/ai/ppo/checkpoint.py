@@ -27,7 +27,7 @@ def restore(training: Training, path: Path) -> None:
     """Continue a fresh training from a file. Raises BrainFileError, whose message begins with the file's name."""
     fresh = training.state()[1]
     limits = {part: array.nbytes + MARGIN for part, array in fresh.items()}
-    limits |= {part: POOL * fresh[part].nbytes + MARGIN for part in pools(fresh)}
+    limits |= {part: POOL * fresh[part].nbytes + MARGIN for part in _pools(fresh)}
     limits = {HEAD: MAX_HEAD, **limits}
     raw = read(path, sum(limits.values()))
     try:
@@ -46,7 +46,7 @@ def _restore(training: Training, raw: bytes, limits: Mapping[str, int], fresh: M
         if saved.get(key) != value:
             raise BrainFileError(f"it is from a training with another {key.replace('_', ' ')}")
     for part, array in fresh.items():
-        rows = slice(1, None) if part in pools(fresh) else slice(None)
+        rows = slice(1, None) if part in _pools(fresh) else slice(None)
         if arrays[part].dtype != array.dtype or arrays[part].shape[rows] != array.shape[rows]:
             raise BrainFileError("it is from another version of this program")
     try:
@@ -55,7 +55,7 @@ def _restore(training: Training, raw: bytes, limits: Mapping[str, int], fresh: M
         raise BrainFileError("its head is not complete") from None
 
 
-def pools(arrays: Mapping[str, Any]) -> list[str]:
+def _pools(arrays: Mapping[str, Any]) -> list[str]:
     """The parts of a state that grow."""
     return [part for part in arrays if part.startswith("pool")]
 
