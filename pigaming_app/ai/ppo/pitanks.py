@@ -18,7 +18,7 @@ POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
 CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of the training on
 SHAPING, SHAPED = 0.5, 0.3  # weight of the potential, at the begin and at the end of the training
 FAR = 10.0  # by which 1600 px more on the way to an opponent out of sight lower the potential
-SHOT = 0.05  # cost of a shot: who fires at a protected opponent is not loaded when the protection ends
+SHOT = 0.08  # cost of a shot: who fires at a protected opponent is not loaded when the protection ends
 BLIND = 0.1  # cost of a shot with nobody in the line of fire
 CROWD, CLOSE = 0.03, 160.0  # cost of a decision within so many px of an opponent: blows at arm's length end level
 BORED = 0.02  # cost of a decision with nobody in the line of fire: who waits loses
@@ -96,16 +96,16 @@ TASK = Task(
         duel(2, "classic", WALLED),
         duel(1, "idle"),
         duel(1, "idle", WALLED),
-        duel(2, "q1"),
+        duel(3, "q1"),
         duel(2, "q2"),
         duel(2, "q2", WALLED),
         duel(5, "q1", variants=PURE),
         duel(2, "q2", variants=PURE),
-        duel(4, LEARNER),
+        duel(3, LEARNER),
         duel(16, EXPLOITER),
-        duel(9, POOL),
+        duel(8, POOL),
         LineUp(2, (LEARNER, "hand3", "hand3", "hand3")),
-        LineUp(2, (LEARNER, LEARNER, POOL, "hand3")),
+        LineUp(1, (LEARNER, LEARNER, POOL, "hand3")),
         LineUp(2, (LEARNER, "hand3", LEARNER, "hand3"), PAIRS),
     ),
     gauges=("points", "taken", "shots", "potential"),
