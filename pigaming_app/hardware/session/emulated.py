@@ -114,12 +114,13 @@ class EmulatedSession:
             from pigaming_app.hardware.control.rig import UNMEASURED
             from pigaming_app.hardware.emulator.site import EmulatedCameraSource
             from pigaming_app.hardware.radio.link import Link
+            from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
             from pigaming_app.sim.world import ROBOTS
 
             arena, ground = self.arena, self.ground
             arena.cleared = False
             self._now, self.mm = arena.clock(), ground.mm
-            link = Link(arena.radio.open, arena.clock, name="EMU0")
+            link = Link(arena.radio.open, arena.clock, XBeeProtocol(arena.arena_id), "EMU0")
             self._rig = new_rig(
                 EmulatedCameraSource(arena), link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker
             )
