@@ -1,6 +1,6 @@
 """Kinds of robots: battery limits, size and radio of each.
 
-A robot on Wi-Fi announces its board; the kind of any other is a setting, by default the 3pi. Battery limits are for four
+A robot on Wi-Fi announces its board; that of any other is a setting, by default the 3pi. Battery limits are for four
 rechargeable cells, or three in a micro:bit robot; the firmware of a robot applies its own limits in addition.
 """
 
