@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.emulator.radio import RadioChannel
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.session.lighting import Lighting
     from pigaming_app.hardware.signals import CameraFrame
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -146,6 +147,14 @@ class EmulatedSession:
     def open_link(self) -> "Link | None":
         """Always None: without an arena there is no radio either."""
         return None
+
+    def carrier(self, number: int) -> "Carrier":
+        from pigaming_app.hardware.emulator import xbee
+        from pigaming_app.hardware.radio.xbee_setup import Carrier
+
+        radio = self.arena.radio
+        module = radio.modules[number - 1] if number else radio.module
+        return Carrier(xbee.Carrier(module, self.arena.clock).open, self.arena.clock, "EMU0")
 
     def tick(self) -> None:
         self.advance(DT)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.signals import CameraSource, Clock
     from pigaming_app.hardware.tracking.tracker import Tracker
     from pigaming_app.sim.drivetrain import Drivetrain
@@ -49,6 +50,12 @@ class RobotSession(Protocol):
 
     def open_link(self) -> "Link | None":
         """The radio alone, for use when `open` raises; None if there is none either."""
+
+    def carrier(self, number: int) -> "Carrier":
+        """The USB carrier with the radio of the computer (0) or of a robot (1 to 4), for XBeeSetup.
+
+        Raises RobotsUnavailable.
+        """
 
     def tick(self) -> None:
         """Sleep until 1/50 s after the last call, or advance simulated time by 1/50 s."""
