@@ -85,6 +85,10 @@ class EmulatedSession:
         return self._arena
 
     @property
+    def arena_id(self) -> int:
+        return self.arena.arena_id
+
+    @property
     def ground(self) -> "GroundPlane":
         """The calibration saved by the wizard, or else the one made with the arena. Raises RobotsUnavailable."""
         from pigaming_app.hardware.calibration.ground_plane import CalibrationError

@@ -43,6 +43,12 @@ class RealSession:
         return self._link.fault if self._link else None
 
     @property
+    def arena_id(self) -> int:
+        from pigaming_app.hardware.session import store
+
+        return store.arena_id(self.settings)
+
+    @property
     def site(self) -> "CalibrationSite":
         from pigaming_app.hardware.calibration.site import RealCalibrationSite
 
@@ -114,12 +120,11 @@ class RealSession:
         from pigaming_app.hardware.radio.serial_line import serial_port
         from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
         from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
-        from pigaming_app.hardware.session import store
 
         chosen, name = self.settings, self._port_name()
         if chosen.radio == STOCK:
             return Link(serial_port(name, BAUD), time.monotonic, StockProtocol(0), name)
-        protocol = XBeeProtocol(store.arena_id(chosen), XBeeMode(chosen.radio))
+        protocol = XBeeProtocol(self.arena_id, XBeeMode(chosen.radio))
         return Link(serial_port(name, chosen.baud), time.monotonic, protocol, name)
 
 

@@ -42,6 +42,10 @@ class RobotSession(Protocol):
         """Interface to this mat for calibration. Raises RobotsUnavailable."""
 
     @property
+    def arena_id(self) -> int:
+        """Id of this computer's arena; robots with another one are not driven. Raises RobotsUnavailable."""
+
+    @property
     def mm(self) -> float:
         """mm of the mat per arena px, valid while the session is open."""
 
