@@ -213,6 +213,8 @@ class FleetPage:
             volts=f"{health.battery:.1f}",
             share=round(100 * health.share),
         )
+        if health.deaf:
+            return words("fleet.deaf"), ALARM, seen, MIST
         weak = 0.0 < health.battery < health.kind.warn_mv / 1000 or health.share < WEAK
         seen += f"  ·  {health.kind.name}"
         return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST

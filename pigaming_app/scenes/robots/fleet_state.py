@@ -9,6 +9,7 @@ from pigaming_app.hardware.commissioning.latency import LatencyTest
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, PairingFinding
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
@@ -27,7 +28,7 @@ log = logging.getLogger("pigaming")
 @dataclass(frozen=True)
 class RobotStatus:
     """Status of one robot: battery in V (0: not measured), share of reports received (0..1), visible, latency in s if
-    measured; its kind, and why it cannot be driven.
+    measured; its kind, why it cannot be driven, and whether it reports that no commands arrive.
     """
 
     battery: float | None
@@ -36,6 +37,7 @@ class RobotStatus:
     latency: float | None
     kind: RobotKind
     misfit: Misfit | None
+    deaf: bool
 
 
 @dataclass
@@ -141,7 +143,8 @@ class FleetState:
         kind = robot_kind(self.settings.kinds[robot], self.link.boards.get(robot) if self.link is not None else None)
         misfit = self.link.misfit(robot) if self.link is not None else None
         battery, latency = report.battery if report else None, self.latencies.get(robot)
-        return RobotStatus(battery, share, self._seen(robot), latency, kind, misfit)
+        deaf = report is not None and bool(report.flags & DEADMAN)
+        return RobotStatus(battery, share, self._seen(robot), latency, kind, misfit, deaf)
 
     # ---- inside
 
