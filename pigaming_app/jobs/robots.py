@@ -31,7 +31,7 @@ CASES = {
 MISFITS = {
     "old": "old firmware",
     "no_arena": "no arena number",
-    "foreign": "of another arena",
+    "foreign": "no signal, only from another arena's robot",
 }
 
 
