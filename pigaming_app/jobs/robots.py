@@ -1,4 +1,4 @@
-"""Status of robots, radios and cameras; on request pairing (each robot spins in turn) and latency."""
+"""Status of robots, radios and cameras; on request pairing (each robot spins in turn), latency, set-up of radios."""
 
 import json
 import time
@@ -6,7 +6,9 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
+from pigaming_app.jobs import radio_setup
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
@@ -26,17 +28,26 @@ CASES = {
     "twice": "two robots wear the same marker",
     "absent": "no answer",
 }
+MISFITS = {
+    "old": "old firmware",
+    "no_arena": "no arena number",
+    "foreign": "no signal, only from another arena's robot",
+}
 
 
 def options(parser: ArgumentParser) -> None:
     parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
     parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
     shared(parser, "--emulate", "--camera", "--port", "--json")
+    radio_setup.options(parser)
 
 
 def run(arguments: Namespace) -> int:
     """Print the status. Raises Refusal."""
     mat_settings(arguments)
+    settings = radio_setup.save_arena(arguments)
+    if arguments.radio_setup is not None:
+        return radio_setup.set_up(arguments, settings)
     if arguments.emulate is not None or arguments.pair or arguments.latency:
         require("hardware")
     status = look(arguments)
@@ -59,6 +70,7 @@ def look(arguments: Namespace) -> dict[str, Any]:
     with refused(RobotsUnavailable):
         session = new_session(arguments.emulate, arguments.camera, arguments.port)
     try:
+        status["arena"] = session.arena_id
         return {**status, **_full_status(session, arguments)}
     except RobotsUnavailable as trouble:
         if arguments.pair or arguments.latency:
@@ -100,12 +112,14 @@ def _sentence(message: OperatorMessage | None) -> str | None:
 
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
     """One robot: its radio, battery (V), share of reports received, and pose (px, px, rad) if it is seen."""
-    report, quality = link.telemetry.get(channel), link.quality(channel)
+    report, quality, misfit = link.telemetry.get(channel), link.quality(channel), link.misfit(channel)
     visible = seen is not None and seen.age < 1.0
     return {
         "robot": robot + 1,
         "radio": channel + 1,
         "heard": report is not None and quality.share > 0.0,
+        "misfit": misfit.reason if misfit else None,
+        "deaf": report is not None and bool(report.flags & DEADMAN),
         "battery": round(report.battery, 2) if report else None,
         "share": round(quality.share, 2),
         "strength": quality.strength,
@@ -153,10 +167,11 @@ def _print(status: dict[str, Any]) -> None:
     for name in ("ports", "cameras"):
         devices = ", ".join(" ".join(str(part) for part in device.values()) for device in status[name])
         print(f"{name:9} {devices or 'none'}")
+    print(f"arena     {status['arena']} ({radio_setup.flash_command(1, status['arena'])})")
     for name in ("radio", "eyes"):
         print(f"{name:9} {status.get(name) or 'ok'}")
     for robot in status["robots"]:
-        print(f"robot {robot['robot']}   {_described(robot)}")
+        print(f"robot {robot['robot']}   {_described(robot, status['arena'])}")
     for pair in status.get("pairing", ()):
         print(f"radio {pair['radio']}   {CASES[pair['case']].format(marker=pair['marker'])}")
     for entry in status.get("latency", ()):
@@ -166,10 +181,13 @@ def _print(status: dict[str, Any]) -> None:
         print(f"latency {entry['robot']} {text}")
 
 
-def _described(robot: dict[str, Any]) -> str:
+def _described(robot: dict[str, Any], arena: int) -> str:
+    if robot["misfit"]:
+        return f"{MISFITS[robot['misfit']]}: {radio_setup.flash_command(robot['radio'], arena)}"
     if not robot["heard"]:
         return "no reports" + (", seen" if robot["seen"] else "")
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"
     echo = "" if robot["echo_ms"] is None else f", answers in {robot['echo_ms']} ms"
     where = f", seen at {robot['at'][0]:.0f}, {robot['at'][1]:.0f}" if robot["seen"] else ", not seen"
-    return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}"
+    deaf = ", receives no commands" if robot["deaf"] else ""
+    return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}{deaf}"

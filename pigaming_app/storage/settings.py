@@ -103,6 +103,14 @@ class SeatNumbers:
         return "not all of 1, 2, 3, 4" if self.all_of_them and len(value) != 4 else None  # type: ignore[arg-type]
 
 
+class RobotKinds:
+    """A list of four names, each empty or of a kind that may no longer exist."""
+
+    def error(self, value: object) -> str | None:
+        short = isinstance(value, list) and len(value) == 4 and not any(ShortText().error(name) for name in value)
+        return None if short else "not a list of four short texts"
+
+
 class Corners:
     """An empty list, or eight whole numbers: the corners of the picture, px of the canvas."""
 
@@ -155,6 +163,9 @@ class Settings:
     port: str = _setting("", ShortText())  # of the radio; empty: the first one found
     baud: int = _setting(57600, Range(1200, 921600))
     radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # its mode
+    arena_id: int = _setting(0, Range(0, 16383))  # of this computer and its robots; 0: drawn on first use
+    radio_channel: int = _setting(0, Range(0, 26))  # of the XBees, 11 to 26; 0: follows from the arena id
+    radio_pan: int = _setting(0, Range(0, 65534))  # of the XBees; 0: follows from the arena id
     mat: bool = _setting(False, Boolean())  # real robots are selectable
     real: list[int] = field(
         default_factory=list, metadata={"validator": SeatNumbers()}
@@ -162,6 +173,9 @@ class Settings:
     radios: list[int] = field(
         default_factory=lambda: [1, 2, 3, 4], metadata={"validator": SeatNumbers(True)}
     )  # of each marker
+    kinds: list[str] = field(
+        default_factory=lambda: [""] * 4, metadata={"validator": RobotKinds()}
+    )  # of the robot on each radio; empty: as it announces
     pad_driving: str = _setting("", ShortText())  # driving style last chosen on a pad; empty: never
     keys_driving: str = _setting("", ShortText())  # the same on the keyboard
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file

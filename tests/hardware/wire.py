@@ -1,7 +1,8 @@
 """A fake serial port, a settable clock and a fake XBee, for tests of the link."""
 
-from pigaming_app.hardware.radio import packets
-from pigaming_app.hardware.radio.packets import FrameDecoder, PacketDecoder
+from pigaming_app.hardware.radio import xbee_frames
+from pigaming_app.hardware.radio.packets import PacketDecoder
+from pigaming_app.hardware.radio.xbee_frames import FrameDecoder
 from tests.hardware.robot_packets import drive_from
 
 
@@ -63,16 +64,16 @@ class Radio(Wire):
     def write(self, data):
         super().write(data)
         for frame in self._frames.feed(data):
-            match packets.decode(frame):
-                case packets.TransmitRequest(number, packets.BROADCAST, packet):
+            match xbee_frames.decode(frame):
+                case xbee_frames.TransmitRequest(number, xbee_frames.BROADCAST, packet):
                     self.drives += [(self.time(), drive_from(found)) for found in PacketDecoder().feed(packet)]
-                    self.say(packets.TransmitStatus(number, self.status))
-                case packets.ATCommand(number, "AP", b""):
-                    self.say(packets.ATResponse(number, "AP", 0, bytes((self.ap,))))
+                    self.say(xbee_frames.TransmitStatus(number, self.status))
+                case xbee_frames.ATCommand(number, "AP", b""):
+                    self.say(xbee_frames.ATResponse(number, "AP", 0, bytes((self.ap,))))
         return len(data)
 
     def say(self, message):
-        self.coming += packets.frame(packets.encode(message), self.escaped)
+        self.coming += xbee_frames.frame(xbee_frames.encode(message), self.escaped)
 
 
 def run(link, time, seconds, each=lambda: None):

@@ -13,14 +13,14 @@ from typing import Self
 
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import ROBOTS
-from pigaming_app.hardware.radio.protocol import LinkQuality, RadioProtocol
+from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit, RadioProtocol
 from pigaming_app.hardware.radio.serial_line import OpenPort, SerialLine, radio_message
-from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
 from pigaming_app.hardware.signals import Clock, Telemetry, WheelCommand
 
 BEAT = 0.02  # s between two transmissions
 PATIENCE = 0.1  # s without a new command after which the link sends stop
 FAREWELLS = 5  # stop commands sent when the link ends
+HEARD = 1.0  # s for which a report counts
 NOBODY: tuple[WheelCommand | None, ...] = (None,) * ROBOTS
 
 
@@ -28,10 +28,10 @@ class Link:
     """Connection to the robots over a serial line; a context manager."""
 
     def __init__(
-        self, open_port: OpenPort, clock: Clock, dialect: RadioProtocol | None = None, name: str = "the serial port"
+        self, open_port: OpenPort, clock: Clock, protocol: RadioProtocol, name: str = "the serial port"
     ) -> None:
         self._line = SerialLine(open_port, clock, name)
-        self._protocol = dialect or XBeeProtocol()
+        self._protocol = protocol
         self._clock = clock
         self._mail: tuple[float, Sequence[WheelCommand | None]] = (float("-inf"), NOBODY)
         self._due = float("-inf")  # s, time of the next transmission
@@ -49,6 +49,21 @@ class Link:
     def telemetry(self) -> dict[int, Telemetry]:
         """Newest telemetry of every robot received so far, by robot."""
         return dict(self._protocol.telemetry)
+
+    def misfit(self, robot: int) -> Misfit | None:
+        """Why a robot that reports cannot be driven; None if it can, or has not reported for a while.
+
+        A robot of another arena is no misfit while the robot of this arena with the same number reports.
+        """
+        misfit, report = self._protocol.misfits.get(robot), self._protocol.telemetry.get(robot)
+        if misfit is None or self._clock() - misfit.received > HEARD:
+            return None
+        return None if report is not None and self._clock() - report.received <= HEARD else misfit
+
+    @property
+    def boards(self) -> dict[int, int]:
+        """Board numbers that robots have announced, by robot."""
+        return dict(self._protocol.boards)
 
     def quality(self, robot: int) -> LinkQuality:
         """Reception quality of a robot."""

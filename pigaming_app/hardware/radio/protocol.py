@@ -14,12 +14,28 @@ class LinkQuality(NamedTuple):
     echo: float | None  # round trip from sending a command to the report that acknowledges it, s
 
 
+class Misfit(NamedTuple):
+    """A robot that reports but cannot be driven."""
+
+    reason: str  # old: firmware of protocol 1; no_arena: flashed without an arena id; foreign: of another arena
+    arena: int  # id in its reports, 0 if there is none
+    received: float  # s, time of its last such report
+
+
 class RadioProtocol(Protocol):
     """Encodes commands, decodes telemetry and diagnoses the radio."""
 
     @property
     def telemetry(self) -> Mapping[int, Telemetry]:
-        """Newest telemetry of every robot received so far, by robot."""
+        """Newest telemetry of every robot received so far, by robot; of this arena's driveable robots only."""
+
+    @property
+    def misfits(self) -> Mapping[int, Misfit]:
+        """Last report of every robot that cannot be driven, by robot."""
+
+    @property
+    def boards(self) -> Mapping[int, int]:
+        """Board numbers that robots have announced, by robot: see robot_kinds. Robots without this are absent."""
 
     def open(self, now: float) -> bytes:
         """Reset for a newly opened line; returns the bytes to send first."""

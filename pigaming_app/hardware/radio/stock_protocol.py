@@ -8,7 +8,7 @@ Put the robot on blocks; for matches use our firmware (hardware/firmware/).
 from collections.abc import Mapping, Sequence
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.protocol import LinkQuality
+from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit
 from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
 BAUD = 115200
@@ -35,6 +35,9 @@ def _motor(share: float, forward: int, back: int) -> bytes:
 
 class StockProtocol:
     """RadioProtocol of the serial-slave program, for the only robot on this line."""
+
+    misfits: Mapping[int, Misfit] = {}
+    boards: Mapping[int, int] = {}
 
     def __init__(self, robot: int = 0) -> None:
         self._robot = robot

@@ -8,17 +8,10 @@ from collections import Counter, deque
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
 
-from pigaming_app.hardware.radio import packets
-from pigaming_app.hardware.radio.packets import (
-    BROADCAST,
-    ROBOTS,
-    SEQUENCE,
-    ATResponse,
-    ReceivedPacket,
-    RobotReport,
-    TransmitStatus,
-)
-from pigaming_app.hardware.radio.protocol import LinkQuality
+from pigaming_app.hardware.radio import packets, xbee_frames
+from pigaming_app.hardware.radio.packets import NO_ARENA, ROBOTS, SEQUENCE, RobotReport
+from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit
+from pigaming_app.hardware.radio.xbee_frames import BROADCAST, ATResponse, ReceivedPacket, TransmitStatus
 from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
 REPORTS = 5  # reports per second and robot
@@ -35,13 +28,16 @@ class XBeeMode(StrEnum):
 
 
 class XBeeProtocol:
-    """RadioProtocol of our firmware."""
+    """RadioProtocol of our firmware, for the robots of one arena (1 to packets.LAST_ARENA)."""
 
-    def __init__(self, mode: XBeeMode = XBeeMode.API2) -> None:
-        self.mode = mode
-        self.outcomes: Counter[int] = Counter()  # broadcasts by status, see packets.TransmitStatus
+    boards: Mapping[int, int] = {}
+
+    def __init__(self, arena: int, mode: XBeeMode = XBeeMode.API2) -> None:
+        self.arena, self.mode = arena, mode
+        self.outcomes: Counter[int] = Counter()  # broadcasts by status, see xbee_frames.TransmitStatus
         self.broadcasts = 0
         self._telemetry: dict[int, Telemetry] = {}
+        self._misfits: dict[int, Misfit] = {}
         self._strength: dict[int, int] = {}  # dBm, by robot
         self._echo: dict[int, float] = {}  # s, by robot
         self._reported: dict[int, deque[float]] = {
@@ -52,38 +48,45 @@ class XBeeProtocol:
         self.open(0.0)
 
     def open(self, now: float) -> bytes:
-        """Reset the decoders; query the radio's mode."""
-        self._frames = packets.FrameDecoder(escaped=self.mode is XBeeMode.API2)
+        """Reset the decoders; query the radio's mode.
+
+        On a transparent line a decoder of escaped frames detects both API modes: most plain frames pass it unchanged.
+        """
+        self._frames = xbee_frames.FrameDecoder(escaped=self.mode is not XBeeMode.API1)
         self._packets: dict[int, packets.PacketDecoder] = {}  # by source
         self._opened = self._decoded = now  # s
         self._garbage = 0  # bytes discarded until the last successful decoding
         self._wrong_mode = ""  # the radio's mode if it is another one
-        return b"" if self.mode is XBeeMode.TRANSPARENT else self._framed(packets.ATCommand(1, "AP"))
+        return b"" if self.mode is XBeeMode.TRANSPARENT else self._framed(xbee_frames.ATCommand(1, "AP"))
 
     @property
     def telemetry(self) -> Mapping[int, Telemetry]:
         return self._telemetry
+
+    @property
+    def misfits(self) -> Mapping[int, Misfit]:
+        return self._misfits
 
     def command(self, wheels: Sequence[WheelCommand | None], now: float) -> bytes:
         """A broadcast for all robots."""
         self._seq = (self._seq + 1) % SEQUENCE
         self._sent[self._seq] = now
         self.broadcasts += 1
-        packet = packets.drive_packet(self._seq, wheels)
+        packet = packets.drive_packet(self.arena, self._seq, wheels)
         if self.mode is XBeeMode.TRANSPARENT:
             return packet
-        return self._framed(packets.TransmitRequest(1 + self.broadcasts % 255, BROADCAST, packet))
+        return self._framed(xbee_frames.TransmitRequest(1 + self.broadcasts % 255, BROADCAST, packet))
 
     def receive(self, received: bytes, now: float) -> None:
         """Process the frames of the radio and the reports of the robots."""
         if self.mode is XBeeMode.TRANSPARENT:
             self._decode_reports(0, received, now)
-            if any(isinstance(packets.decode(data), ReceivedPacket) for data in self._frames.feed(received)):
+            if any(isinstance(xbee_frames.decode(data), ReceivedPacket) for data in self._frames.feed(received)):
                 self._wrong_mode = "1 or 2"
             return
         for data in self._frames.feed(received):
             self._note_decoded(now)
-            match packets.decode(data):
+            match xbee_frames.decode(data):
                 case ReceivedPacket(source, strength, _, part):
                     for robot in self._decode_reports(source, part, now):
                         self._strength[robot] = strength
@@ -109,13 +112,24 @@ class XBeeProtocol:
         return None if self.mode is XBeeMode.TRANSPARENT else ("mute", "")
 
     def _decode_reports(self, source: int, received: bytes, now: float) -> list[int]:
-        """Store the reports in these bytes; returns their robots in order."""
+        """Store the reports in these bytes; returns the robots of this arena among them, in order."""
         robots = []
         for packet in self._packets.setdefault(source, packets.PacketDecoder()).feed(received):
             self._note_decoded(now)
-            if packet[0] == packets.REPORT and 1 <= packet[1] <= ROBOTS:
-                robots.append(self._store(packets.report_from(packet), now))
+            if packet[0] == packets.OLD_REPORT:
+                self._note_misfit(packet[1], "old", NO_ARENA, now)
+            elif packet[0] == packets.REPORT:
+                report = packets.report_from(packet)
+                if report.arena != self.arena:
+                    reason = "no_arena" if report.arena == NO_ARENA else "foreign"
+                    self._note_misfit(report.address, reason, report.arena, now)
+                elif 1 <= report.address <= ROBOTS:
+                    robots.append(self._store(report, now))
         return robots
+
+    def _note_misfit(self, address: int, reason: str, arena: int, now: float) -> None:
+        if 1 <= address <= ROBOTS:
+            self._misfits[address - 1] = Misfit(reason, arena, now)
 
     def _store(self, report: RobotReport, now: float) -> int:
         robot = report.address - 1
@@ -136,5 +150,5 @@ class XBeeProtocol:
     def _ap(self) -> bytes:
         return b"\x02" if self.mode is XBeeMode.API2 else b"\x01"
 
-    def _framed(self, message: packets.Message) -> bytes:
-        return packets.frame(packets.encode(message), self.mode is XBeeMode.API2)
+    def _framed(self, message: xbee_frames.Message) -> bytes:
+        return xbee_frames.frame(xbee_frames.encode(message), self.mode is XBeeMode.API2)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.emulator.radio import RadioChannel
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.session.lighting import Lighting
     from pigaming_app.hardware.signals import CameraFrame
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -84,6 +85,10 @@ class EmulatedSession:
         return self._arena
 
     @property
+    def arena_id(self) -> int:
+        return self.arena.arena_id
+
+    @property
     def ground(self) -> "GroundPlane":
         """The calibration saved by the wizard, or else the one made with the arena. Raises RobotsUnavailable."""
         from pigaming_app.hardware.calibration.ground_plane import CalibrationError
@@ -114,12 +119,13 @@ class EmulatedSession:
             from pigaming_app.hardware.control.rig import UNMEASURED
             from pigaming_app.hardware.emulator.site import EmulatedCameraSource
             from pigaming_app.hardware.radio.link import Link
+            from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
             from pigaming_app.sim.world import ROBOTS
 
             arena, ground = self.arena, self.ground
             arena.cleared = False
             self._now, self.mm = arena.clock(), ground.mm
-            link = Link(arena.radio.open, arena.clock, name="EMU0")
+            link = Link(arena.radio.open, arena.clock, XBeeProtocol(arena.arena_id), "EMU0")
             self._rig = new_rig(
                 EmulatedCameraSource(arena), link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker
             )
@@ -145,6 +151,14 @@ class EmulatedSession:
     def open_link(self) -> "Link | None":
         """Always None: without an arena there is no radio either."""
         return None
+
+    def carrier(self, number: int) -> "Carrier":
+        from pigaming_app.hardware.emulator import xbee
+        from pigaming_app.hardware.radio.xbee_setup import Carrier
+
+        radio = self.arena.radio
+        module = radio.modules[number - 1] if number else radio.module
+        return Carrier(xbee.Carrier(module, self.arena.clock).open, self.arena.clock, "EMU0")
 
     def tick(self) -> None:
         self.advance(DT)

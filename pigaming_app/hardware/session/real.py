@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.signals import CameraFrame, CameraSource
 
 STOCK = "stock"  # radio setting: a single robot with factory firmware, on a cable
@@ -42,6 +43,12 @@ class RealSession:
         return self._link.fault if self._link else None
 
     @property
+    def arena_id(self) -> int:
+        from pigaming_app.hardware.session import store
+
+        return store.arena_id(self.settings)
+
+    @property
     def site(self) -> "CalibrationSite":
         from pigaming_app.hardware.calibration.site import RealCalibrationSite
 
@@ -58,7 +65,9 @@ class RealSession:
                 drivetrains = store.load_robots(store.robots_file(emulated=False))
                 camera = SizedCamera(Camera(self.settings.camera), ground)
                 try:
-                    rig = new_rig(camera, self._new_link(), ground, time.monotonic, drivetrains)
+                    rig = new_rig(
+                        camera, self._new_link(), ground, time.monotonic, drivetrains, kinds=self.settings.kinds
+                    )
                 except BaseException:
                     camera.close()
                     raise
@@ -92,18 +101,31 @@ class RealSession:
     def end(self) -> None:
         self.close()
 
+    def carrier(self, number: int) -> "Carrier":
+        """The radio on the port of the settings, whichever it is: they are plugged in one after another."""
+        from pigaming_app.hardware.radio.serial_line import serial_port
+        from pigaming_app.hardware.radio.xbee_setup import Carrier
+
+        name = self._port_name()
+        return Carrier(lambda baud: serial_port(name, baud)(), time.monotonic, name)
+
+    def _port_name(self) -> str:
+        from pigaming_app.hardware.radio.serial_line import ports
+
+        return self.settings.port or next((port.device for port in ports()), NO_PORT)
+
     def _new_link(self) -> "Link":
         """The link of the settings, not started. A port that does not open is reported as its `fault`."""
         from pigaming_app.hardware.radio.link import Link
-        from pigaming_app.hardware.radio.serial_line import ports, serial_port
+        from pigaming_app.hardware.radio.serial_line import serial_port
         from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
         from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 
-        chosen = self.settings
-        name = chosen.port or next((port.device for port in ports()), NO_PORT)
+        chosen, name = self.settings, self._port_name()
         if chosen.radio == STOCK:
             return Link(serial_port(name, BAUD), time.monotonic, StockProtocol(0), name)
-        return Link(serial_port(name, chosen.baud), time.monotonic, XBeeProtocol(XBeeMode(chosen.radio)), name)
+        protocol = XBeeProtocol(self.arena_id, XBeeMode(chosen.radio))
+        return Link(serial_port(name, chosen.baud), time.monotonic, protocol, name)
 
 
 class SizedCamera:

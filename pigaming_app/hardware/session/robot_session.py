@@ -8,12 +8,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
+from pigaming_app.sim.world import ROBOTS
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.signals import CameraSource, Clock
     from pigaming_app.hardware.tracking.tracker import Tracker
     from pigaming_app.sim.drivetrain import Drivetrain
@@ -40,6 +42,10 @@ class RobotSession(Protocol):
         """Interface to this mat for calibration. Raises RobotsUnavailable."""
 
     @property
+    def arena_id(self) -> int:
+        """Id of this computer's arena; robots with another one are not driven. Raises RobotsUnavailable."""
+
+    @property
     def mm(self) -> float:
         """mm of the mat per arena px, valid while the session is open."""
 
@@ -48,6 +54,12 @@ class RobotSession(Protocol):
 
     def open_link(self) -> "Link | None":
         """The radio alone, for use when `open` raises; None if there is none either."""
+
+    def carrier(self, number: int) -> "Carrier":
+        """The USB carrier with the radio of the computer (0) or of a robot (1 to 4), for XBeeSetup.
+
+        Raises RobotsUnavailable.
+        """
 
     def tick(self) -> None:
         """Sleep until 1/50 s after the last call, or advance simulated time by 1/50 s."""
@@ -69,15 +81,16 @@ def new_rig(
     clock: "Clock",
     drivetrains: "Sequence[Drivetrain]",
     tracker: "type[Tracker] | None" = None,
+    kinds: "Sequence[str]" = ("",) * ROBOTS,
 ) -> "Rig":
-    """A rig whose tracker also measures camera drift. Raises OpenCVMissing."""
+    """A rig whose tracker also measures camera drift. `kinds`: see Rig. Raises OpenCVMissing."""
     from pigaming_app.hardware.calibration.drift import DriftMonitor
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.tracking.tracker import Tracker
 
     drift = DriftMonitor(ground)
     follower = (tracker or Tracker)(ground, clock, drivetrains, drift)
-    return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm)
+    return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm, ground.mm, kinds)
 
 
 def settings_problem(settings: "Settings") -> OperatorMessage | None:
