@@ -13,10 +13,11 @@ from pigaming_app.hardware.calibration.boards import BOARD, FRAMES, HELD_OUT, Bo
 from pigaming_app.hardware.calibration.camera_position import height_by_ruler
 from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, CameraTask
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
+from pigaming_app.hardware.calibration.quality import assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import Residuals, solve, verify, with_verification
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.hardware.signals import CameraFrame, ExposureState
 
 QUEUED = 5  # outdated pictures in a driver's queue
 TIMEOUT = 90.0  # s, for the whole procedure
@@ -49,6 +50,7 @@ class Calibration(CameraTask):
         self.ground: GroundPlane | None = None
         self.residuals: Residuals | None = None
         self.seen = 0  # markers in the newest picture
+        self.exposure = ExposureState()
         self._samples: BoardSamples | None = None
         self._shown = inf  # s, when the board was first projected
         self._skipped = 0  # pictures since then
@@ -73,10 +75,13 @@ class Calibration(CameraTask):
             self._shown = self.site.clock()
 
     def process(self, frame: CameraFrame) -> None:
-        if self.finished or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
+        if self.finished:
             return
         if self.site.clock() - self._since > TIMEOUT:
             self.give_up(OperatorMessage("slow"))
+            return
+        self.exposure = self._camera.exposure if self._camera else self.exposure
+        if not self.exposure.settled or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
         self._skipped += 1
         if self._skipped <= QUEUED:
@@ -111,7 +116,9 @@ class Calibration(CameraTask):
         assert self.ground is not None
         self.residuals = verify(self.ground, samples.corners(), HELD_OUT)
         if self.residuals.accepted:
-            self.ground = with_verification(self.ground, self.residuals)
+            blur, edge = samples.blur(), self.ground.weakest_edge
+            ground = replace(self.ground, quality=assessed(edge, blur, self.exposure))
+            self.ground = with_verification(ground, self.residuals)
         self.stage, self.board, self._samples = CalibrationStage.DONE, None, None
 
     def end(self) -> None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
-    from pigaming_app.hardware.signals import CameraFrame, CameraSource
+    from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
 
 STOCK = "stock"  # radio setting: a single robot with factory firmware, on a cable
 NO_PORT = "no serial port"
@@ -56,7 +56,7 @@ class RealSession:
             try:
                 ground = store.load(store.calibration_file("real"), self.projection())
                 drivetrains = store.load_robots(store.robots_file(emulated=False))
-                camera = SizedCamera(Camera(self.settings.camera), ground)
+                camera = SizedCamera(Camera(self.settings.camera, kept=ground.quality.kept), ground)
                 try:
                     rig = new_rig(camera, self._new_link(), ground, time.monotonic, drivetrains)
                 except BaseException:
@@ -117,6 +117,11 @@ class SizedCamera:
     def fault(self) -> OperatorMessage | None:
         """Fault of the camera, or of its frame size."""
         return self.camera.fault or self._misfit
+
+    @property
+    def exposure(self) -> "ExposureState":
+        """Exposure of the camera."""
+        return self.camera.exposure
 
     def newest(self) -> "CameraFrame | None":
         """The newest frame, once; None if there is none since the last call, or if it has the wrong size."""
