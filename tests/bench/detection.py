@@ -1,7 +1,7 @@
 """Share of the pictures in which a driving robot's marker is found, by edge, blur and exposure; and the wizard's rule.
 
-Robots drive at 0.35 m/s over a busy floor with the disc of a match under them, seen by the emulated camera; each marker is
-searched as the tracker does, near its place. `main` prints the table and the weights of `calibration.quality`:
+Robots drive at 0.35 m/s over a busy floor with the disc of a match under them, seen by the emulated camera; each marker
+is searched as the tracker does, near its place. `main` prints the table and the weights of `calibration.quality`:
 
     python -X pigaming -m tests.bench.detection
 """

@@ -17,7 +17,7 @@ from pigaming_app.hardware.calibration.quality import assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import Residuals, solve, verify, with_verification
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.signals import CameraFrame, ExposureState
+from pigaming_app.hardware.signals import CameraFrame
 
 QUEUED = 5  # outdated pictures in a driver's queue
 TIMEOUT = 90.0  # s, for the whole procedure
@@ -50,7 +50,6 @@ class Calibration(CameraTask):
         self.ground: GroundPlane | None = None
         self.residuals: Residuals | None = None
         self.seen = 0  # markers in the newest picture
-        self.exposure = ExposureState()
         self._samples: BoardSamples | None = None
         self._shown = inf  # s, when the board was first projected
         self._skipped = 0  # pictures since then
@@ -80,7 +79,6 @@ class Calibration(CameraTask):
         if self.site.clock() - self._since > TIMEOUT:
             self.give_up(OperatorMessage("slow"))
             return
-        self.exposure = self._camera.exposure if self._camera else self.exposure
         if not self.exposure.settled or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
         self._skipped += 1
@@ -94,7 +92,7 @@ class Calibration(CameraTask):
             try:
                 self._solve(self._samples) if self.stage is CalibrationStage.LOOKING else self._verify(self._samples)
             except CalibrationError as error:
-                self.give_up(error.message)
+                self.give_up(OperatorMessage("exposure_dark") if self.exposure.dark else error.message)
 
     def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
         if seconds > looking.BLIND and not self.finished:

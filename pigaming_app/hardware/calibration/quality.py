@@ -71,6 +71,11 @@ class CameraQuality:
         return OperatorMessage(cause, share=share, edge=edge, blur=f"{self.blur_px:.1f}")
 
 
+def used_anyway(quality: CameraQuality) -> OperatorMessage:
+    """The warning about a calibration that was saved despite its picture."""
+    return OperatorMessage("used_anyway", share=round(100 * quality.detection))
+
+
 def assessed(marker_px: float, blur_px: float, state: ExposureState) -> CameraQuality:
     """The quality of a picture. Without a figure of the driver the exposure is taken to be LONGEST."""
     seconds = state.seconds or 0.0
@@ -78,12 +83,15 @@ def assessed(marker_px: float, blur_px: float, state: ExposureState) -> CameraQu
 
 
 def predicted(marker_px: float, blur_px: float, exposure: float) -> float:
-    """Predicted share of the pictures, 0..1, in which the marker of a driving robot is found; s of exposure, 0: LONGEST."""
+    """Predicted share of the pictures, 0..1, in which the marker of a driving robot is found.
+
+    `exposure`: s; 0, unknown, counts as LONGEST.
+    """
     logit = sum(weight * term for weight, term in zip(WEIGHTS, terms(marker_px, blur_px, exposure), strict=True))
     return 1.0 / (1.0 + exp(-max(-30.0, min(30.0, logit))))
 
 
 def terms(marker_px: float, blur_px: float, exposure: float) -> tuple[float, float, float, float]:
-    """The terms of the logit: 1, size of the marker, blur and motion in an exposure as shares of a cell of the marker."""
+    """The terms of the logit: 1, size of the marker; blur, and motion in an exposure, as shares of a marker's cell."""
     blur, motion = blur_px / (marker_px / CELLS), SPEED * (exposure or LONGEST) / (MARKER_MM / CELLS)
     return 1.0, log(marker_px), blur**2, motion**4

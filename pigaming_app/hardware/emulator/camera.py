@@ -54,7 +54,7 @@ TRAITS = {
     "dim": CameraTraits(metered=1 / 8),
     "dark": CameraTraits(metered=1 / 8, gains=0.0),
     "tilted": CameraTraits(
-        defocus=1.0, size=(1280, 720), lens=TrueLens((60.0, 1190.0, 2480.0), (5.0, 36.0), 0.021, 1700.0)
+        defocus=1.0, size=(1280, 720), lens=TrueLens((60.0, 1190.0, 2480.0), (5.0, 36.0), 0.021, 1900.0)
     ),
 }
 

@@ -17,7 +17,8 @@ REACH = 0.9  # half length of a profile, cells: the rim is one cell wide, and so
 PROFILES, SAMPLES = 9, 61  # per edge; samples per profile
 ALONG = np.linspace(0.2, 0.8, PROFILES)
 ACROSS = np.linspace(-1.0, 1.0, SAMPLES)
-ENDS = 8  # samples at each end that give black and white
+MIDDLE = SAMPLES // 2
+ENDS = 8  # darkest and brightest samples that give black and white
 LOW, HIGH = 0.1587, 0.8413  # of a Gaussian at one standard deviation to each side
 INTERPOLATED = 1.0 / 6.0  # px^2, variance added by linear interpolation
 FLAT = 12.0  # grey levels of contrast below which an edge is ignored
@@ -48,9 +49,11 @@ def _edge(cv: Any, image: Image, begin: NDArray[np.float64], end: NDArray[np.flo
     points = begin + way * ALONG[:, None, None] + out * (reach * ACROSS)[:, None]
     maps = points.reshape(PROFILES, SAMPLES, 2).astype(np.float32)
     values = cv.remap(image.astype(np.float32), maps[..., 0], maps[..., 1], cv.INTER_LINEAR).mean(axis=0)
-    low, high = float(values[:ENDS].mean()), float(values[-ENDS:].mean())
+    darkest, brightest = int(values[:MIDDLE].argmin()), MIDDLE + int(values[MIDDLE:].argmax())
+    low, high = np.sort(values[:MIDDLE])[:ENDS].mean(), np.sort(values[MIDDLE:])[-ENDS:].mean()
     if high - low < FLAT:
         return None
-    share = np.maximum.accumulate((values - low) / (high - low))
-    below, above = (float(np.interp(level, share, ACROSS)) for level in (LOW, HIGH))
+    rise = slice(darkest, brightest + 1)  # beyond it, light of the neighbouring cells
+    share = np.maximum.accumulate((values[rise] - low) / (high - low))
+    below, above = (float(np.interp(level, share, ACROSS[rise])) for level in (LOW, HIGH))
     return 0.5 * (above - below) * reach

@@ -6,11 +6,14 @@ import pygame
 
 from pigaming_app.hardware.calibration.camera_task import SPOT, DriftCheck
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
+from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.session import store
+from pigaming_app.hardware.vision.exposure import warning_of
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
+from pigaming_app.scenes.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.calibration.result_page import MAX_SIZE_ERROR
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import Context
@@ -79,6 +82,7 @@ class DriftPage:
             draw_corners(screen)
         except OpenCVMissing as missing:
             work.fault = missing.message
+        self._draw_picture(screen)
         self._draw_spot(screen)
         self.prompts.draw(screen)
 
@@ -95,6 +99,22 @@ class DriftPage:
             sentence = words(f"calibrate.{key}", mm=f"{work.marker_mm:.1f}", true=f"{marker_size:.0f}")
         for i, line in enumerate(paragraph(sentence, 330, 4, color, "c")):
             line.draw(screen, x, y + 120 + 48 * i)
+
+    def _draw_picture(self, screen: pygame.Surface) -> None:
+        """Exposure and sharpness at present, and the most serious warning about them."""
+        words, quality, state = self.context.words, self.work.quality, self.work.exposure
+        if self.work.fault is not None or quality is None:
+            return
+        figures = {"blur": f"{quality.blur_px:.1f}", "share": round(100 * quality.detection)}
+        line = words("calibrate.picture", time=exposure_text(words, state), **figures)
+        text(line, BODY, MIST, room=ROOM).draw(screen, 960, 868)
+        message = quality.advice if not quality.sufficient else warning_of(state) or quality.advice
+        if message is None and quality.anyway:
+            message = used_anyway(quality)
+        if message is not None:
+            color = FOCUS if quality.sufficient else ALARM
+            for i, row in enumerate(paragraph(words.sentence(message), ROOM, 2, color, "c")):
+                row.draw(screen, 960, 924 + 46 * i)
 
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
