@@ -128,8 +128,8 @@ class CameraPreview(CameraTask):
 class DriftCheck(CameraTask):
     """Drift of a calibration: distance of the four corner markers from their calibrated positions, mm.
 
-    `load` reads the calibration for pictures of a size in px (None: any), or raises CalibrationError. `marker_mm` is the
-    apparent size of the marker of a robot at SPOT: if it is far from the true size, the mat's width was measured wrongly.
+    `load` reads the calibration for pictures of a size in px (None: any), or raises CalibrationError. `marker_mm` is
+    the apparent size of the marker of a robot at SPOT: far from the true size, the mat's width was measured wrongly.
     """
 
     def __init__(

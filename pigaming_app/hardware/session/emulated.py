@@ -10,6 +10,7 @@ from pigaming_app.sim.world import DT, HZ
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+    from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.emulator.arena import EmulatedArena
     from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming
@@ -56,6 +57,7 @@ class EmulatedSession:
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
         self.mm = 0.0
+        self.quality: CameraQuality | None = None
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._traits = traits
         self._arena: EmulatedArena | None = None
@@ -120,7 +122,7 @@ class EmulatedSession:
 
             arena, ground = self.arena, self.ground
             arena.cleared = False
-            self._now, self.mm = arena.clock(), ground.mm
+            self._now, self.mm, self.quality = arena.clock(), ground.mm, ground.quality
             link = Link(arena.radio.open, arena.clock, name="EMU0")
             camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
             self._rig = new_rig(camera, link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker)

@@ -14,6 +14,7 @@ from pigaming_app.storage.settings import Settings
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+    from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
@@ -31,6 +32,7 @@ class RealSession:
     def __init__(self, settings: Settings, projection: Callable[[], str | None] = lambda: None) -> None:
         self.settings, self.projection = settings, projection
         self.mm = 0.0
+        self.quality: CameraQuality | None = None
         self._rig: Rig | None = None
         self._link: Link | None = None
         self._next = time.monotonic()  # s, time of the next tick
@@ -67,7 +69,7 @@ class RealSession:
             except (DrivetrainError, ImportError) as error:
                 raise RobotsUnavailable(OperatorMessage("robots_file", detail=error)) from error
             rig.channels = tuple(radio - 1 for radio in self.settings.radios)
-            self.mm, self._rig = ground.mm, rig.start()
+            self.mm, self.quality, self._rig = ground.mm, ground.quality, rig.start()
         return self._rig
 
     def open_link(self) -> "Link | None":

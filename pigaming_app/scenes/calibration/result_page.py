@@ -34,7 +34,7 @@ from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
 HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
-GAUGE = 154  # px, pitch of the gauges
+GAUGE = 146  # px, pitch of the gauges
 MAX_SIZE_ERROR = 0.04  # tolerated relative error of a marker's size
 SENTENCE_SECONDS = 6.0  # seconds for which a sentence is shown
 IDLE = 600.0  # seconds without input until the title
@@ -149,10 +149,10 @@ class ResultPage:
         value_text = words("calibrate.percent", share=f"{100 * missed:.0f}")
         figure(words("calibrate.missed"), value_text, missed / (1.0 - NEEDED), limit_text).draw(screen, SIDE.x, y)
         y += GAUGE
-        for name, value_text, warned in self._facts(finding.ground, quality):
-            fact(words(f"calibrate.{name}"), value_text, ALARM if warned else ICE).draw(screen, SIDE.x, y)
-            y += 46
         warning, color = self._warning(quality)
+        for name, value_text, warned in self._facts(finding.ground, quality):
+            fact(words(f"calibrate.{name}"), value_text, color if warned else ICE).draw(screen, SIDE.x, y)
+            y += 43
         for i, line in enumerate(paragraph(warning, SIDE.w, 4, color)):
             line.draw(screen, SIDE.x, y + 24 + 46 * i)
 
