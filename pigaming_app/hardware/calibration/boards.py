@@ -21,6 +21,7 @@ ARENA_AT = (160.0, 140.0)  # px, the arena's top left corner on the canvas
 COLUMNS, ROWS = 7, 5
 FIRST_ID = 14  # 0..3 are robots, 10..13 corners
 FRAMES = 10  # pictures to average
+BLUR_EVERY = 4  # pictures between two measurements of the blur
 MIN_MARKERS = 26  # of 35
 MAX_SHAKE = 1.5  # camera px, standard deviation of a corner; above it something moves
 LIGHT = 235  # grey level of the board's background: below full, to avoid overexposure
@@ -88,7 +89,7 @@ class BoardSamples:
         marks = self._markers.refine(frame.image, self._markers.detect(frame.image))
         for mark in marks:
             self._seen.setdefault(mark.number, []).append(mark.corners)
-        if self.frames % 3 == 1:
+        if self.frames % BLUR_EVERY == 1:
             for mark in marks:
                 self._blurs.setdefault(mark.number, []).extend(blur_of(opencv(), frame.image, [mark]))
         return len(marks)

@@ -48,7 +48,7 @@ def _edge(cv: Any, image: Image, begin: NDArray[np.float64], end: NDArray[np.flo
     out = np.array([way[1], -way[0]]) / length
     points = begin + way * ALONG[:, None, None] + out * (reach * ACROSS)[:, None]
     maps = points.reshape(PROFILES, SAMPLES, 2).astype(np.float32)
-    values = cv.remap(image.astype(np.float32), maps[..., 0], maps[..., 1], cv.INTER_LINEAR).mean(axis=0)
+    values = cv.remap(image, maps[..., 0], maps[..., 1], cv.INTER_LINEAR).astype(np.float64).mean(axis=0)
     darkest, brightest = int(values[:MIDDLE].argmin()), MIDDLE + int(values[MIDDLE:].argmax())
     low, high = np.sort(values[:MIDDLE])[:ENDS].mean(), np.sort(values[MIDDLE:])[-ENDS:].mean()
     if high - low < FLAT:
