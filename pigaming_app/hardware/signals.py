@@ -24,12 +24,42 @@ class CameraFrame(NamedTuple):
     number: int
 
 
+class ExposureState(NamedTuple):
+    """Exposure of a camera.
+
+    `seconds`: figure of the driver, None without; `interval`: s between two pictures, 0: unknown; `gain`: in units of
+    the driver, 0 without; `dark`: too dark at the highest gain; `settled`: nothing changes any more.
+    """
+
+    seconds: float | None = None
+    interval: float = 0.0
+    gain: float = 0.0
+    dark: bool = False
+    settled: bool = False
+
+    @property
+    def bound(self) -> float:
+        """The exposure, or its upper bound, s; 0: unknown."""
+        return self.interval if self.seconds is None else self.seconds
+
+
+class ExposureKept(NamedTuple):
+    """Exposure (s) and gain (units of the driver) of a calibration."""
+
+    seconds: float
+    gain: float
+
+
 class CameraSource(Protocol):
     """A camera. Its health is judged by the age of its newest frame, not by the driver's status."""
 
     @property
     def fault(self) -> OperatorMessage | None:
         """The present fault, or None."""
+
+    @property
+    def exposure(self) -> ExposureState:
+        """Exposure and gain at present."""
 
     def newest(self) -> CameraFrame | None:
         """The newest frame not returned before, or None."""

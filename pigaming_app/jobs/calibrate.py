@@ -11,11 +11,15 @@ from pigaming_app.jobs.terminal.options import decimal, display, mat_settings, p
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.ui.i18n import all_languages
 
+VIEWS = ("good", "defocused", "long", "stubborn", "silent", "dim", "dark", "tilted")  # of the emulated camera
+
 
 def options(parser: ArgumentParser) -> None:
     shared(parser, "--camera", "--display", "--emulate", "--json")
     parser.add_argument("--headless", action="store_true", help="with --emulate: no window, print the errors")
     parser.add_argument("--robot", action="store_true", help="with --headless: camera height measured by a robot")
+    parser.add_argument("--view", choices=VIEWS, help=f"with --headless: a camera of this quality; default {VIEWS[0]}")
+    parser.add_argument("--anyway", action="store_true", help="with --headless: save it though markers will be missed")
     parser.add_argument("--sheet", type=path, metavar="FILE", help="write the page of markers to print (PDF), no more")
     parser.add_argument(
         "--edge", type=decimal(1.0, 1000.0), metavar="MM", default=50.0, help="edge of its markers; default 50"
@@ -28,7 +32,7 @@ def run(arguments: Namespace) -> int:
     require("hardware")
     if arguments.sheet is not None:
         return _write(arguments.sheet, arguments.edge)
-    if arguments.headless or arguments.json or arguments.robot:
+    if arguments.headless or arguments.json or arguments.robot or arguments.anyway or arguments.view:
         if arguments.emulate is None:
             raise Refusal("without a window only the emulated arena can be calibrated: add --emulate")
         return _prove(arguments)
@@ -62,7 +66,7 @@ def _prove(arguments: Namespace) -> int:
 
     with refused(OperatorError):
         opencv()
-    result = calibrate(arguments.emulate, arguments.robot)
+    result = calibrate(arguments.emulate, arguments.robot, arguments.view or VIEWS[0], arguments.anyway)
     if arguments.json:
         print(json.dumps(result))
     else:

@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.emulator.arena import ARENA_AT
+from pigaming_app.hardware.emulator.camera import TRAITS
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.scenes.calibration.result_page import ResultPage
@@ -31,10 +33,13 @@ GRID = [(x, y) for x in range(0, 1601, 200) for y in range(0, 901, 150)]  # aren
 
 
 class Operator:
-    """Presses the buttons of the wizard; `robot`: the camera height is measured by a robot on projected outlines."""
+    """Presses the buttons of the wizard.
 
-    def __init__(self, seed: int, robot: bool = False) -> None:
-        self.site, self.robot = EmulatedCalibrationSite(seed), robot
+    `robot`: the camera height is measured by a robot on projected outlines; `view`: camera of `emulator.camera.TRAITS`.
+    """
+
+    def __init__(self, seed: int, robot: bool = False, view: str = "good") -> None:
+        self.site, self.robot = EmulatedCalibrationSite(seed, traits=TRAITS[view]), robot
         canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         canvas.watchers.append(lambda window: self.site.project(pixels_of(window)))
         self.context = Context(Settings(), Scores(), Words("en"), Controls(), Sounds(), canvas)
@@ -75,19 +80,23 @@ class Operator:
         self.context.canvas.close()
 
 
-def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
-    """Calibrate and save; the results by name."""
-    began, operator = perf_counter(), Operator(seed, robot)
+def calibrate(seed: int, robot: bool = False, view: str = "good", anyway: bool = False) -> dict[str, Any]:
+    """Calibrate and save; the results by name. `anyway`: also if too few markers are expected to be found."""
+    began, operator = perf_counter(), Operator(seed, robot, view)
     try:
         page = operator.work()
         if page is None:
             return {"saved": False, "trouble": "The calibration timed out."}
         finding, reason = page.finding, page.finding.trouble
         trouble = reason and english().long_sentence(reason)
-        if finding.good:
+        if finding.good or (anyway and finding.accurate):
+            while page.focus.name not in ("save", "anyway"):
+                operator.press(Button.RIGHT)
             operator.press(Button.FIRE)
             trouble = page.navigation.sentence or None
-        saved = finding.good and operator.stack.top is operator.page
+        elif finding.accurate and finding.ground and finding.ground.quality.advice:
+            trouble = english().long_sentence(finding.ground.quality.advice)
+        saved = operator.stack.top is operator.page
         result: dict[str, Any] = {
             "saved": saved,
             "trouble": trouble,
@@ -99,10 +108,23 @@ def calibrate(seed: int, robot: bool = False) -> dict[str, Any]:
                 "calibration_max_mm": finding.residuals.max_mm,
                 **_compared(finding.ground, operator.site),
                 "marker_mm": finding.marker_mm or None,
+                **_picture(finding.ground.quality),
             }
         return {**result, "made_up_seconds": operator.site.clock(), "seconds": perf_counter() - began}
     finally:
         operator.close()
+
+
+def _picture(quality: CameraQuality) -> dict[str, Any]:
+    """Quality of the camera's picture; None: not measured, or no figure of the driver."""
+    return {
+        "marker_edge_px": quality.marker_px or None,
+        "blur_px": quality.blur_px or None,
+        "exposure_ms": 1e3 * quality.exposure or None,
+        "gain": quality.gain,
+        "predicted_detection": quality.detection if quality.measured else None,
+        "sufficient": quality.sufficient,
+    }
 
 
 def _compared(ground: GroundPlane, site: EmulatedCalibrationSite) -> dict[str, float]:

@@ -38,6 +38,42 @@ def test_on_the_emulated_arena_the_wizard_matches_ground_truth(tmp_path):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize(
+    ("view", "code", "exposure", "enough"),
+    [
+        ("long", 0, (16.0, 16.7), True),
+        ("silent", 0, None, True),
+        ("dim", 0, (16.0, 16.7), True),
+        ("stubborn", 1, (33.0, 33.4), False),
+        ("defocused", 1, (5.9, 6.1), False),
+        ("tilted", 1, (5.9, 6.1), False),
+        ("dark", 1, None, None),
+    ],
+)
+def test_a_camera_that_misses_markers_fails(tmp_path, view, code, exposure, enough):
+    ran = calibrate(tmp_path, "--emulate", 3, "--json", "--view", view)
+    result = json.loads(ran.stdout)
+    assert (ran.returncode, result["saved"]) == (code, not code)
+    if enough is None:
+        assert result["trouble"] == "Too dark for a short exposure: add even light."
+        return
+    assert result["exposure_ms"] is exposure or exposure[0] <= result["exposure_ms"] <= exposure[1]
+    assert (result["predicted_detection"] >= 0.95) == result["sufficient"] == enough
+    assert enough or "% of the markers would be found" in result["trouble"]
+    assert (result["marker_edge_px"] < 20.0) == (view == "tilted")
+    assert (result["blur_px"] > 2.0) == (view == "defocused")
+    assert (result["gain"] > 0.0) == (view == "dim")
+
+
+@pytest.mark.long
+def test_it_is_saved_anyway_if_asked_for(tmp_path):
+    ran = calibrate(tmp_path, "--emulate", 3, "--json", "--view", "stubborn", "--anyway")
+    result = json.loads(ran.stdout)
+    assert (ran.returncode, result["saved"], result["sufficient"]) == (0, True, False)
+    assert "anyway = true" in Path(result["file"]).read_text()
+
+
+@pytest.mark.long
 def test_a_folder_that_cannot_be_written_is_reported_as_a_failure(tmp_path):
     (tmp_path / "config").write_text("a file in the way")
     ran = calibrate(tmp_path, "--emulate", "--json")

@@ -14,12 +14,14 @@ from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Poi
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, Image
 from pigaming_app.hardware.vision.markers import MarkerDetector, opencv
+from pigaming_app.hardware.vision.sharpness import blur_of
 
 CANVAS = (1920, 1080)
 ARENA_AT = (160.0, 140.0)  # px, the arena's top left corner on the canvas
 COLUMNS, ROWS = 7, 5
 FIRST_ID = 14  # 0..3 are robots, 10..13 corners
 FRAMES = 10  # pictures to average
+BLUR_EVERY = 4  # pictures between two measurements of the blur
 MIN_MARKERS = 26  # of 35
 MAX_SHAKE = 1.5  # camera px, standard deviation of a corner; above it something moves
 LIGHT = 235  # grey level of the board's background: below full, to avoid overexposure
@@ -76,6 +78,7 @@ class BoardSamples:
     def __init__(self) -> None:
         self._markers = MarkerDetector(BOARD_IDS)
         self._seen: dict[int, list[Points]] = {}
+        self._blurs: dict[int, list[float]] = {}
         self.frames = 0
         self.size = (0, 0)  # of the pictures
 
@@ -86,12 +89,20 @@ class BoardSamples:
         marks = self._markers.refine(frame.image, self._markers.detect(frame.image))
         for mark in marks:
             self._seen.setdefault(mark.number, []).append(mark.corners)
+        if self.frames % BLUR_EVERY == 1:
+            for mark in marks:
+                self._blurs.setdefault(mark.number, []).extend(blur_of(opencv(), frame.image, [mark]))
         return len(marks)
 
     @property
     def ready(self) -> bool:
         """True after FRAMES pictures."""
         return self.frames >= FRAMES
+
+    def blur(self) -> float:
+        """Blur of the board's softest tenth of markers, standard deviation in camera px; 0 if none was clear."""
+        blurs = [float(np.median(blurs)) for blurs in self._blurs.values() if blurs]
+        return float(np.percentile(blurs, 90.0)) if blurs else 0.0
 
     def corners(self) -> Mapping[int, Points]:
         """Median corners of the markers seen in at least half of the pictures, camera px. Raises CalibrationError."""

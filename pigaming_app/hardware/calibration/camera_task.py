@@ -4,6 +4,8 @@ Each is a BackgroundWorker that opens the camera, works in small steps and relea
 """
 
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
 from math import inf
 from typing import ClassVar
 
@@ -11,10 +13,12 @@ import numpy as np
 
 from pigaming_app.hardware.calibration.drift import DriftMonitor
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
+from pigaming_app.hardware.calibration.quality import CameraQuality, assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.signals import CameraFrame, CameraSource, Image
+from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKept, ExposureState, Image
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, OpenCVMissing, opencv
+from pigaming_app.hardware.vision.sharpness import blur_of
 from pigaming_app.hardware.worker import BackgroundWorker, log
 
 BLIND = 6.0  # s, timeout without a picture
@@ -42,8 +46,14 @@ class CameraTask(BackgroundWorker):
         self.site, self.number = site, number
         self.fault: OperatorMessage | None = None
         self.small: Image | None = None  # the newest picture, scaled for the preview
+        self.kept: ExposureKept | None = None  # exposure of the calibration, to be set when the camera opens
         self._camera: CameraSource | None = None
         self._since = self._newest = inf  # s: when it was opened, when the newest picture came
+
+    @property
+    def exposure(self) -> ExposureState:
+        """Exposure and gain of the camera."""
+        return self._camera.exposure if self._camera else ExposureState()
 
     def begin(self) -> None:
         """Start a thread; in simulated time the owner of the clock calls `pump`."""
@@ -57,7 +67,7 @@ class CameraTask(BackgroundWorker):
         if self._camera is None:
             self._since = self._newest = now
             try:
-                self._camera = self.site.open(self.number, self.locks, self.fresh)
+                self._camera = self.site.open(self.number, self.locks, self.fresh, self.kept)
             except OpenCVMissing as missing:
                 self.give_up(missing.message)
                 return
@@ -118,16 +128,21 @@ class CameraPreview(CameraTask):
 class DriftCheck(CameraTask):
     """Drift of a calibration: distance of the four corner markers from their calibrated positions, mm.
 
-    `load` reads the calibration for pictures of a size in px, or raises CalibrationError. `marker_mm` is the apparent
-    size of the marker of a robot at SPOT: if it is far from the true size, the mat's width was measured wrongly.
+    `load` reads the calibration for pictures of a size in px (None: any), or raises CalibrationError. `marker_mm` is
+    the apparent size of the marker of a robot at SPOT: far from the true size, the mat's width was measured wrongly.
     """
 
-    def __init__(self, site: CalibrationSite, number: int, load: Callable[[tuple[int, int]], GroundPlane]) -> None:
+    def __init__(
+        self, site: CalibrationSite, number: int, load: Callable[[tuple[int, int] | None], GroundPlane]
+    ) -> None:
         super().__init__(site, number)
         self.drift: DriftMonitor | None = None
         self.mm: float | None = None  # None: not yet measured
         self.marker_mm: float | None = None
+        self.quality: CameraQuality | None = None  # of the present picture
         self._load = load
+        with suppress(CalibrationError):
+            self.kept = load(None).quality.kept
         self._robots: MarkerDetector | None = None
         self._searched = -inf
 
@@ -145,6 +160,7 @@ class DriftCheck(CameraTask):
         if frame.captured - self._searched > SEARCH:
             self._searched = frame.captured
             self._measure(frame, self.drift.ground)
+            self._assess(frame, self.drift)
 
     def _measure(self, frame: CameraFrame, ground: GroundPlane) -> None:
         """Measure the apparent marker size of a robot on the spot."""
@@ -154,6 +170,15 @@ class DriftCheck(CameraTask):
             away = ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT)
             if float(away @ away) < NEAR * NEAR:
                 self.marker_mm = ground.edge_mm(mark)
+
+    def _assess(self, frame: CameraFrame, drift: DriftMonitor) -> None:
+        """Assess exposure and blur of the picture, by the corner markers."""
+        before = drift.ground.quality
+        blurs = blur_of(opencv(), frame.image, drift.seen)
+        if before.measured and blurs and self.mm is not None:
+            self.quality = replace(
+                assessed(before.marker_px, float(np.median(blurs)), self.exposure), anyway=before.anyway
+            )
 
     def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
         if seconds > BLIND:

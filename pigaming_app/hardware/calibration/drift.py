@@ -61,6 +61,11 @@ class DriftMonitor:
         full = [np.median(misses, axis=0) for misses in self._misses.values() if len(misses) == PICTURES]
         return max((hypot(x, y) * self.ground.mm for x, y in full), default=0.0)
 
+    @property
+    def seen(self) -> list[DetectedMarker]:
+        """The corner markers where they were last seen."""
+        return list(self._seen.values())
+
     def _search(self, frame: CameraFrame, missing: list[int]) -> list[DetectedMarker]:
         """Search for missing markers: near their last positions, and from time to time in the whole picture."""
         if not missing or frame.captured - self._local_search < LOCAL_SEARCH:

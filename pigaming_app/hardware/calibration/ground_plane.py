@@ -5,7 +5,7 @@ display, camera or version, or one edited by hand, is refused with a message for
 """
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from math import atan2, hypot
 from zlib import crc32
 
@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.lens import Lens
+from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import DetectedMarker, Fix
 from pigaming_app.sim.toml_table import FieldError, TomlTable
-from pigaming_app.sim.world import WIDTH
+from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
 VERSION = 1
@@ -46,6 +47,7 @@ class GroundPlane:
     marker: float = MARKER
     mean_mm: float = 0.0  # errors on the held-out board
     max_mm: float = 0.0
+    quality: CameraQuality = field(default_factory=CameraQuality)  # of the picture
 
     def __post_init__(self) -> None:
         matrix = np.array(self.plane, dtype=np.float64).reshape(3, 3)
@@ -85,6 +87,20 @@ class GroundPlane:
         """The apparent edge of a marker on a lid, mm; wrong if the mat was measured wrongly."""
         corners = self.at_height(mark.corners, self.lid).tolist()
         return sum(_edges(corners)) / 4.0 * self.mm
+
+    @property
+    def weakest_edge(self) -> float:
+        """The edge of a robot's marker at the place of the arena where it appears smallest, camera px.
+
+        Seen at an angle, that of its shorter side.
+        """
+        x, y = np.meshgrid(np.linspace(0.0, WIDTH, 9), np.linspace(0.0, HEIGHT, 6))
+        places, step = np.column_stack([x.ravel(), y.ravel()]), 1.0 / self.mm
+        here, right, down = (
+            self.to_camera(places + np.array(aside), self.lid) for aside in ((0.0, 0.0), (step, 0.0), (0.0, step))
+        )
+        scales = np.linalg.svd(np.stack([right - here, down - here], axis=2), compute_uv=False)
+        return self.marker * float(scales.min())
 
     def _fix(self, number: int, corners: list[list[float]], captured: float) -> Fix | str:
         edges = _edges(corners)
@@ -179,4 +195,19 @@ def _ground(table: TomlTable) -> GroundPlane:
         table.number("marker", None, 5.0, 500.0, " mm"),
         table.number("mean_mm", None, 0.0),
         table.number("max_mm", None, 0.0),
+        _quality(table.table("quality")) if "quality" in table else CameraQuality(),
+    )
+
+
+def _quality(table: TomlTable) -> CameraQuality:
+    anyway = table.entries.get("anyway")
+    if not isinstance(anyway, bool):
+        raise table.error("anyway", "true or false is missing")
+    return CameraQuality(
+        table.number("exposure", None, 0.0, 10.0, " s"),
+        table.number("gain", None, 0.0, 1e6),
+        table.number("marker_px", None, 0.0, 1e4, " px"),
+        table.number("blur_px", None, 0.0, 1e4, " px"),
+        table.number("detection", None, 0.0, 1.0),
+        anyway,
     )

@@ -3,6 +3,7 @@
 `place` is the outline to project; the caller confirms each projected frame by `mark_shown`.
 """
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -94,7 +95,7 @@ class HeightProcedure(CameraTask):
             self.give_up(error.message)
             return
         self.marker_mm = found.edge_mm(last)
-        self.found = found
+        self.found = replace(found, quality=found.quality.with_edge(found.weakest_edge))
 
 
 def _jitter(marks: list[DetectedMarker]) -> float:

@@ -13,6 +13,7 @@ from pigaming_app.hardware.calibration.boards import BOARD, FRAMES, HELD_OUT, Bo
 from pigaming_app.hardware.calibration.camera_position import height_by_ruler
 from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, CameraTask
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
+from pigaming_app.hardware.calibration.quality import assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import Residuals, solve, verify, with_verification
 from pigaming_app.hardware.messages import OperatorMessage
@@ -73,10 +74,12 @@ class Calibration(CameraTask):
             self._shown = self.site.clock()
 
     def process(self, frame: CameraFrame) -> None:
-        if self.finished or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
+        if self.finished:
             return
         if self.site.clock() - self._since > TIMEOUT:
             self.give_up(OperatorMessage("slow"))
+            return
+        if not self.exposure.settled or frame.captured < max(self._shown + LIT, self._since + self.site.settle):
             return
         self._skipped += 1
         if self._skipped <= QUEUED:
@@ -89,7 +92,7 @@ class Calibration(CameraTask):
             try:
                 self._solve(self._samples) if self.stage is CalibrationStage.LOOKING else self._verify(self._samples)
             except CalibrationError as error:
-                self.give_up(error.message)
+                self.give_up(OperatorMessage("exposure_dark") if self.exposure.dark else error.message)
 
     def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
         if seconds > looking.BLIND and not self.finished:
@@ -111,7 +114,9 @@ class Calibration(CameraTask):
         assert self.ground is not None
         self.residuals = verify(self.ground, samples.corners(), HELD_OUT)
         if self.residuals.accepted:
-            self.ground = with_verification(self.ground, self.residuals)
+            blur, edge = samples.blur(), self.ground.weakest_edge
+            ground = replace(self.ground, quality=assessed(edge, blur, self.exposure))
+            self.ground = with_verification(ground, self.residuals)
         self.stage, self.board, self._samples = CalibrationStage.DONE, None, None
 
     def end(self) -> None:

@@ -4,12 +4,15 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
-from typing import Protocol
+from typing import Any, Protocol
 
 from pigaming_app.hardware.calibration.ground_plane import LID
-from pigaming_app.hardware.signals import CameraSource, Clock
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, ExposureKept, ExposureState
 from pigaming_app.hardware.vision.camera import SETTLE, Camera
 from pigaming_app.hardware.vision.discovery import CameraInfo, cameras
+from pigaming_app.hardware.vision.exposure import ExposureControl
+from pigaming_app.hardware.vision.markers import opencv
 
 SETTLED = 2.6  # s after which a real camera has locked its exposure
 
@@ -40,8 +43,13 @@ class CalibrationSite(Protocol):
 
     def cameras(self) -> list[CameraInfo]: ...
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> CameraSource:
-        """Open a camera. `locks`: lock the exposure once settled; `fresh`: settle it again. Raises OpenCVMissing."""
+    def open(
+        self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
+    ) -> CameraSource:
+        """Open a camera. Raises OpenCVMissing.
+
+        `locks`: lock the exposure once settled; `fresh`: choose it anew; `kept`: set that of a calibration.
+        """
 
     def advance(self, seconds: float) -> None: ...
 
@@ -50,6 +58,42 @@ class CalibrationSite(Protocol):
 
     def stand(self, x: float, y: float) -> None:
         """Request a robot at this point, arena px."""
+
+
+class ControlledCamera:
+    """A camera whose exposure is controlled by the reader's own thread, through the driver `capture`.
+
+    Real cameras do the same in their capture thread. Raises OpenCVMissing.
+    """
+
+    def __init__(
+        self,
+        camera: CameraSource,
+        capture: Any,
+        clock: Clock,
+        settle: float,
+        fresh: bool = False,
+        kept: ExposureKept | None = None,
+    ) -> None:
+        self.camera, self.clock = camera, clock
+        self._control = ExposureControl(opencv(), capture, clock(), settle, fresh, kept)
+
+    @property
+    def fault(self) -> OperatorMessage | None:
+        return self.camera.fault
+
+    @property
+    def exposure(self) -> ExposureState:
+        return self._control.state
+
+    def newest(self) -> CameraFrame | None:
+        frame = self.camera.newest()
+        if frame is not None:
+            self._control.observe(frame.image, frame.captured)
+        return frame
+
+    def close(self) -> None:
+        self.camera.close()
 
 
 class RealCalibrationSite:
@@ -67,8 +111,10 @@ class RealCalibrationSite:
     def cameras(self) -> list[CameraInfo]:
         return cameras()
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> CameraSource:
-        return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh)
+    def open(
+        self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
+    ) -> CameraSource:
+        return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh, kept)
 
     def advance(self, seconds: float) -> None:
         """No effect: real time passes by itself."""

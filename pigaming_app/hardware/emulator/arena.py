@@ -5,13 +5,13 @@ same seed and calls give the same run. Poses in the interface are in arena px; i
 """
 
 from collections import deque
-from math import atan2, cos, sin
+from math import atan2, ceil, cos, sin
 from random import Random
 from threading import Lock
 
 import numpy as np
 
-from pigaming_app.hardware.emulator.camera import EmulatedCamera, FrameTiming
+from pigaming_app.hardware.emulator.camera import CameraTraits, EmulatedCamera, FrameTiming
 from pigaming_app.hardware.emulator.faults import FaultInjector
 from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.objects import Placing
@@ -24,7 +24,8 @@ from pigaming_app.sim.plant import Pose
 
 ARENA_AT = (160.0, 140.0)  # px, the arena's top left corner on the canvas
 STARTS: tuple[Pose, ...] = ((200, 200, 0.8), (1400, 200, 2.4), (1400, 700, 3.9), (200, 700, 5.5))
-OPEN = 3  # steps of exposure
+LONGEST = 0.07  # s of the past that an exposure may cover
+MOMENTS = 9  # poses in an exposure, at most
 SHOWS_AFTER = 0.025  # s, latency of the projector
 REFRESH = 0.01  # s, least interval of two projected pictures; of two closer ones only the second is shown
 LIGHT_TURN = 40.0  # s, period of the moving light
@@ -36,7 +37,7 @@ class EmulatedArena:
     """The mat and its surroundings. `camera` is a CameraSource, `radio` a SerialPort, `faults` a FaultInjector.
 
     `exposure_jitter`: size of spontaneous exposure steps, as a share; `begin`: start of the clock, s; `refresh`: see
-    SceneRenderer, 1 renders every picture completely; `arena_id`: of its robots.
+    SceneRenderer, 1 renders every picture completely; `arena_id`: of its robots; `traits`: of the camera.
     """
 
     def __init__(
@@ -48,19 +49,20 @@ class EmulatedArena:
         exposure_jitter: float = 0.0,
         begin: float = 0.0,
         arena_id: int = ARENA_ID,
+        traits: CameraTraits | None = None,
     ) -> None:
         random = Random(f"arena {seed}")
         self.ticks, self.begin, self.arena_id = 0, begin, arena_id  # ticks of STEP
-        self.optics = Optics()
+        traits = traits or CameraTraits()
+        self.optics = Optics(traits.lens)
         self.robots = [
             EmulatedRobot(random_parameters(random), *self._on_mat(pose), Random(f"{seed} {i}"))
             for i, pose in enumerate(STARTS)
         ]
         self.firmwares = [Firmware(robot, i + 1, arena_id) for i, robot in enumerate(self.robots)]
         self.radio = EmulatedRadio(self.firmwares, channel or RadioChannel(), self.clock, seed)
-        self.camera = EmulatedCamera(
-            SceneRenderer(self.optics, seed, refresh), timing or FrameTiming(), self.clock, seed
-        )
+        painter = SceneRenderer(self.optics, seed, refresh, size=traits.size, defocus=traits.defocus)
+        self.camera = EmulatedCamera(painter, timing or FrameTiming(), self.clock, seed, traits)
         self.faults = FaultInjector(self)
         self.gain = 1.0  # exposure
         self.cleared = False  # True if the robots are off the mat, out of view
@@ -70,7 +72,7 @@ class EmulatedArena:
         self._shown: Image = np.zeros((CANVAS[1], CANVAS[0]), dtype=np.uint8)
         self._pending: deque[tuple[float, Image]] = deque()
         self._queue = Lock()  # guards `_pending`: the window projects while another thread advances time
-        self._past: deque[list[Placing]] = deque(maxlen=OPEN)
+        self._past: deque[list[Placing]] = deque(maxlen=round(LONGEST / STEP))
 
     def clock(self) -> float:
         """Simulated time, s."""
@@ -129,14 +131,16 @@ class EmulatedArena:
                 self._shown = self._pending.popleft()[1]
         self._past.append([(robot.x, robot.y, robot.heading) for robot in self.robots])
         if now >= self.camera.due:
-            self.camera.expose(self._scene(now), now - 0.5 * STEP * (OPEN - 1))
+            self.camera.expose(self._scene(now), now - 0.5 * (self.camera.shutter - STEP))
 
     def _scene(self, now: float) -> CameraScene:
         if now >= self._next_gain:
             self._next_gain += EXPOSURE_PERIOD
             self._drift_gain = 1.0 + self._exposure_jitter * self._exposure_random.uniform(-1.0, 1.0)
         things = []
+        open_for = max(1, round(self.camera.shutter / STEP))
+        moments = list(self._past)[-open_for :: ceil(open_for / MOMENTS)]
         for i in range(0 if self.cleared else len(self.robots)):
-            things += self.faults.things(i, tuple(moment[i] for moment in self._past))
-        gain = self.gain * self._drift_gain
-        return CameraScene(self._shown, tuple(things), (now - self.begin) / LIGHT_TURN, gain, self.camera.exposed)
+            things += self.faults.things(i, tuple(moment[i] for moment in moments))
+        gain, light = self.gain * self._drift_gain * self.camera.brightness, (now - self.begin) / LIGHT_TURN
+        return CameraScene(self._shown, tuple(things), light, gain, self.camera.exposed, self.camera.boost)

@@ -31,6 +31,7 @@ class CameraScene(NamedTuple):
     light: float  # phase of the moving room light, in turns
     gain: float  # of the exposure
     number: int
+    noise: float = 1.0  # amplification
 
 
 class ImageRegion(NamedTuple):
@@ -67,9 +68,21 @@ WHOLE = ImageRegion(0, 0, SENSOR[1], SENSOR[0])
 class SceneRenderer:
     """Renders scenes for one camera. The same seed gives the same pictures."""
 
-    def __init__(self, optics: Optics, seed: int, refresh: int = 1, noise: float = NOISE) -> None:
-        """`refresh`: interval of complete pictures; `noise`: grey levels, standard deviation."""
-        self.refresh = refresh
+    def __init__(
+        self,
+        optics: Optics,
+        seed: int,
+        refresh: int = 1,
+        noise: float = NOISE,
+        size: tuple[int, int] = SENSOR,
+        defocus: float = 0.0,
+    ) -> None:
+        """`refresh`: interval of complete pictures; `noise`: grey levels, standard deviation.
+
+        `size`: px of the delivered pictures, scaled from the sensor's; `defocus`: px of them, standard deviation.
+        """
+        self.refresh, self.size = refresh, size
+        self._blur, noise = defocus * SENSOR[0] / size[0], noise * SENSOR[0] / size[0]  # scaling averages noise
         self.ambient = 1.0  # share of the room light
         self._seed = seed
         random = np.random.default_rng(seed)
@@ -87,7 +100,16 @@ class SceneRenderer:
         self._age = self.refresh
 
     def paint(self, scene: CameraScene) -> Image:
-        """Render a picture, (1080, 1920) grey."""
+        """Render a picture of the camera's size, grey."""
+        import cv2
+
+        picture = self._painted(scene)
+        if self.size == SENSOR:
+            return picture
+        return np.asarray(cv2.resize(picture, self.size, interpolation=cv2.INTER_AREA))
+
+    def _painted(self, scene: CameraScene) -> Image:
+        """Render a picture of the whole sensor, (1080, 1920) grey."""
         random = np.random.default_rng((self._seed, scene.number))
         windows = [(thing, self._window(thing)) for thing in scene.things]
         if self.refresh == 1:
@@ -116,9 +138,13 @@ class SceneRenderer:
             if place.overlaps(window):
                 self._lay(scene, thing, place, window, room, light)
         cv2.multiply(light, self._shade[window.cut()], dst=light, scale=scene.gain)
+        if self._blur:
+            cv2.GaussianBlur(light, (0, 0), self._blur, dst=light)
         height, width = light.shape
         top, left = int(random.integers(1400 - height)), int(random.integers(2300 - width))
         noise = self._noise[top : top + height, left : left + width]
+        if scene.noise != 1.0:
+            return np.asarray(cv2.add(light, noise * np.float32(scene.noise), dtype=cv2.CV_8U))
         return np.asarray(cv2.add(light, noise, dtype=cv2.CV_8U))
 
     def _lay(
@@ -169,7 +195,7 @@ class SceneRenderer:
         points = np.array([(pose[0], pose[1]) for pose in thing.poses])
         pixels = self.optics.sensor(points, thing.height)
         lens = self.optics.lens
-        reach = thing.reach * lens.focal / (lens.eye[2] - thing.height) + SPARE
+        reach = thing.reach * lens.focal / (lens.eye[2] - thing.height) + SPARE + 3.0 * self._blur
         left, top = np.floor(pixels.min(axis=0) - reach).astype(int)
         right, bottom = np.ceil(pixels.max(axis=0) + reach).astype(int)
         wide, high = SENSOR

@@ -4,20 +4,22 @@ Live, its time is real time; stepped, it passes only in `advance`, and runs are 
 """
 
 import time
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.site import Measurements
+from pigaming_app.hardware.calibration.site import ControlledCamera, Measurements
 from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
-from pigaming_app.hardware.emulator.camera import FrameTiming
+from pigaming_app.hardware.emulator.camera import CameraDriver, CameraTraits, FrameTiming
 from pigaming_app.hardware.emulator.projector import Projector
 from pigaming_app.hardware.emulator.realtime import RealtimeArena
-from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.hardware.signals import CameraFrame, ExposureKept, ExposureState
 from pigaming_app.hardware.vision.discovery import CameraInfo
 
 RULER = (1.5, 8.0)  # mm, errors of the measured width of the mat and height of the camera
 ASIDE = ((60.0, 60.0), (1540.0, 60.0), (1540.0, 840.0), (60.0, 840.0))  # arena px, parking positions
+LOCKED, SETTLED = 0.2, 0.3  # s after opening: the exposure is locked, pictures are usable
 HEADING = -1.2  # rad, of a robot put down by hand
 
 
@@ -25,6 +27,7 @@ class EmulatedCameraSource:
     """The camera over the emulated mat; it can be closed and opened repeatedly."""
 
     fault: None = None
+    exposure = ExposureState()
 
     def __init__(self, arena: EmulatedArena) -> None:
         self.arena = arena
@@ -40,12 +43,19 @@ class EmulatedCalibrationSite:
     """An emulated arena whose robots move to the requested places by themselves."""
 
     name = "emulated"
-    settle = 0.3
+    settle = SETTLED
 
-    def __init__(self, seed: int = 1, live: bool = False, arena: EmulatedArena | None = None) -> None:
-        """`arena`: an existing one; if `live`, its owner advances its time."""
+    def __init__(
+        self,
+        seed: int = 1,
+        live: bool = False,
+        arena: EmulatedArena | None = None,
+        traits: CameraTraits | None = None,
+    ) -> None:
+        """`arena`: an existing one; if `live`, its owner advances its time. `traits`: of the camera of a new one."""
         self.stepped = not live
-        self.arena = arena or EmulatedArena(seed, FrameTiming(30.0), begin=time.monotonic() if live else 0.0)
+        begin = time.monotonic() if live else 0.0
+        self.arena = arena or EmulatedArena(seed, FrameTiming(30.0), begin=begin, traits=traits)
         self.clock = self.arena.clock
         self.projector = Projector(self.arena)
         self._live = RealtimeArena(self.arena).start() if live and arena is None else None
@@ -55,8 +65,11 @@ class EmulatedCalibrationSite:
     def cameras(self) -> list[CameraInfo]:
         return [CameraInfo(0, "emulated")]
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> EmulatedCameraSource:
-        return EmulatedCameraSource(self.arena)
+    def open(
+        self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
+    ) -> ControlledCamera:
+        source, driver = EmulatedCameraSource(self.arena), CameraDriver(self.arena.camera)
+        return ControlledCamera(source, driver, self.clock, LOCKED if locks else inf, fresh, kept)
 
     def advance(self, seconds: float) -> None:
         if self.stepped:

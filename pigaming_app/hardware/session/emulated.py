@@ -10,9 +10,10 @@ from pigaming_app.sim.world import DT, HZ
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+    from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.emulator.arena import EmulatedArena
-    from pigaming_app.hardware.emulator.camera import FrameTiming
+    from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming
     from pigaming_app.hardware.emulator.paced import PacedArena
     from pigaming_app.hardware.emulator.radio import RadioChannel
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
@@ -36,8 +37,8 @@ class EmulatedSession:
 
     `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
-    `show`. `timing`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of camera and
-    radio.
+    `show`. `timing`, `traits`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
+    camera and radio.
     """
 
     emulated = True
@@ -53,10 +54,13 @@ class EmulatedSession:
         exposure_jitter: float = 0.0,
         ground: "GroundPlane | None" = None,
         tracker: "type[Tracker] | None" = None,
+        traits: "CameraTraits | None" = None,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
         self.mm = 0.0
+        self.quality: CameraQuality | None = None
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
+        self._traits = traits
         self._arena: EmulatedArena | None = None
         self._made = ground
         self._rig: Rig | None = None
@@ -117,18 +121,17 @@ class EmulatedSession:
     def open(self) -> "Rig":
         if self._rig is None:
             from pigaming_app.hardware.control.rig import UNMEASURED
-            from pigaming_app.hardware.emulator.site import EmulatedCameraSource
+            from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
             from pigaming_app.hardware.radio.link import Link
             from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
             from pigaming_app.sim.world import ROBOTS
 
             arena, ground = self.arena, self.ground
             arena.cleared = False
-            self._now, self.mm = arena.clock(), ground.mm
+            self._now, self.mm, self.quality = arena.clock(), ground.mm, ground.quality
             link = Link(arena.radio.open, arena.clock, XBeeProtocol(arena.arena_id), "EMU0")
-            self._rig = new_rig(
-                EmulatedCameraSource(arena), link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker
-            )
+            camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
+            self._rig = new_rig(camera, link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker)
             if self._time is not None:
                 self._rig.start()
                 self._time.watched, self._time.limit = True, self._now + AHEAD
@@ -211,7 +214,12 @@ class EmulatedSession:
 
         refresh = WHOLE if self.live else QUICK
         arena = EmulatedArena(
-            self.seed, self._timing or FrameTiming(FPS), self._channel or MODERATE, refresh, self._exposure_jitter
+            self.seed,
+            self._timing or FrameTiming(FPS),
+            self._channel or MODERATE,
+            refresh,
+            self._exposure_jitter,
+            traits=self._traits,
         )
         self._made = self._made or calibrated(arena)
         arena.project(np.zeros(DARK, np.uint8))  # until the window renders

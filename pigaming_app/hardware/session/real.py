@@ -14,11 +14,12 @@ from pigaming_app.storage.settings import Settings
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+    from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.xbee_setup import Carrier
-    from pigaming_app.hardware.signals import CameraFrame, CameraSource
+    from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
 
 STOCK = "stock"  # radio setting: a single robot with factory firmware, on a cable
 NO_PORT = "no serial port"
@@ -32,6 +33,7 @@ class RealSession:
     def __init__(self, settings: Settings, projection: Callable[[], str | None] = lambda: None) -> None:
         self.settings, self.projection = settings, projection
         self.mm = 0.0
+        self.quality: CameraQuality | None = None
         self._rig: Rig | None = None
         self._link: Link | None = None
         self._next = time.monotonic()  # s, time of the next tick
@@ -63,7 +65,7 @@ class RealSession:
             try:
                 ground = store.load(store.calibration_file("real"), self.projection())
                 drivetrains = store.load_robots(store.robots_file(emulated=False))
-                camera = SizedCamera(Camera(self.settings.camera), ground)
+                camera = SizedCamera(Camera(self.settings.camera, kept=ground.quality.kept), ground)
                 try:
                     rig = new_rig(
                         camera, self._new_link(), ground, time.monotonic, drivetrains, kinds=self.settings.kinds
@@ -76,7 +78,7 @@ class RealSession:
             except (DrivetrainError, ImportError) as error:
                 raise RobotsUnavailable(OperatorMessage("robots_file", detail=error)) from error
             rig.channels = tuple(radio - 1 for radio in self.settings.radios)
-            self.mm, self._rig = ground.mm, rig.start()
+            self.mm, self.quality, self._rig = ground.mm, ground.quality, rig.start()
         return self._rig
 
     def open_link(self) -> "Link | None":
@@ -139,6 +141,11 @@ class SizedCamera:
     def fault(self) -> OperatorMessage | None:
         """Fault of the camera, or of its frame size."""
         return self.camera.fault or self._misfit
+
+    @property
+    def exposure(self) -> "ExposureState":
+        """Exposure of the camera."""
+        return self.camera.exposure
 
     def newest(self) -> "CameraFrame | None":
         """The newest frame, once; None if there is none since the last call, or if it has the wrong size."""

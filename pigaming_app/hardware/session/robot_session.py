@@ -12,6 +12,7 @@ from pigaming_app.sim.world import ROBOTS
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+    from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
@@ -48,6 +49,10 @@ class RobotSession(Protocol):
     @property
     def mm(self) -> float:
         """mm of the mat per arena px, valid while the session is open."""
+
+    @property
+    def quality(self) -> "CameraQuality | None":
+        """Quality of the calibrated picture, valid while the session is open; None before."""
 
     def open(self) -> "Rig":
         """Start camera, tracker and radio, or return the running rig. Raises RobotsUnavailable."""
@@ -105,6 +110,16 @@ def settings_problem(settings: "Settings") -> OperatorMessage | None:
 def fault_of(rig: "Rig") -> OperatorMessage | None:
     """Fault of a rig's camera, or else of its radio."""
     return rig.camera.fault or rig.link.fault
+
+
+def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:
+    """Warning about exposure or sharpness of an open session's camera, or None."""
+    from pigaming_app.hardware.calibration.quality import used_anyway
+    from pigaming_app.hardware.vision.exposure import warning_of
+
+    quality = session.quality
+    warning = warning_of(rig.camera.exposure)
+    return warning or (used_anyway(quality) if quality is not None and quality.anyway else None)
 
 
 def cause_of(rig: "Rig", fault: str) -> OperatorMessage | None:

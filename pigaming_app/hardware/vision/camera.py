@@ -2,18 +2,18 @@
 
 Health is judged by the age of the newest frame, since drivers repeat frames, block and report wrong states. A camera
 that fails is reported as `fault` and reopened. Exposure, white balance, gain and focus are locked after they settle,
-because automatic corrections look to the tracker like changes of the arena.
+because automatic corrections look to the tracker like changes of the arena; see `exposure`.
 """
 
-import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Self
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.signals import CameraFrame, Clock
+from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureKept, ExposureState, Image
 from pigaming_app.hardware.vision.discovery import unavailable_reason
+from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
 
 SETTLE = 2.0  # s after opening at which exposure, white balance, focus and gain are locked
@@ -46,11 +46,16 @@ class Camera:
         open_capture: Callable[[int], Any] | None = None,
         settle: float = SETTLE,
         fresh: bool = False,
+        kept: ExposureKept | None = None,
     ) -> None:
         self._cv = opencv()
         self.number, self.wanted, self.clock, self.settle = number, wanted or CaptureSettings(), clock, settle
-        self.fresh = fresh  # True: restart automatic exposure etc.; False: keep the values that a calibration locked
+        self.fresh = (
+            fresh  # True: restart automatic exposure etc. and choose anew; False: keep what a calibration locked
+        )
+        self.kept = kept  # exposure of a calibration
         self.fault: OperatorMessage | None = OperatorMessage("yet", number=number)
+        self.exposure = ExposureState()
         self.unlocked: Sequence[str] = ()  # properties that could not be locked
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: CameraFrame | None = None
@@ -101,8 +106,6 @@ class Camera:
 
     def _configure(self, capture: Any) -> None:
         cv, wanted = self._cv, self.wanted
-        if self.fresh:
-            restore_automatic(cv, capture)
         capture.set(cv.CAP_PROP_FOURCC, cv.VideoWriter_fourcc(*"MJPG"))  # raw 1080p does not fit through USB 2
         capture.set(cv.CAP_PROP_FRAME_WIDTH, wanted.width)
         capture.set(cv.CAP_PROP_FRAME_HEIGHT, wanted.height)
@@ -111,8 +114,8 @@ class Camera:
 
     def _read(self, capture: Any) -> None:
         """Read until closed, or until no frame has come for STALE s."""
-        opened = last = time.monotonic()
-        locked = False
+        last = time.monotonic()
+        control = ExposureControl(self._cv, capture, last, self.settle, self.fresh, self.kept)
         while not self._closing.is_set():
             try:
                 ok, picture = capture.read()
@@ -121,45 +124,21 @@ class Camera:
             now = time.monotonic()
             if ok and picture is not None and picture.size:
                 last = now
-                self._store(capture, picture)
+                control.observe(self._store(capture, picture), now)
+                self.exposure, self.unlocked = control.state, control.unlocked
             elif now - last > STALE:
                 self.fault = OperatorMessage("stopped", number=self.number)
                 return
             else:
                 self._closing.wait(0.005)
-            if not locked and now - opened > self.settle:
-                locked, self.unlocked = True, lock_exposure(self._cv, capture)
 
-    def _store(self, capture: Any, picture: Any) -> None:
-        grey = picture if picture.ndim == 2 else self._cv.cvtColor(picture, self._cv.COLOR_BGR2GRAY)
+    def _store(self, capture: Any, picture: Any) -> Image:
+        """Store a picture as the newest frame; returns it in grey."""
+        grey: Image = picture if picture.ndim == 2 else self._cv.cvtColor(picture, self._cv.COLOR_BGR2GRAY)
         now = self.clock()
         stamp = float(capture.get(self._cv.CAP_PROP_POS_MSEC)) / 1000.0  # V4L2: same clock as time.monotonic
         captured = stamp if 0.0 < now - stamp < PLAUSIBLE else now - ASSUMED
         with self._lock:
             self._count += 1
             self._newest, self.fault = CameraFrame(grey, captured, self._count), None
-
-
-def restore_automatic(cv: Any, capture: Any) -> None:
-    """Restart automatic exposure, white balance and focus: drivers keep a lock when the camera is closed."""
-    automatic = 3.0 if sys.platform.startswith("linux") else 0.75  # V4L2 and DirectShow use different codes
-    for name, on in ((cv.CAP_PROP_AUTO_EXPOSURE, automatic), (cv.CAP_PROP_AUTO_WB, 1.0), (cv.CAP_PROP_AUTOFOCUS, 1.0)):
-        capture.set(name, on)
-
-
-def lock_exposure(cv: Any, capture: Any) -> list[str]:
-    """Lock exposure, white balance, focus and gain at their present values; returns those that stay automatic."""
-    unlocked = []
-    gain = capture.get(cv.CAP_PROP_GAIN)
-    manual = 1.0 if sys.platform.startswith("linux") else 0.25  # V4L2 and DirectShow use different codes
-    for name, automatic, off, value in (
-        ("exposure", cv.CAP_PROP_AUTO_EXPOSURE, manual, cv.CAP_PROP_EXPOSURE),
-        ("white balance", cv.CAP_PROP_AUTO_WB, 0.0, cv.CAP_PROP_WB_TEMPERATURE),
-        ("focus", cv.CAP_PROP_AUTOFOCUS, 0.0, cv.CAP_PROP_FOCUS),
-    ):
-        now = capture.get(value)
-        if not capture.set(automatic, off):
-            unlocked.append(name)
-        capture.set(value, now)
-    capture.set(cv.CAP_PROP_GAIN, gain)
-    return unlocked
+        return grey

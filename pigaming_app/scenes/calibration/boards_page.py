@@ -53,10 +53,17 @@ class BoardsPage:
         self.on_leave()
         work = self.work
         finding = CalibrationResult(
-            self.site, self.number, self.measures, work.ground, work.residuals, work.fault, work.small
+            self.site,
+            self.number,
+            self.measures,
+            work.ground,
+            work.residuals,
+            work.fault,
+            work.small,
+            exposure=work.exposure,
         )
         self.context.sounds.play("accept" if finding.good else "back")
-        if finding.good and not self.measures.height:
+        if finding.accurate and not self.measures.height:
             return Swap(HeightPage(self.context, finding, self._retry))
         return Swap(ResultPage(self.context, finding, self._retry))
 

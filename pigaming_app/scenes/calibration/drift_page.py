@@ -6,11 +6,14 @@ import pygame
 
 from pigaming_app.hardware.calibration.camera_task import SPOT, DriftCheck
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
+from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.session import store
+from pigaming_app.hardware.vision.exposure import warning_of
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
+from pigaming_app.scenes.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.calibration.result_page import MAX_SIZE_ERROR
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import Context
@@ -22,7 +25,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 
-BAR = pygame.Rect(560, 640, 800, 40)
+BAR = pygame.Rect(560, 560, 800, 40)
 ROOM = 1040  # px, width of the text between the robot spot and its mirror image
 BAR_MM = 20.0  # mm at the right end of the bar
 IDLE = 300.0  # seconds without input until the title
@@ -67,7 +70,7 @@ class DriftPage:
     def draw(self, screen: pygame.Surface) -> None:
         words, work = self.context.words, self.work
         screen.fill((0, 0, 0))
-        text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 210)
+        text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 160)
         if work.fault is not None:
             for i, line in enumerate(paragraph(words.sentence(work.fault), ROOM, 4, ALARM, "c")):
                 line.draw(screen, 960, 480 + 60 * i)
@@ -79,6 +82,7 @@ class DriftPage:
             draw_corners(screen)
         except OpenCVMissing as missing:
             work.fault = missing.message
+        self._draw_picture(screen)
         self._draw_spot(screen)
         self.prompts.draw(screen)
 
@@ -96,13 +100,29 @@ class DriftPage:
         for i, line in enumerate(paragraph(sentence, 330, 4, color, "c")):
             line.draw(screen, x, y + 120 + 48 * i)
 
+    def _draw_picture(self, screen: pygame.Surface) -> None:
+        """Exposure and sharpness at present, and the most serious warning about them."""
+        words, quality, state = self.context.words, self.work.quality, self.work.exposure
+        if self.work.fault is not None or quality is None:
+            return
+        figures = {"blur": f"{quality.blur_px:.1f}", "share": round(100 * quality.detection)}
+        line = words("calibrate.picture", time=exposure_text(words, state), **figures)
+        text(line, BODY, MIST, room=ROOM).draw(screen, 960, 800)
+        message = quality.advice if not quality.sufficient else warning_of(state) or quality.advice
+        if message is None and quality.anyway:
+            message = used_anyway(quality)
+        if message is not None:
+            color = FOCUS if quality.sufficient else ALARM
+            for i, row in enumerate(paragraph(words.sentence(message), ROOM, 2, color, "c")):
+                row.draw(screen, 960, 868 + 46 * i)
+
     def _draw_drift(self, screen: pygame.Surface, mm: float) -> None:
         key, color = ("still", ICE) if mm <= WARN else ("moved", FOCUS) if mm <= PAUSE else ("away", ALARM)
-        text(self.context.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 440)
+        text(self.context.words("calibrate.mm", mm=f"{mm:.1f}"), HERO, color, "head").draw(screen, 960, 380)
         bar().draw(screen)
         share = min(1.0, mm / BAR_MM)
         pygame.draw.rect(screen, color, (BAR.x + 6, BAR.y + 6, max(8, round((BAR.w - 12) * share)), BAR.h - 12))
-        text(self.context.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 800)
+        text(self.context.words(f"calibrate.{key}"), LABEL, color, "body", room=BAR.w).draw(screen, 960, 724)
 
 
 @cached

@@ -43,13 +43,22 @@ def _at(x: float, y: float) -> tuple[float, float]:
 @cached
 def figure(name: str, value: str, share: float, limit: str) -> LitImage:
     """One error as a number and a bar, full at twice the limit; `share` of the limit. Upper left corner at (0, 0)."""
-    layer = Layer(0, -20, SIDE.w, 190)
+    layer = Layer(0, -20, SIDE.w, 160)
     color: Color = ICE if share <= 1.0 else ALARM
-    layer.canvas.body(name, 0, 20, MIST)
-    layer.canvas.text(value, SUB, SIDE.w, 20, color, "head", "r")
+    layer.canvas.body(name, 0, 14, MIST)
+    layer.canvas.text(value, SUB - 8, SIDE.w, 14, color, "head", "r")
     bar = SIDE.w
-    layer.glow.line(cut_box(0, 74, bar, 26, 8), STEEL, THIN, True)
-    layer.glow.fill(cut_box(4, 78, max(12.0, (bar - 8) * min(1.0, share / 2.0)), 18, 5), color)
-    layer.glow.line([(bar / 2, 64), (bar / 2, 110)], ICE, LINE)
-    layer.canvas.body(limit, SIDE.w, 142, MIST, "r", BODY - 8)
+    layer.glow.line(cut_box(0, 54, bar, 22, 7), STEEL, THIN, True)
+    layer.glow.fill(cut_box(4, 58, max(12.0, (bar - 8) * min(1.0, share / 2.0)), 14, 4), color)
+    layer.glow.line([(bar / 2, 46), (bar / 2, 84)], ICE, LINE)
+    layer.canvas.body(limit, SIDE.w, 106, MIST, "r", BODY - 10)
+    return layer.render()
+
+
+@cached
+def fact(name: str, value: str, color: Color = ICE) -> LitImage:
+    """A quantity without a limit: name on the left, value on the right, on the line y = 0."""
+    layer = Layer(0, -30, SIDE.w, 60)
+    layer.canvas.body(name, 0, 0, MIST, size=BODY - 4)
+    layer.canvas.body(value, SIDE.w, 0, color, "r", BODY - 4)
     return layer.render()

@@ -5,22 +5,25 @@ A failure is shown as one sentence beside the camera's last picture.
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import pygame
 
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.calibration.quality import NEEDED, SMALL_EDGE, CameraQuality, used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
-from pigaming_app.hardware.signals import Image
-from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, figure
+from pigaming_app.hardware.signals import ExposureState, Image
+from pigaming_app.hardware.vision.exposure import warning_of
+from pigaming_app.scenes.calibration.picture_quality import exposure_text
+from pigaming_app.scenes.calibration.residual_plot import AREA, SIDE, arrows, fact, figure
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL, Color
 from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import paragraph, text
@@ -31,9 +34,12 @@ from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
 HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
+GAUGE = 146  # px, pitch of the gauges
 MAX_SIZE_ERROR = 0.04  # tolerated relative error of a marker's size
 SENTENCE_SECONDS = 6.0  # seconds for which a sentence is shown
 IDLE = 600.0  # seconds without input until the title
+
+UNKNOWN = ExposureState()
 
 log = logging.getLogger("pigaming")
 
@@ -50,11 +56,17 @@ class CalibrationResult:
     trouble: OperatorMessage | None = None
     picture: Image | None = None  # last picture of the camera
     marker_mm: float = 0.0
+    exposure: ExposureState = UNKNOWN
+
+    @property
+    def accurate(self) -> bool:
+        """True if the errors are small enough to play."""
+        return self.trouble is None and self.residuals is not None and self.residuals.accepted
 
     @property
     def good(self) -> bool:
-        """True if it may be saved."""
-        return self.trouble is None and self.residuals is not None and self.residuals.accepted
+        """True if it may be saved: accurate, and enough markers are expected to be found."""
+        return self.accurate and self.ground is not None and self.ground.quality.sufficient
 
 
 class ResultPage:
@@ -63,6 +75,8 @@ class ResultPage:
     def __init__(self, context: Context, finding: CalibrationResult, retry: Callable[[], Scene]) -> None:
         self.context, self.finding, self.retry = context, finding, retry
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
+        if finding.accurate and not finding.good:
+            names = ("again", "anyway", "leave")
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
         self.arrows: tuple[LitImage, int] | None = None
         hints = [(Button.FIRE, "calibrate.hint_ok"), (Button.BACK, "calibrate.hint_back")]
@@ -125,28 +139,47 @@ class ResultPage:
             limit_text = words("calibrate.limit", mm=f"{limit:g}")
             value_text = words("calibrate.mm", mm=f"{value:.1f}")
             figure(words(f"calibrate.{key}"), value_text, value / limit, limit_text).draw(screen, SIDE.x, y)
-            y += 214
-        if not finding.good:
-            lines = paragraph(words.sentence(residuals.verdict), SIDE.w, 5)
-        else:
-            ground = finding.ground
-            lines = paragraph(
-                words("calibrate.above", height=f"{ground.height / 1000.0 if ground else 0.0:.2f}"), SIDE.w
-            )
-            lines += self._marker()
-        for i, line in enumerate(lines):
-            line.draw(screen, SIDE.x, y + 20 + 52 * i)
+            y += GAUGE
+        if finding.ground is None or not finding.accurate:
+            for i, line in enumerate(paragraph(words.sentence(residuals.verdict), SIDE.w, 5)):
+                line.draw(screen, SIDE.x, y + 20 + 52 * i)
+            return
+        quality, missed = finding.ground.quality, 1.0 - finding.ground.quality.detection
+        limit_text = words("calibrate.limit_percent", share=f"{100 * (1 - NEEDED):.0f}")
+        value_text = words("calibrate.percent", share=f"{100 * missed:.0f}")
+        figure(words("calibrate.missed"), value_text, missed / (1.0 - NEEDED), limit_text).draw(screen, SIDE.x, y)
+        y += GAUGE
+        warning, color = self._warning(quality)
+        for name, value_text, warned in self._facts(finding.ground, quality):
+            fact(words(f"calibrate.{name}"), value_text, color if warned else ICE).draw(screen, SIDE.x, y)
+            y += 43
+        for i, line in enumerate(paragraph(warning, SIDE.w, 4, color)):
+            line.draw(screen, SIDE.x, y + 24 + 46 * i)
 
-    def _marker(self) -> list[LitImage]:
-        """The measured size of a robot's marker, a check of the measured mat width."""
-        finding, words = self.finding, self.context.words
-        if not finding.marker_mm or finding.ground is None:
-            return []
-        marker_size = finding.ground.marker
-        wrong = abs(finding.marker_mm / marker_size - 1.0) > MAX_SIZE_ERROR
-        key = "marker_off" if wrong else "marker"
-        sentence = words(f"calibrate.{key}", mm=f"{finding.marker_mm:.1f}", true=f"{marker_size:.0f}")
-        return [*paragraph(sentence, SIDE.w, 3, ALARM if wrong else ICE)]
+    def _facts(self, ground: GroundPlane, quality: CameraQuality) -> list[tuple[str, str, bool]]:
+        """Name, value and warning of the quantities without a limit of their own."""
+        words, state, robot = self.context.words, self.finding.exposure, self.finding.marker_mm
+        facts = [
+            ("height", words("calibrate.metres", m=f"{ground.height / 1000.0:.2f}"), False),
+            ("edge", words("calibrate.px", px=f"{quality.marker_px:.0f}"), quality.marker_px < SMALL_EDGE),
+            ("blur", words("calibrate.px", px=f"{quality.blur_px:.1f}"), _cause(quality) == "finds_blurred"),
+            ("exposure", exposure_text(words, state), warning_of(state) is not None),
+        ]
+        if robot:
+            wrong = abs(robot / ground.marker - 1.0) > MAX_SIZE_ERROR
+            facts.append(("size", words("calibrate.mm", mm=f"{robot:.1f}"), wrong))
+        return facts
+
+    def _warning(self, quality: CameraQuality) -> tuple[str, Color]:
+        """The sentence of the most serious warning, and its colour."""
+        words, finding = self.context.words, self.finding
+        message = None if quality.sufficient else quality.advice
+        if message is None and finding.ground is not None and finding.marker_mm:
+            true = finding.ground.marker
+            if abs(finding.marker_mm / true - 1.0) > MAX_SIZE_ERROR:
+                return words("calibrate.marker_off", mm=f"{finding.marker_mm:.1f}", true=f"{true:.0f}"), ALARM
+        message = message or warning_of(finding.exposure) or quality.advice
+        return (words.sentence(message), FOCUS if quality.sufficient else ALARM) if message else ("", ICE)
 
     def _draw_failure(self, screen: pygame.Surface) -> None:
         words, trouble = self.context.words, self.finding.trouble
@@ -175,9 +208,12 @@ class ResultPage:
             return Swap(self.retry())
         if finding.ground is None:
             return None
+        quality = replace(finding.ground.quality, anyway=name == "anyway")
+        if quality.anyway:
+            log.warning("calibration used anyway: %s", english().long_sentence(used_anyway(quality)))
         path = store.calibration_file(finding.site.name)
         try:
-            store.save(finding.ground, path)
+            store.save(replace(finding.ground, quality=quality), path)
         except NotSaved as trouble:
             log.warning("%s", trouble)
             self.context.sounds.play("back")
@@ -185,3 +221,8 @@ class ResultPage:
             return None
         self.context.sounds.play("accept")
         return Pop()
+
+
+def _cause(quality: CameraQuality) -> str:
+    """Key of the reason why too few markers are found; "" if enough are."""
+    return "" if quality.sufficient or quality.advice is None else quality.advice.key

@@ -6,11 +6,13 @@ import pygame
 
 from pigaming_app.hardware.calibration.camera_task import SMALL, CameraPreview
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
+from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements, RealCalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
+from pigaming_app.scenes.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
@@ -146,6 +148,9 @@ class CalibrationPage:
             screen.blit(self._picture, self._picture.get_rect(center=PICTURE.center))
         w, h = preview.size
         caption = words("calibrate.rate", width=w, height=h, rate=round(preview.rate)) if preview.rate else f"{w} × {h}"
+        if preview.exposure.bound:
+            line = words("calibrate.exposed", time=exposure_text(words, preview.exposure))
+            text(line, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below + 44)
         text(caption, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below)
 
     def _load_state(self, size: tuple[int, int]) -> None:
@@ -155,6 +160,8 @@ class CalibrationPage:
             file = store.calibration_file(self.site.name)
             ground = store.load(file, self.context.canvas.projection, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
+            if ground.quality.anyway:
+                self.state = words.sentence(used_anyway(ground.quality))
         except CalibrationError as trouble:
             log.warning("%s", english().long_sentence(trouble.message))
             self.state = words.sentence(trouble.message)

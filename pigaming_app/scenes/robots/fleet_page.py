@@ -6,8 +6,9 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.radio.serial_line import ports
-from pigaming_app.hardware.session.robot_session import settings_problem
+from pigaming_app.hardware.session.robot_session import camera_warning, settings_problem
 from pigaming_app.hardware.vision.discovery import cameras
+from pigaming_app.scenes.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import StackOperation
@@ -154,8 +155,8 @@ class FleetPage:
         return [*boxes, pygame.Rect(150, 866, 1620, 84)] if self._message() else boxes
 
     def _message(self) -> str:
-        """Fault, or result of the last action."""
-        return self._fault() or self.navigation.sentence
+        """Fault, result of the last action, or warning about the camera."""
+        return self._fault() or self.navigation.sentence or self._warning()
 
     def _to_sheet(self, event: InputEvent) -> InputEvent:
         """Map a mouse event from the canvas to the sheet."""
@@ -193,12 +194,22 @@ class FleetPage:
         words, check = self.context.words, self.check
         if check.rig is None:
             return words.sentence(check.refusal) if check.refusal else words("fleet.no_camera")
-        return words("fleet.rate", rate=round(check.rate)) if check.rate else words("fleet.dark")
+        if not check.rate:
+            return words("fleet.dark")
+        exposure = check.rig.camera.exposure
+        return words("fleet.rate", rate=round(check.rate)) + (
+            "  ·  " + exposure_text(words, exposure) if exposure.bound else ""
+        )
 
     def _fault(self) -> str | None:
         """Fault message of camera or radio."""
         message = self.check.session.fault
         return self.context.words.sentence(message) if message else None
+
+    def _warning(self) -> str:
+        """Warning about exposure or sharpness of the camera."""
+        message = self.check.rig and camera_warning(self.check.session, self.check.rig)
+        return self.context.words.sentence(message) if message else ""
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.context.words, self.check.health(robot)

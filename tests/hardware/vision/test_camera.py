@@ -11,7 +11,8 @@ cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.vision import camera as reader  # noqa: E402
 from pigaming_app.hardware.vision import discovery as cameras  # noqa: E402
-from pigaming_app.hardware.vision.camera import Camera, lock_exposure  # noqa: E402
+from pigaming_app.hardware.vision.camera import Camera  # noqa: E402
+from pigaming_app.hardware.vision.exposure import lock_exposure  # noqa: E402
 from pigaming_app.hardware.vision.markers import OpenCVMissing  # noqa: E402
 from tests.hardware.sentences import refused, sentence  # noqa: E402
 
@@ -218,7 +219,7 @@ def test_without_opencv_there_is_one_sentence(monkeypatch):
         Camera(0)
 
 
-@pytest.mark.parametrize(("fresh", "modes"), [(True, (3.0, 0.75)), (False, (1.0,))])
+@pytest.mark.parametrize(("fresh", "modes"), [(True, (3.0, 1.0)), (False, (1.0,))])
 def test_a_calibration_finds_the_exposure_anew_and_a_match_leaves_it_as_it_was_locked(monkeypatch, fresh, modes):
     quick(monkeypatch)
     driver = Driver()

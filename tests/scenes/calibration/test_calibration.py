@@ -20,10 +20,13 @@ from pigaming_app.hardware.calibration import height_procedure as standing
 from pigaming_app.hardware.calibration import procedure as calibrating
 from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
+from pigaming_app.hardware.calibration.quality import assessed, used_anyway
+from pigaming_app.hardware.emulator.camera import TRAITS
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.serial_line import ERRORS
 from pigaming_app.hardware.session import store
+from pigaming_app.hardware.signals import ExposureState
 from pigaming_app.scenes.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.calibration.drift_page import DriftPage
 from pigaming_app.scenes.calibration.height_page import HeightPage
@@ -155,6 +158,86 @@ def test_a_folder_that_cannot_be_written(arcade: Operated, made: CalibrationResu
     concluded(arcade, made)
     arcade.press(Button.FIRE)
     assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
+
+
+def with_picture(made: CalibrationResult, exposure: float, blur: float) -> CalibrationResult:
+    """The calibration with a picture of this exposure, s, and blur, px."""
+    assert made.ground is not None
+    state = ExposureState(exposure, 1 / 30, 0.0, False, True)
+    quality = assessed(made.ground.quality.marker_px, blur, state)
+    return replace(made, ground=replace(made.ground, quality=quality), exposure=state)
+
+
+def test_a_picture_that_misses_markers_is_saved_only_by_the_second_choice_and_warned_about(
+    arcade: Operated, made: CalibrationResult
+) -> None:
+    for language in ("en", "pt"):
+        arcade.context.words.switch(language)
+        result = concluded(arcade, with_picture(made, 0.006, 2.4))
+        assert [spot.name for spot in result.focus.spots] == ["again", "anyway", "leave"]
+        assert result.focus.name == "again"
+        arcade.picture()
+        arcade.press(Button.RIGHT)
+        arcade.press(Button.FIRE)
+        quality = store.load(store.calibration_file(arcade.site.name)).quality
+        assert quality.anyway
+        assert quality.detection < 0.95
+        first = arcade.shown(CalibrationPage)
+        for _ in range(8):
+            arcade.picture()
+        assert first.state == arcade.context.words.sentence(used_anyway(quality))
+
+
+def test_a_long_exposure_is_warned_about_though_the_calibration_is_accurate(
+    arcade: Operated, made: CalibrationResult
+) -> None:
+    result = concluded(arcade, with_picture(made, 1 / 45, 0.8))
+    assert result.finding.good
+    assert "1/45 s" in result._warning(result.finding.ground.quality)[0]
+    arcade.picture()
+    arcade.press(Button.FIRE)
+    kept = store.load(store.calibration_file(arcade.site.name)).quality
+    assert kept.kept == (1 / 45, 0.0)
+    assert not kept.anyway
+
+
+def test_the_picture_of_the_wizard_is_measured(made: CalibrationResult) -> None:
+    assert made.ground is not None
+    quality = made.ground.quality
+    assert quality.exposure == pytest.approx(0.006)
+    assert quality.marker_px == pytest.approx(28.0, abs=1.0)
+    assert quality.blur_px == pytest.approx(0.85, abs=0.15)
+    assert quality.detection > 0.98
+
+
+@pytest.mark.long
+@pytest.mark.usefixtures("_home")
+def test_check_calibration_sets_the_exposure_again_and_shows_exposure_and_blur(controls: Controls) -> None:
+    site = EmulatedCalibrationSite(2, traits=TRAITS["long"])
+    arcade = Operated(controls, site)
+    arcade.open(CalibrationPage(arcade.context, site))
+    arcade.begin()
+    arcade.pictures(ResultPage)
+    arcade.press(Button.FIRE)
+    camera = site.arena.camera
+    camera.automatic = True  # another program used it
+    assert camera.shutter == pytest.approx(1 / 30)
+    arcade.open(DriftPage(arcade.context, site))
+    checking = arcade.shown(DriftPage).work
+    for _ in range(40):
+        arcade.picture()
+    assert camera.shutter == pytest.approx(0.0166)
+    assert checking.quality is not None
+    assert checking.quality.exposure == pytest.approx(0.0166)
+    assert checking.quality.blur_px == pytest.approx(0.85, abs=0.2)
+    camera.traits = TRAITS["stubborn"]  # a driver that forgets, and a lens that was knocked
+    camera.manual, camera.painter._blur = 1 / 30, 2.2
+    checking._camera._control._read()
+    for _ in range(20):
+        arcade.picture()
+    assert not checking.quality.sufficient
+    assert checking.quality.exposure == pytest.approx(1 / 30, rel=0.01)
+    assert checking.quality.blur_px > 1.8
 
 
 def test_a_failed_save_is_reported_and_nothing_is_lost(

@@ -1,6 +1,7 @@
 """The fleet page: robot status, pairing, latency, faults."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,23 @@ def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: 
     assert "no deadman" in page._line()
     arcade.press(Button.LEFT)
     assert "no deadman" not in page._line()
+
+
+def test_the_exposure_is_shown_and_a_long_one_or_a_poor_calibration_warned_about(
+    arcade: Arcade, mat: EmulatedSession
+) -> None:
+    page = arcade.shown(FleetPage)
+    assert page._state().endswith("1/167 s")
+    assert page._message() == ""
+    quality = mat.quality
+    assert quality is not None
+    mat.quality = replace(quality, detection=0.6, anyway=True)
+    assert page._message() == "Calibrated anyway: about 60 % of the markers are found."
+    mat.arena.camera.manual = 1 / 30  # the driver has forgotten it
+    page.check.rig.camera._control._read()  # type: ignore[union-attr]
+    assert page._state().endswith("1/30 s")
+    assert "smear at 1/30 s" in page._message()
+    mat.quality, mat.arena.camera.manual = quality, 0.006
 
 
 def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSession) -> None:

@@ -1,0 +1,59 @@
+"""Sharpness of a picture: blur of the outer edges of its markers.
+
+An edge between black and white, averaged along its length, rises from 16 % to 84 % within two standard deviations of a
+Gaussian blur.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.signals import DetectedMarker, Image
+
+CELLS = 6  # across a marker with its black rim
+REACH = 0.9  # half length of a profile, cells: the rim is one cell wide, and so is the white margin at least
+PROFILES, SAMPLES = 9, 61  # per edge; samples per profile
+ALONG = np.linspace(0.2, 0.8, PROFILES)
+ACROSS = np.linspace(-1.0, 1.0, SAMPLES)
+MIDDLE = SAMPLES // 2
+ENDS = 8  # darkest and brightest samples that give black and white
+LOW, HIGH = 0.1587, 0.8413  # of a Gaussian at one standard deviation to each side
+INTERPOLATED = 1.0 / 6.0  # px^2, variance added by linear interpolation
+FLAT = 12.0  # grey levels of contrast below which an edge is ignored
+SHARPEST = 0.3  # px, of a picture whose every px is black or white
+
+
+def blur_of(cv: Any, image: Image, marks: Sequence[DetectedMarker]) -> list[float]:
+    """Blur of each marker, standard deviation in px; markers without a clear edge are left out.
+
+    The corners must be exact (`MarkerDetector.refine`).
+    """
+    blurs = []
+    for mark in marks:
+        edges = [
+            width for i in range(4) if (width := _edge(cv, image, mark.corners[i - 1], mark.corners[i])) is not None
+        ]
+        if edges:
+            blurs.append(float(np.sqrt(max(SHARPEST**2, float(np.median(edges)) ** 2 - INTERPOLATED))))
+    return blurs
+
+
+def _edge(cv: Any, image: Image, begin: NDArray[np.float64], end: NDArray[np.float64]) -> float | None:
+    """Standard deviation of one edge, px, or None if it has too little contrast."""
+    way = end - begin
+    length = float(np.hypot(*way))
+    reach = REACH * length / CELLS
+    out = np.array([way[1], -way[0]]) / length
+    points = begin + way * ALONG[:, None, None] + out * (reach * ACROSS)[:, None]
+    maps = points.reshape(PROFILES, SAMPLES, 2).astype(np.float32)
+    values = cv.remap(image, maps[..., 0], maps[..., 1], cv.INTER_LINEAR).astype(np.float64).mean(axis=0)
+    darkest, brightest = int(values[:MIDDLE].argmin()), MIDDLE + int(values[MIDDLE:].argmax())
+    low, high = np.sort(values[:MIDDLE])[:ENDS].mean(), np.sort(values[MIDDLE:])[-ENDS:].mean()
+    if high - low < FLAT:
+        return None
+    rise = slice(darkest, brightest + 1)  # beyond it, light of the neighbouring cells
+    share = np.maximum.accumulate((values[rise] - low) / (high - low))
+    below, above = (float(np.interp(level, share, ACROSS[rise])) for level in (LOW, HIGH))
+    return 0.5 * (above - below) * reach
