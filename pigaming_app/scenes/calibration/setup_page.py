@@ -149,8 +149,8 @@ class CalibrationPage:
         w, h = preview.size
         caption = words("calibrate.rate", width=w, height=h, rate=round(preview.rate)) if preview.rate else f"{w} × {h}"
         if preview.exposure.bound:
-            line = words("calibrate.exposed", time=exposure_text(words, preview.exposure))
-            text(line, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below + 44)
+            exposed = words("calibrate.exposed", time=exposure_text(words, preview.exposure))
+            text(exposed, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below + 44)
         text(caption, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below)
 
     def _load_state(self, size: tuple[int, int]) -> None:
