@@ -164,8 +164,6 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
         raise Refusal(f"--real: {quote(text)}; numbers such as 1,3, or all, are needed") from None
     if stray := [seat + 1 for seat in seats if seat not in taken]:
         raise Refusal(f"--real: nobody sits on seat {quote(stray[0])}")
-    if seats and arguments.record is not None:
-        raise Refusal("--record: a match of real robots cannot be played out again; use `fidelity record`")
     if seats and speed != 1.0 and not arguments.headless:
         raise Refusal("--speed: real robots drive in real time")
     if seats and arguments.headless and arguments.emulate is None:

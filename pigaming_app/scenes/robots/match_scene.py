@@ -9,6 +9,7 @@ import pygame
 
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
+from pigaming_app.hardware.control.match_recording import MatchRecorder
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, settings_problem
@@ -70,6 +71,8 @@ class RealMatch(MatchScene):
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
         self.plant = plant
+        plant.recorder = MatchRecorder(session.mm, session.emulated)
+        rig.recorder = plant.recorder.run
         self.discs = MarkerDiscs(rig)
         self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.hint_device)
         self.released = False  # rig released
@@ -245,6 +248,8 @@ class RealMatch(MatchScene):
     def _report_faults(self) -> None:
         """Log new faults; show the minor ones over the match."""
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._reportable(fault)}
+        if self.plant.recorder and self.gathering is None and not self.match.over:
+            self.plant.recorder.record_faults(self.match.state.tick, self.plant.rig.clock(), list(now.values()))
         for key in now.keys() - self.logged:
             cause = cause_of(self.plant.rig, now[key].name)
             sentences = [
