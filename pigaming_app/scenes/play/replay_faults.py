@@ -53,15 +53,15 @@ def plate(name: str, robot: int | None, sentence: str, then: str) -> Caption:
     """Icon of the fault, the robot's badge, the sentence, and how long the match waited."""
     line = f"{sentence} {then}".strip()
     size = fit_size(line, BODY, ROOM, "body")
-    lead = 96 + (0 if robot is None else 68)
+    lead = 108 + (0 if robot is None else 68)
     wide, high = round(text_width(line, size, "body")) + lead + 32, 72
     color = ALARM if robot is None else PLAYERS[robot]
     ink = GlowCanvas(wide + 2 * MARGIN, high + 2 * MARGIN).set_transform(MARGIN, MARGIN)
     outline = cut_box(0, 0, wide, high, 14)
     ink.solid(outline).line(outline, color, THIN, True)
-    sign(ink, name, 52, high / 2, 24, ALARM)
+    sign(ink, name, 56, high / 2, 30, ALARM)
     if robot is not None:
-        badge(ink, robot, 120, high / 2, 24)
+        badge(ink, robot, 132, high / 2, 24)
     ink.text(sentence, size, lead, high / 2, ICE, "body")
     if then:
         ink.text(then, size, lead + text_width(f"{sentence} ", size, "body"), high / 2, MIST, "body")
