@@ -14,10 +14,11 @@ MAY = {
     "calibration": {"vision"},
     "control": {"radio"},
     "tracking": {"calibration", "control", "vision"},
+    "ros": {"radio", "tracking"},
     "commissioning": {"control"},
     "sysid": {"calibration"},
     "emulator": {"calibration", "vision"},
-    "session": {"calibration", "control", "emulator", "radio", "tracking", "vision"},
+    "session": {"calibration", "control", "emulator", "radio", "ros", "tracking", "vision"},
     "proof": {"calibration", "control", "emulator", "session", "tracking"},
 }
 

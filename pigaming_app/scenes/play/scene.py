@@ -367,7 +367,7 @@ class MatchScene:
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
-        drive = self.context.controls.drive(device)
+        drive = self.context.sticks(seat, seat == self.humans[0]) or self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
             self.idle_seats.touch(seat)

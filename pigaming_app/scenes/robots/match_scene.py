@@ -25,6 +25,7 @@ from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.scenes.robots.marker_discs import MarkerDiscs
+from pigaming_app.scenes.robots.match_state import match_state
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.take_places import TakePlaces
 from pigaming_app.ui.draw import ALARM
@@ -130,6 +131,7 @@ class RealMatch(MatchScene):
         if self.restart_requested or self.stop_requested:
             return super().update(seconds)
         seconds = self.session.advance(seconds)
+        self._publish()
         if self.gathering is not None:
             return self._take_places(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
@@ -166,6 +168,7 @@ class RealMatch(MatchScene):
     def advance_paused(self, seconds: float) -> None:
         """Advance below a page: all robots stand still, faults are updated."""
         self._stand_still(self.session.advance(seconds))
+        self._publish()
 
     def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw the corner markers and the discs on top of everything."""
@@ -261,6 +264,14 @@ class RealMatch(MatchScene):
                 sentence = fault_sentence(now[key], self.context.words, "")
                 self.notice, self.noticed = caption(sentence, ALARM, player=now[key].robot), 2 * NOTICE_SECONDS
         self.logged = set(now)
+
+    def _publish(self) -> None:
+        """Hand the state of the match to those who watch it."""
+        if self.context.match_watchers:
+            waiting = self.gathering is not None or self.blocked or self.countdown.locked
+            state = match_state(self.match, self.plant.faults, waiting)
+            for watch in self.context.match_watchers:
+                watch(state)
 
     def _reportable(self, fault: Fault) -> bool:
         """False for a robot that is only briefly hard to see."""
