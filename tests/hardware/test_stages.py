@@ -19,7 +19,7 @@ MAY = {
     "sysid": {"calibration"},
     "emulator": {"calibration", "vision"},
     "session": {"calibration", "control", "emulator", "radio", "ros", "tracking", "vision"},
-    "proof": {"calibration", "control", "emulator", "session", "tracking"},
+    "proof": {"calibration", "control", "emulator", "session", "tracking", "vision"},
 }
 
 

@@ -115,6 +115,7 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
 def environment(home: Path) -> dict[str, str]:
     """Environment of the arcade: a window that nobody sees, no sound, files of its own."""
     dummies = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": str(home)}
+    dummies["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"  # standard output belongs to `sabotage`
     return {**os.environ, **dummies}
 
 
