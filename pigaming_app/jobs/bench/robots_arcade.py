@@ -15,7 +15,9 @@ from select import select
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane, to_toml
 from pigaming_app.hardware.proof.outside import OutsideArena
 from pigaming_app.jobs.bench.sabotage import PLAYING, ROOT
+from pigaming_app.storage.log import FILE
 from pigaming_app.storage.safe_files import write_atomic
+from pigaming_app.ui.i18n import english
 
 START = 120.0  # s until the robots have taken their places
 PLAY = ("play", "pitanks", "--seats", "level5,level5,level5,level5", "--real", "all", "--minutes", "30")
@@ -75,6 +77,7 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
     stops: dict[str, float] = {}
     with tempfile.TemporaryDirectory(dir=_memory()) as folder:
         home, feed = Path(folder), Path(folder, "camera")
+        log = home / "data" / FILE
         with OutsideArena(seed, feed) as outside:
             _save(outside.ground, home)
 
@@ -86,12 +89,20 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
                         trial(arcade)
 
             def fault(
-                name: str, begin: Callable[[Arcade], None], end: Callable[[Arcade], None] = lambda _: None
+                name: str,
+                begin: Callable[[Arcade], None],
+                end: Callable[[Arcade], None] = lambda _: None,
+                report: str = "",
             ) -> Callable[[Arcade], None]:
+                """A trial; `report`: the fault that the arcade must show and log."""
+
                 def trial(arcade: Arcade) -> None:
                     outside.settle(lambda: arcade.alive)
+                    before = len(log.read_text(encoding="utf-8"))
                     stops[name] = outside.stopping(lambda: begin(arcade))
                     note(f"arcade, {name}: motors stood after {1e3 * stops[name]:.0f} ms")
+                    if report and english()(f"faults.{report}") not in log.read_text(encoding="utf-8")[before:]:
+                        raise RuntimeError(f"{name}: the fault was not reported")
                     end(arcade)
 
                 return trial
@@ -102,13 +113,13 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
             run(
                 fault("SIGSTOP", lambda one: one.signal(signal.SIGSTOP), lambda one: one.signal(signal.SIGCONT)),
                 fault("lock held", lambda one: one.order("lock"), lambda one: time.sleep(1.5)),
-                fault("camera frozen", lambda one: freeze(True), lambda one: freeze(False)),
+                fault("camera frozen", lambda one: freeze(True), lambda one: freeze(False), "camera"),
                 fault("exception in the tracker", lambda one: one.order("tracker"), lambda one: one.order("mend")),
                 fault("kill -9", lambda one: one.signal(signal.SIGKILL)),
             )
-            run(fault("exception in the link", lambda one: one.order("link")))
+            run(fault("exception in the link", lambda one: one.order("link"), report="radio"))
             run(fault("exception in a scene", lambda one: one.order("scene")))
-            run(fault("port pulled", lambda one: outside.pull()))
+            run(fault("port pulled", lambda one: outside.pull(), report="radio"))
     return stops
 
 
@@ -126,8 +137,10 @@ def _save(ground: GroundPlane, home: Path) -> None:
         "print(Canvas.open(Settings(), None, None, False).projection)"
     )
     found = subprocess.run(
-        [sys.executable, "-X", "pigaming", "-c", code], cwd=ROOT, env=environment(home), capture_output=True, check=True
+        [sys.executable, "-X", "pigaming", "-c", code], cwd=ROOT, env=environment(home), capture_output=True
     )
+    if found.returncode:
+        raise RuntimeError("a window could not be opened")
     display = found.stdout.decode().splitlines()[-1]
     (home / "config").mkdir(parents=True, exist_ok=True)
     write_atomic(home / "config" / "calibration.toml", to_toml(replace(ground, display=display)).encode())
