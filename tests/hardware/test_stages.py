@@ -14,7 +14,7 @@ MAY = {
     "calibration": {"vision"},
     "control": {"radio"},
     "tracking": {"calibration", "control", "vision"},
-    "ros": {"radio", "tracking"},
+    "ros": {"control", "radio", "tracking"},
     "commissioning": {"control"},
     "sysid": {"calibration"},
     "emulator": {"calibration", "vision"},
