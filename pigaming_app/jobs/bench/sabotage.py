@@ -6,6 +6,7 @@ The arcade itself is main.py, unchanged; faults replace functions while it runs.
 """
 
 import ctypes
+import os
 import runpy
 import sys
 from collections.abc import Callable
@@ -42,6 +43,7 @@ def obey() -> None:
                 substitute(Tracker, "process", _fail)
             case "mend":
                 substitute(Tracker, "process", process)
+    os._exit(1)  # the process that gave the words has ended
 
 
 def substitute(owner: type, name: str, function: Callable[..., object]) -> None:
