@@ -24,13 +24,14 @@ JOBS = {  # modules of `jobs`
     "bench": "performance on this machine",
     "calibrate": "calibration of projector, mat and camera",
     "robots": "status of robots, radios and cameras; pairing, latency",
+    "ros": "robots on the mat in a ROS network",
     "fidelity": "measure real robots for the simulator",
     "doctor": "check of the installation, with advice",
     "test": "linter, types and tests",
 }
 LISTING = "\n".join(["jobs:", *(f"  {job:17} {text}" for job, text in JOBS.items())])
 BLAS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")  # threads of NumPy's matrix products
-LOGGED = ("robots", "calibrate", "fidelity")  # jobs whose refusals are also written to the arcade's log
+LOGGED = ("robots", "ros", "calibrate", "fidelity")  # jobs whose refusals are also written to the arcade's log
 
 
 class Parser(argparse.ArgumentParser):

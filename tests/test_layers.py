@@ -32,6 +32,7 @@ ONLY_IN = {
     "pygame": {"ui", "scenes"},
     "cv2": {"hardware"},
     "serial": {"hardware"},
+    "rospy": {"hardware"},
     "onnxruntime": {"ai"},
     "ray": {"ai"},
     "pymunk": {"jobs"},
@@ -41,6 +42,8 @@ ONLY_IN = {
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray"}
+ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
+DEPENDENCIES |= ROS
 FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
 
 
@@ -88,6 +91,9 @@ def test_a_file_imports_only_what_its_layer_may(path):
             assert other in {layer, *MAY[layer]}, f"{path.name} imports {module}"
         if root in ONLY_IN:
             assert layer in ONLY_IN[root], f"{path.name} imports {module}"
+        if root in ROS:
+            assert place == ("hardware", "ros", "node.py")
+            assert not at_once
         if root == "numba":
             assert place == ("sim", "kernel.py")
             assert not at_once

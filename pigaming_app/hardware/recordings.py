@@ -1,27 +1,27 @@
 """Recordings of real robots: commands and observed poses, one JSON object a line (JSONL).
 
+The file of a match with real robots has one as a part (see match_recording).
+
 The first line is the header. Then follow, in chronological order, `sent` lines (time, sequence number, the wheel
 commands of every robot as shares of full speed, null where the motors were off), `seen` lines (time of exposure, time
 of processing, the raw fixes) and `pose` lines (the tracker's estimate of every robot). Times are s of one monotonic
 clock, poses arena px and rad.
 """
 
-import json
-from collections.abc import Sequence
+import gzip
+import zipfile
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.signals import Fix, WheelCommand
-from pigaming_app.sim.plant import Sighting
+from pigaming_app.hardware.run_writer import FORMAT, RUN_PART
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.parsing import describe_error, one_line, parse_json, quote, read
-from pigaming_app.storage.safe_files import AtomicFile
 
-FORMAT = "pigaming-run-1"
 MAX_BYTES = 400_000_000  # of a file; an hour has about 100 million
 MAX_TIME = 1e10  # s of a clock
 MAX_DURATION = 7200.0  # s of a run
@@ -62,47 +62,15 @@ class Recording:
     emulated: bool = False
 
 
-class RecordingWriter:
-    """Writes a run line by line; the file appears on `close`. Raises OSError."""
-
-    def __init__(self, path: Path, mm: float, emulated: bool = False) -> None:
-        self._draft = AtomicFile(path)
-        self._seq = 0
-        self._write({"kind": "head", "format": FORMAT, "mm": mm, "emulated": emulated})
-
-    def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
-        """Record the commands of all robots, sent at `time` (s)."""
-        self._seq += 1
-        pairs = [pair and list(pair) for pair in wheels]
-        self._write({"kind": "sent", "time": time, "seq": self._seq, "wheels": pairs})
-
-    def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
-        """Record the fixes of a picture taken at `captured` and processed at `now` (s)."""
-        raw = [[fix.robot, fix.x, fix.y, fix.heading] for fix in fixes]
-        self._write({"kind": "seen", "captured": captured, "time": now, "fixes": raw})
-
-    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
-        """Record the tracker's estimates."""
-        self._write({"kind": "pose", "time": now, "poses": [list(sighting[:3]) for sighting in sightings]})
-
-    def close(self) -> None:
-        """Finish the file and move it to its path."""
-        self._draft.finish()
-
-    def discard(self) -> None:
-        """Abandon an incomplete run; an earlier file at that path stays. No effect after `close`."""
-        self._draft.discard()
-
-    def _write(self, line: dict[str, Any]) -> None:
-        self._draft.write(f"{json.dumps(line, separators=(',', ':'))}\n".encode())
-
-
 def load(path: Path, min_observations: int = 50) -> Recording:
     """Read a run; robots with fewer than `min_observations` are left out. Raises RecordingError."""
     try:
-        lines = read(path, MAX_BYTES).splitlines()
+        raw = read(path, MAX_BYTES)
+        lines = (_run_of_match(raw) if raw.startswith(b"PK") else raw).splitlines()
     except OSError as error:
         raise RecordingError(f"{path.name}: cannot be read ({describe_error(error)})") from None
+    except ValueError as error:
+        raise RecordingError(f"{path.name}: {error}") from None
     run = _RecordingLines()
     for number, line in enumerate(lines, 1):
         try:
@@ -125,6 +93,18 @@ def load(path: Path, min_observations: int = 50) -> Recording:
     if max(times) - min(times) > MAX_DURATION:
         raise RecordingError(f"{path.name}: its times are more than {MAX_DURATION:g} s apart")
     return Recording(run.mm, courses, run.emulated)
+
+
+def _run_of_match(raw: bytes) -> bytes:
+    """The run in the file of a match with real robots. Raises ValueError."""
+    try:
+        with zipfile.ZipFile(BytesIO(raw)) as archive, archive.open(RUN_PART) as part, gzip.open(part) as run:
+            lines = run.read(MAX_BYTES + 1)
+    except Exception:  # zipfile and gzip raise many kinds of exceptions for damaged files
+        raise ValueError("no run, or a damaged one") from None
+    if len(lines) > MAX_BYTES:
+        raise ValueError(f"its run is larger than {MAX_BYTES:,} bytes")
+    return lines
 
 
 class _RecordingLines:

@@ -23,7 +23,7 @@ LOST = 5.0  # s, timeout of a recording while the robots cannot drive
 
 def options(parser: ArgumentParser) -> None:
     parser.add_argument("step", choices=list(STEPS), help="in this order, on the same run")
-    parser.add_argument("file", type=path, metavar="FILE", help="run (JSONL)")
+    parser.add_argument("file", type=path, metavar="FILE", help="run (JSONL), or a recorded match of real robots")
     parser.add_argument(
         "--seconds", type=integer(high=LONGEST), metavar="NUMBER", default=60, help="record: length; default 60"
     )
@@ -49,7 +49,7 @@ def run(arguments: Namespace) -> int:
 
 def record(arguments: Namespace) -> dict[str, Any]:
     """Drive the robots for a while on an empty mat, and write their commands and poses. Raises Refusal or NotSaved."""
-    from pigaming_app.hardware.recordings import RecordingWriter
+    from pigaming_app.hardware.run_writer import RecordingWriter
     from pigaming_app.storage.safe_files import require_writable
 
     if arguments.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):

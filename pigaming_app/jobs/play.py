@@ -67,6 +67,8 @@ def options(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--robots", type=path, metavar="FILE", help="simulate these measured robots (see fidelity)")
     parser.add_argument("--real", metavar="SEATS", help="seats with real robots, such as 1,3, or all")
+    parser.add_argument("--plant", choices=["own", "ros"], default="own", help="ros: robots of a ROS network")
+    parser.add_argument("--width", type=decimal(500.0, 10_000.0), metavar="MM", help="ros: width of the arena; 2112")
     mat_options(parser)
     shared(parser, "--kiosk", "--display", "--json")
 
@@ -90,7 +92,9 @@ def _play(arguments: Namespace) -> int:
     setup = make_setup(arguments.game, seats, arena, minutes, seed, variant, _teams(arguments.teams), names, wanted)
     speed = _speed(arguments.speed)
     real_seats = _real_seats(arguments, setup, speed)
-    if real_seats:
+    if arguments.plant == "ros":
+        _check_ros()
+    elif real_seats:
         _check_radio(chosen)
     plant = _plant(arguments, real_seats)
     _check_targets(arguments.record, arguments.screenshot)
@@ -155,8 +159,9 @@ def _plant(arguments: Namespace, real: list[int]) -> Callable[[Any], Plant]:
 
 
 def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
-    """The seats with real robots, from 0; in an emulated arena by default all."""
-    text = arguments.real if arguments.real is not None else "all" if arguments.emulate is not None else ""
+    """The seats with real robots, from 0; by default all in an emulated arena and with ROS."""
+    usual = "all" if arguments.emulate is not None or arguments.plant == "ros" else ""
+    text = usual if arguments.real is None else arguments.real
     taken = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
     try:
         seats = taken if text == "all" else sorted({int(number) - 1 for number in text.split(",") if number})
@@ -164,8 +169,10 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
         raise Refusal(f"--real: {quote(text)}; numbers such as 1,3, or all, are needed") from None
     if stray := [seat + 1 for seat in seats if seat not in taken]:
         raise Refusal(f"--real: nobody sits on seat {quote(stray[0])}")
-    if seats and arguments.record is not None:
-        raise Refusal("--record: a match of real robots cannot be played out again; use `fidelity record`")
+    if arguments.plant == "ros" and (arguments.headless or arguments.emulate is not None or arguments.robots):
+        raise Refusal("--plant ros: goes without --headless, --emulate and --robots")
+    if arguments.width is not None and arguments.plant != "ros":
+        raise Refusal("--width: only for --plant ros; `calibrate` measures a mat")
     if seats and speed != 1.0 and not arguments.headless:
         raise Refusal("--speed: real robots drive in real time")
     if seats and arguments.headless and arguments.emulate is None:
@@ -182,6 +189,14 @@ def _check_radio(chosen: dict[str, Any]) -> None:
     settings.radio = chosen.get("radio", settings.radio)
     if reason := settings_problem(settings):
         raise Refusal(f"--radio: {english().long_sentence(reason)}")
+
+
+def _check_ros() -> None:
+    """Raises Refusal without ROS or without a roscore."""
+    from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
+
+    with refused(RosUnavailable):
+        require_roscore()
 
 
 def _speed(text: str) -> float:
@@ -275,6 +290,7 @@ def _on_screen(
     rounds: Rounds | None,
 ) -> int:
     """Play in a window; with --headless and emulated robots without one, as fast as possible."""
+    from pigaming_app.hardware.session.ros import WIDTH_MM
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.flow.context import Context
     from pigaming_app.scenes.flow.stack import Scene
@@ -327,6 +343,7 @@ def _on_screen(
             step=DT if arguments.headless else None,
             should_close=over,
             emulator_seed=arguments.emulate,
+            ros_width=(arguments.width or WIDTH_MM) if arguments.plant == "ros" else None,
             changed_settings=chosen,
         )
     )

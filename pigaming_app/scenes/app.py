@@ -22,6 +22,7 @@ import pygame
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
+from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.preloaded import MODULES
@@ -35,7 +36,7 @@ from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import Words, english
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.input.events import Button, StickState
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.notices import FrameMeter, Notices
 from pigaming_app.ui.window import Canvas
@@ -68,6 +69,7 @@ class Options:
     screenshot_due: Callable[[], bool] = lambda: True
     step: float | None = None  # s of simulated time per frame, instead of real time
     should_close: Callable[[], bool] = lambda: False  # close after this picture if true
+    ros_width: float | None = None  # mm, width of the arena of robots in a ROS network
     emulator_seed: int | None = None  # seed of an emulated arena instead of the real one
     changed_settings: Mapping[str, object] = field(default_factory=dict)  # settings to store
 
@@ -100,6 +102,9 @@ def opened(options: Options) -> "Iterator[App]":
     context.sounds.volume(settings.music, settings.sounds)
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
+    if isinstance(session, RosSession):
+        context.sticks = _sticks(session)
+        context.match_watchers.append(session.publish)
     context.preloader.modules = MODULES
     context.preloader.on_done = context.start_compilers
     old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
@@ -366,8 +371,10 @@ class App:
         self.meter.draw(screen)
 
 
-def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedSession | RealSession":
+def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedSession | RealSession | RosSession":
     """The robot session: real or emulated. The emulator is imported late, so that the title appears at once."""
+    if options.ros_width is not None:
+        return RosSession(options.ros_width)
     if options.emulator_seed is None:
         return RealSession(settings, lambda: canvas.projection)
     from pigaming_app.hardware.session.emulated import EmulatedSession
@@ -382,6 +389,16 @@ def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedS
     except RobotsUnavailable as trouble:
         print(f"PiGaming: {english().long_sentence(trouble.message)}", file=sys.stderr)
     return session
+
+
+def _sticks(session: RosSession) -> Callable[[int, bool], StickState | None]:
+    """The joysticks of a session, by seat."""
+
+    def stick(seat: int, first: bool) -> StickState | None:
+        found = session.stick(seat, first)
+        return StickState(*found) if found else None
+
+    return stick
 
 
 def _camera_window(session: RobotSession | None) -> "CameraWindow | None":

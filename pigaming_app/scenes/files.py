@@ -9,9 +9,9 @@ from pigaming_app.ai.networks import files as network_files
 from pigaming_app.ai.networks.files import NetworkError, TrainedNetwork
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.qlearning.table_files import TableError, Trained
-from pigaming_app.games import replay
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import Replay, ReplayError
+from pigaming_app.scenes import real_replays
 from pigaming_app.storage.parsing import describe_error, read
 from pigaming_app.storage.safe_files import write_atomic
 
@@ -19,13 +19,16 @@ T = TypeVar("T")
 
 
 def save_replay(match: Match, path: Path) -> None:
-    """Write the replay of a match up to now, atomically. Raises NotSaved."""
-    write_atomic(path, replay.encode(match))
+    """Write the replay of a match up to now, atomically. Raises NotSaved, and ValueError if there can be none."""
+    replay = real_replays.replay_of(match)
+    if replay is None:
+        raise ValueError("a match of measured robots cannot be played again")
+    write_atomic(path, real_replays.pack(replay))
 
 
 def load_replay(path: Path) -> Replay:
     """Read and check a replay. Raises ReplayError, whose text begins with the file name."""
-    return _load(path, replay.MAX_BYTES, replay.decode, ReplayError)
+    return _load(path, real_replays.MAX_BYTES, real_replays.decode, ReplayError)
 
 
 def save_table(trained: Trained, path: Path) -> None:

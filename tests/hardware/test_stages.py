@@ -7,18 +7,19 @@ import pytest
 from tests.test_layers import PACKAGE, imported
 
 HARDWARE = PACKAGE / "hardware"
-ROOT = {"messages", "recordings", "robot_kinds", "signals", "worker"}
+ROOT = {"messages", "recordings", "robot_kinds", "run_writer", "signals", "worker"}
 MAY = {
     "radio": set(),
     "vision": set(),
     "calibration": {"vision"},
     "control": {"radio"},
     "tracking": {"calibration", "control", "vision"},
+    "ros": {"control", "radio", "tracking"},
     "commissioning": {"control"},
     "sysid": {"calibration"},
     "emulator": {"calibration", "vision"},
-    "session": {"calibration", "control", "emulator", "radio", "tracking", "vision"},
-    "proof": {"calibration", "control", "emulator", "session", "tracking"},
+    "session": {"calibration", "control", "emulator", "radio", "ros", "tracking", "vision"},
+    "proof": {"calibration", "control", "emulator", "session", "tracking", "vision"},
 }
 
 

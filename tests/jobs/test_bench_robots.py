@@ -72,6 +72,12 @@ def test_the_job_prints_exactly_these_figures(monkeypatch, capsys):
     assert json.loads(capsys.readouterr().out) == TARGETS
     assert main(["bench", "robots"]) == 0
     assert "everything is reached" in capsys.readouterr().err
+    monkeypatch.setattr(bench_robots, "stops_outside", lambda note: {"arcade_worst_stop_ms": 301.0})
+    assert main(["bench", "robots", "--arcade", "--json"]) == 0
+    said = capsys.readouterr()
+    assert json.loads(said.out) == {"arcade_worst_stop_ms": 301.0}
+    assert "not reached: arcade_worst_stop_ms" in said.err
+    assert main(["bench", "pitanks", "--arcade"]) == 2
 
 
 def test_what_fails_is_one_line(monkeypatch, capsys):

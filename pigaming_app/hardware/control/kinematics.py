@@ -18,15 +18,18 @@ WEAKEST, STRONGEST = 0.8, 1.25  # limits of corrected gains; beyond, the cause i
 
 
 class Kinematics:
-    """Kinematics of one robot; `correction` is the estimated correction of its drivetrain."""
+    """Kinematics of one robot; `correction` is the estimated correction of its drivetrain.
 
-    def __init__(self, drivetrain: Drivetrain) -> None:
-        self.drivetrain = drivetrain
+    `levels`: of speed, each way; None: commands are not rounded.
+    """
+
+    def __init__(self, drivetrain: Drivetrain, levels: int | None = LEVELS) -> None:
+        self.drivetrain, self.levels = drivetrain, levels
         self.correction = IDEAL
         self._carry = [0.0, 0.0]
 
     def wheels(self, desired: Twist) -> WheelCommand:
-        """The wheel command for a twist (px/s, rad/s), rounded to the levels of the radio protocol."""
+        """The wheel command for a twist (px/s, rad/s), rounded to the levels."""
         linear, half = desired[0], 0.5 * self.drivetrain.base * desired[1] / _plausible(self.correction.turning)
         left, right = (
             self._commanded(linear + half, self.correction.left),
@@ -67,9 +70,11 @@ class Kinematics:
         if share == 0.0:
             self._carry[wheel] = 0.0
             return 0.0
-        wanted = share + self._carry[wheel]
-        level = max(-1.0, min(1.0, round(wanted * LEVELS) / LEVELS))
-        self._carry[wheel] = max(-0.5 / LEVELS, min(0.5 / LEVELS, wanted - level))
+        if self.levels is None:
+            return max(-1.0, min(1.0, share))
+        wanted, half = share + self._carry[wheel], 0.5 / self.levels
+        level = max(-1.0, min(1.0, round(wanted * self.levels) / self.levels))
+        self._carry[wheel] = max(-half, min(half, wanted - level))
         return level
 
 

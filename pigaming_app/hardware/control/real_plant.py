@@ -9,6 +9,7 @@ from math import exp
 from typing import Any
 
 from pigaming_app.hardware.control.homing import Homing, HomingProgress
+from pigaming_app.hardware.control.match_recording import MatchRecorder
 from pigaming_app.hardware.control.rig import Rig, RobotSnapshot
 from pigaming_app.hardware.control.safety import Fault, Response, Safety
 from pigaming_app.hardware.control.start_pattern import StartPattern
@@ -31,6 +32,7 @@ class RealPlant:
         self.rig = rig
         self.real = set(real)
         self.safety = Safety()
+        self.recorder: MatchRecorder | None = None  # of the match, if it is recorded
         self.motion: list[Twist] = [REST] * ROBOTS  # px/s and rad/s, predicted to when the latest command acts
         self._speeds = [0.0] * ROBOTS  # px/s, last commanded speed of each robot
         self._homing: Homing | None = None
@@ -54,8 +56,11 @@ class RealPlant:
         return dict(self._homing.goals) if self._homing else {}
 
     def sense(self) -> list[Sighting]:
-        seen = self._sense_tick().now
-        return [seen[i] if i in self.real else _recorded(robot) for i, robot in enumerate(self.world.robots)]
+        seen, robots = self._sense_tick().now, self.world.robots
+        sightings = [seen[i] if i in self.real else _recorded(robot) for i, robot in enumerate(robots)]
+        if self.recorder:
+            self.recorder.track.add(robots, sightings)
+        return sightings
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         """Command the real robots, clipped by walls and safety."""

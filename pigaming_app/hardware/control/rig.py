@@ -298,5 +298,6 @@ class Rig:
 
 
 def _same(one: Image, other: Image) -> bool:
-    """True if two pictures are equal; a sparse comparison settles most cases."""
-    return np.array_equal(one[::SPARSE, ::SPARSE], other[::SPARSE, ::SPARSE]) and np.array_equal(one, other)
+    """True if two pictures are equal; a sparse comparison settles most cases. Empty ones are never equal."""
+    alike = one.size > 0 and np.array_equal(one[::SPARSE, ::SPARSE], other[::SPARSE, ::SPARSE])
+    return alike and np.array_equal(one, other)

@@ -8,7 +8,7 @@ import os
 import time
 from contextlib import suppress
 from select import select
-from threading import Event, Thread
+from threading import Event, Lock, Thread
 from typing import Self
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
@@ -55,6 +55,7 @@ class RealtimeArena:
 
     def __init__(self, arena: EmulatedArena, terminal: PseudoTerminal | None = None) -> None:
         self.arena, self.terminal = arena, terminal
+        self._plug = Lock()  # held during a transfer
         self._ended = Event()
         self._thread = Thread(target=self._run, name="emulated arena", daemon=True)
 
@@ -70,6 +71,13 @@ class RealtimeArena:
             self._thread.join(timeout=1.0)
             if self.terminal is not None:
                 self.terminal.close()
+
+    def plug(self, terminal: PseudoTerminal | None) -> None:
+        """Replace the terminal; the old one hangs up."""
+        with self._plug:
+            old, self.terminal = self.terminal, terminal
+            if old is not None:
+                old.close()
 
     def __enter__(self) -> Self:
         return self.start()
@@ -92,10 +100,13 @@ class RealtimeArena:
         if self.terminal is None:
             self._ended.wait(LOOK_EVERY)
             return
-        outgoing = self.terminal.read(LOOK_EVERY)
-        with suppress(OSError):  # an unplugged radio neither receives nor sends
-            if outgoing:
-                self.arena.radio.write(outgoing)
-            incoming = self.arena.radio.read(CHUNK)
-            if incoming:
-                self.terminal.write(incoming)
+        with self._plug:
+            if self.terminal is None:
+                return
+            outgoing = self.terminal.read(LOOK_EVERY)
+            with suppress(OSError):  # an unplugged radio neither receives nor sends
+                if outgoing:
+                    self.arena.radio.write(outgoing)
+                incoming = self.arena.radio.read(CHUNK)
+                if incoming:
+                    self.terminal.write(incoming)

@@ -1,20 +1,13 @@
 """Stopping times of the motors in every emergency, measured on the emulated arena.
 
-`stop` injects and clears one fault of EMERGENCIES; `hang`, `leave` and `kill` end the driving program in three ways.
+`stop` injects and clears one fault of EMERGENCIES; `hang` and `leave` end the driving program in two ways. For the ends
+of whole arcades see `outside`.
 """
 
-import os
-import signal
-import subprocess
-import sys
-import time
 from collections.abc import Callable, Mapping
-from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
-from pigaming_app.hardware.emulator.arena import EmulatedArena
-from pigaming_app.hardware.emulator.realtime import PseudoTerminal, RealtimeArena
 from pigaming_app.hardware.proof.trials import FigureEight
 from pigaming_app.sim.world import DT, HZ
 
@@ -130,45 +123,3 @@ def leave(trail: FigureEight) -> float:
     trail.bed.rig.close()
     trail.bed.arena.advance(1.0)
     return max(trail.bed.arena.last_driven) - began
-
-
-DRIVER = """
-import sys, time
-from pigaming_app.hardware.radio.serial_line import serial_port
-from pigaming_app.hardware.radio.link import Link
-from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
-from pigaming_app.hardware.signals import WheelCommand
-link = Link(serial_port(sys.argv[1]), time.monotonic, XBeeProtocol(int(sys.argv[2]))).start()
-while True:
-    link.send([WheelCommand(0.5, 0.4)] * 4)
-    time.sleep(0.02)
-"""
-
-
-def kill(seed: int) -> float:
-    """Seconds until the last motor stops after SIGKILL of a process that drives over a pseudo-terminal in real time.
-
-    Raises OSError where there are no pseudo-terminals, ImportError without pyserial.
-    """
-    if find_spec("serial") is None:
-        raise ImportError("pyserial is not installed")
-    arena = EmulatedArena(seed, refresh=1000, begin=time.monotonic())
-    with RealtimeArena(arena, terminal := PseudoTerminal()):
-        driver = subprocess.Popen([sys.executable, "-c", DRIVER, terminal.name, str(arena.arena_id)], cwd=ROOT)
-        try:
-            _wait_until(lambda: all(robot.left_speed > 100.0 for robot in arena.robots))
-            killed = arena.clock()
-            os.kill(driver.pid, signal.SIGKILL)
-        finally:
-            driver.kill()
-            driver.wait()
-        _wait_until(lambda: all(firmware.stopped for firmware in arena.firmwares))
-        return max(arena.last_driven) - killed
-
-
-def _wait_until(condition: Callable[[], bool], timeout: float = 20.0) -> None:
-    deadline = time.monotonic() + timeout
-    while not condition():
-        if time.monotonic() > deadline:
-            raise RuntimeError("the emulated robots did not react")
-        time.sleep(0.005)

@@ -5,18 +5,18 @@ never moves or stops a robot: `safety` judges ages, `duplicates` and `last_captu
 """
 
 from collections.abc import Sequence
-from math import cos, hypot, inf, pi, sin, sqrt
+from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
 
 from pigaming_app.hardware.calibration.drift import DriftMonitor
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
-from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.signals import CameraFrame, Clock, DetectedMarker, Fix
-from pigaming_app.hardware.tracking.ekf import COAST, PoseFilter
+from pigaming_app.hardware.tracking.ekf import COAST
+from pigaming_app.hardware.tracking.pose_filters import PoseFilters
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, is_known, mean_edge
-from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
-from pigaming_app.sim.plant import Sighting, Twist
+from pigaming_app.sim.drivetrain import Drivetrain
+from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
@@ -28,7 +28,7 @@ REMEMBERED = 0.5  # s for which a rejection is reported
 MARGIN, ASTRAY = 6.0, 200.0  # search radius around a prediction: px, plus px/s of its age
 
 
-class Tracker:
+class Tracker(PoseFilters):
     """Tracker of the robots 0 to 3. Times are those of `clock`; poses in arena px and rad. Raises OpenCVMissing."""
 
     def __init__(
@@ -38,21 +38,16 @@ class Tracker:
         drivetrains: Sequence[Drivetrain] | None = None,
         drift: DriftMonitor | None = None,
     ) -> None:
+        super().__init__(drivetrains, ground.mm)
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
         self.last_captured = -inf  # s, capture time of the newest processed frame
         self.drift = drift  # gets the same frames, for the corner markers
         self._markers = MarkerDetector(ROBOT_IDS)
-        self._filters = [PoseFilter(drivetrain, ground.mm) for drivetrain in drivetrains or [NOMINAL] * ROBOTS]
         self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
         self._glanced = self._searched = -inf
         self._dim = False  # mode of the last quick search
         self._edge = self._expected_edge()
-
-    def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None:
-        """Record the twists sent to the robots at a time, px/s and rad/s; None: stop."""
-        for pose_filter, twist in zip(self._filters, twists, strict=True):
-            pose_filter.record_command(time, (0.0, 0.0) if twist is None else twist)
 
     def process(self, frame: CameraFrame) -> list[Fix]:
         """Process a frame; returns the accepted fixes."""
@@ -67,25 +62,12 @@ class Tracker:
         self.last_captured = captured
         accepted = []
         credible = self._credible(marks, captured)
-        for robot, (pose_filter, fixes) in enumerate(zip(self._filters, credible, strict=True)):
+        for robot, (pose_filter, fixes) in enumerate(zip(self.filters, credible, strict=True)):
             if len(fixes) > 1:
                 self._rejections[robot, "duplicate"] = captured
             elif fixes and pose_filter.correct(fixes[0]):
                 accepted.append(fixes[0])
         return accepted
-
-    def sense(self, now: float) -> list[Sighting]:
-        """Pose of every robot at a time, with the age of its newest fix."""
-        return _apart([pose_filter.at(now) for pose_filter in self._filters])
-
-    def predict(self, now: float, ahead: Sequence[float]) -> tuple[list[Sighting], list[Sighting]]:
-        """Pose of every robot at a time, and that of robot i `ahead[i]` s later."""
-        both = [robot.along((now, now + more)) for robot, more in zip(self._filters, ahead, strict=True)]
-        return _apart([at for at, _ in both]), _apart([later for _, later in both])
-
-    def wheel_correction(self, robot: int) -> WheelCorrection:
-        """Estimated wheel correction of a robot."""
-        return self._filters[robot].correction
 
     def duplicates(self) -> set[int]:
         """Robots whose marker was seen twice in one frame within the last REMEMBERED s."""
@@ -127,7 +109,7 @@ class Tracker:
 
     def _spots(self, time: float) -> dict[int, SearchWindow]:
         """Search windows of the robots' markers in a frame captured at `time`."""
-        poses = {robot: pose_filter.at(time) for robot, pose_filter in enumerate(self._filters)}
+        poses = {robot: pose_filter.at(time) for robot, pose_filter in enumerate(self.filters)}
         poses = {robot: pose for robot, pose in poses.items() if pose.age < COAST}
         if not poses:
             return {}
@@ -157,20 +139,6 @@ class Tracker:
             else:
                 fixes[robot].append(fix)
         return fixes
-
-
-def _apart(sights: list[Sighting]) -> list[Sighting]:
-    """Separate overlapping predictions, each by half the overlap: robots push each other apart."""
-    for i, first in enumerate(sights):
-        for j in range(i + 1, len(sights)):
-            other = sights[j]
-            dx, dy = other.x - first.x, other.y - first.y
-            gap = hypot(dx, dy)
-            if 1e-6 < gap < 2.0 * RADIUS and max(first.age, other.age) < COAST:
-                push = 0.5 * (2.0 * RADIUS - gap) / gap
-                first = sights[i] = first._replace(x=first.x - push * dx, y=first.y - push * dy)
-                sights[j] = other._replace(x=other.x + push * dx, y=other.y + push * dy)
-    return sights
 
 
 def _outline(pose: Sighting, edge: float) -> Points:

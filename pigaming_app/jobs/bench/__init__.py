@@ -6,19 +6,22 @@ from argparse import ArgumentParser, Namespace
 from typing import Any
 
 from pigaming_app.jobs.terminal.options import game_option, shared
-from pigaming_app.jobs.terminal.refusal import missing, refused, require
+from pigaming_app.jobs.terminal.refusal import Refusal, missing, refused, require
 
 ROBOTS = "robots"
 
 
 def options(parser: ArgumentParser) -> None:
     game_option(parser, more=(ROBOTS,))
+    parser.add_argument("--arcade", action="store_true", help="robots: only the failures of a whole arcade")
     shared(parser, "--variant", "--json")
 
 
 def run(arguments: Namespace) -> int:
     """Measure and print the figures. Raises Refusal."""
-    figures = _robots() if arguments.game == ROBOTS else _game(arguments.game, arguments.variant)
+    if arguments.arcade and arguments.game != ROBOTS:
+        raise Refusal("--arcade: only for robots")
+    figures = _robots(arguments.arcade) if arguments.game == ROBOTS else _game(arguments.game, arguments.variant)
     if arguments.json:
         print(json.dumps(figures))
     else:
@@ -41,18 +44,18 @@ def _game(game: str, variant: str | None) -> dict[str, Any]:
     return measure(game, variant)
 
 
-def _robots() -> dict[str, Any]:
+def _robots(arcade: bool) -> dict[str, Any]:
     """The proof of the robot loop; its findings go to standard error as they come."""
     require("hardware")
     from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
-    from pigaming_app.jobs.bench.robots import Unproven, measure, reached
+    from pigaming_app.jobs.bench.robots import Unproven, measure, reached, stops_outside
 
     def note(line: str) -> None:
         print(line, file=sys.stderr, flush=True)
 
     with refused(OpenCVMissing, Unproven):
         opencv()
-        figures = measure(note)
+        figures = stops_outside(note) if arcade else measure(note)
     missed = [key for key, good in reached(figures).items() if not good]
     note(f"not reached: {', '.join(missed)}" if missed else "everything is reached")
     return figures

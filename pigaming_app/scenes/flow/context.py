@@ -4,7 +4,7 @@ import logging
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.scenes.flow.driving import DrivingStyles
@@ -14,7 +14,7 @@ from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.input.events import Button, Device, StickState
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.window import Canvas
@@ -43,6 +43,8 @@ class Context:
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)
     highlights: Highlights = field(default_factory=Highlights)  # for attract mode
+    sticks: Callable[[int, bool], StickState | None] = lambda *_: None  # joysticks of a network: see RosSession
+    match_watchers: list[Callable[[dict[str, Any]], None]] = field(default_factory=list)  # get the state of a match
     emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # callbacks that stop robots at once
 
     def __post_init__(self) -> None:

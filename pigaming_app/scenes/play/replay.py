@@ -3,11 +3,12 @@
 import pygame
 
 from pigaming_app.games.replay import Replay
-from pigaming_app.games.timeline import Timeline
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.play.replay_faults import ReplayFaults
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.side_hints import SideHints, side_note
+from pigaming_app.scenes.real_replays import timeline_of
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -30,7 +31,8 @@ class ReplayScene:
 
     def __init__(self, context: Context, replay: Replay) -> None:
         self.context, self.replay = context, replay
-        self.timeline = Timeline(replay)
+        self.timeline = timeline_of(replay)
+        self.faults = ReplayFaults(replay, context.words)
         self.speed, self.hints_left, self.playing = 1.0, HINTS_SECONDS, True
         self.runner, self.prewarmed = MatchRunner(context, self.timeline.match_at(0)), False
 
@@ -95,6 +97,7 @@ class ReplayScene:
         if seconds < HINTS_SECONDS or not self.playing:
             self.runner.draw_captions(screen, [None] * len(self.replay.setup.seats))
         self._draw_timeline(screen)
+        self.faults.draw(screen, self.tick)
         if self.ended:
             caption(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
         elif not self.playing or self.speed != 1.0 or seconds < HINTS_SECONDS:
@@ -104,7 +107,7 @@ class ReplayScene:
             caption(words("replay.other_engine"), FOCUS).draw(screen, 960, NOTICE_Y)
 
     def _draw_timeline(self, screen: pygame.Surface) -> None:
-        """The line below the arena with the present tick, and a mark for each moment."""
+        """The line below the arena with the present tick, and marks for moments and faults."""
         now = self._x(self.tick)
         pygame.draw.line(screen, STEEL, (LINE_LEFT, LINE_Y), (LINE_RIGHT, LINE_Y), 4)
         pygame.draw.line(screen, ICE, (LINE_LEFT, LINE_Y), (now, LINE_Y), 6)
@@ -112,6 +115,7 @@ class ReplayScene:
             x = self._x(moment.tick)
             diamond = [(x - MARK, LINE_Y), (x, LINE_Y - MARK), (x + MARK, LINE_Y), (x, LINE_Y + MARK)]
             pygame.draw.polygon(screen, ICE, diamond)
+        self.faults.draw_marks(screen, self._x, LINE_Y)
         pygame.draw.circle(screen, FOCUS, (now, LINE_Y), 9)
 
     def _x(self, tick: int) -> float:

@@ -16,7 +16,6 @@ import pygame
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.registry import DRIVING, make_brain, new_match
 from pigaming_app.games.game import Setup
-from pigaming_app.games.replay import recorded, replayable
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
@@ -30,6 +29,7 @@ from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.round_break import draw_margin
 from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.real_replays import replay_of
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.scene import Results, SceneFactory
 from pigaming_app.scenes.results.winner import AfterMatch
@@ -367,7 +367,7 @@ class MatchScene:
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
-        drive = self.context.controls.drive(device)
+        drive = self.context.sticks(seat, seat == self.humans[0]) or self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
             self.idle_seats.touch(seat)
@@ -408,7 +408,7 @@ class MatchScene:
             rounds.done if rounds else not self.stop_requested,
             () if rounds else self._without_records,
             self.game_choice,
-            recorded(self.match) if replayable(self.match) else None,
+            replay_of(self.match),
             rounds,
         )
 

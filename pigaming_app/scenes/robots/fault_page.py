@@ -10,9 +10,9 @@ from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.pause import Pause, sheet_title
-from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
+from pigaming_app.scenes.views.fault_icons import sign
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
 from pigaming_app.ui.draw.layers import Layer

@@ -9,6 +9,7 @@ import pygame
 
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
+from pigaming_app.hardware.control.match_recording import MatchRecorder
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, settings_problem
@@ -24,6 +25,7 @@ from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.scenes.robots.marker_discs import MarkerDiscs
+from pigaming_app.scenes.robots.match_state import match_state
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.take_places import TakePlaces
 from pigaming_app.ui.draw import ALARM
@@ -70,6 +72,8 @@ class RealMatch(MatchScene):
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
         self.plant = plant
+        plant.recorder = MatchRecorder(session.mm, session.emulated)
+        rig.recorder = plant.recorder.run
         self.discs = MarkerDiscs(rig)
         self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.hint_device)
         self.released = False  # rig released
@@ -127,6 +131,7 @@ class RealMatch(MatchScene):
         if self.restart_requested or self.stop_requested:
             return super().update(seconds)
         seconds = self.session.advance(seconds)
+        self._publish()
         if self.gathering is not None:
             return self._take_places(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
@@ -163,6 +168,7 @@ class RealMatch(MatchScene):
     def advance_paused(self, seconds: float) -> None:
         """Advance below a page: all robots stand still, faults are updated."""
         self._stand_still(self.session.advance(seconds))
+        self._publish()
 
     def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw the corner markers and the discs on top of everything."""
@@ -245,6 +251,8 @@ class RealMatch(MatchScene):
     def _report_faults(self) -> None:
         """Log new faults; show the minor ones over the match."""
         now = {(fault.name, fault.robot): fault for fault in self.plant.faults if self._reportable(fault)}
+        if self.plant.recorder and self.gathering is None and not self.match.over:
+            self.plant.recorder.record_faults(self.match.state.tick, self.plant.rig.clock(), list(now.values()))
         for key in now.keys() - self.logged:
             cause = cause_of(self.plant.rig, now[key].name)
             sentences = [
@@ -256,6 +264,14 @@ class RealMatch(MatchScene):
                 sentence = fault_sentence(now[key], self.context.words, "")
                 self.notice, self.noticed = caption(sentence, ALARM, player=now[key].robot), 2 * NOTICE_SECONDS
         self.logged = set(now)
+
+    def _publish(self) -> None:
+        """Hand the state of the match to those who watch it."""
+        if self.context.match_watchers:
+            waiting = self.gathering is not None or self.blocked or self.countdown.locked
+            state = match_state(self.match, self.plant.faults, waiting)
+            for watch in self.context.match_watchers:
+                watch(state)
 
     def _reportable(self, fault: Fault) -> bool:
         """False for a robot that is only briefly hard to see."""

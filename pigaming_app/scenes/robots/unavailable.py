@@ -10,9 +10,9 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import sheet_title
-from pigaming_app.scenes.robots.fault_icons import sign
 from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
 from pigaming_app.scenes.robots.interrupted import MatchOf
+from pigaming_app.scenes.views.fault_icons import sign
 from pigaming_app.ui.draw import ALARM, ICE, MIST
 from pigaming_app.ui.draw.layers import Layer, backdrop
 from pigaming_app.ui.draw.text import write_lines

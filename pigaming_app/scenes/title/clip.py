@@ -3,10 +3,10 @@
 import pygame
 
 from pigaming_app.games.moments import LAST
-from pigaming_app.games.timeline import Timeline
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, StackOperation
 from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.real_replays import timeline_of
 from pigaming_app.scenes.recordings.highlights import Highlight
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ICE, LABEL, PLAYERS
@@ -26,7 +26,7 @@ class Clip:
 
     def __init__(self, context: Context, highlight: Highlight) -> None:
         self.context, (self.replay, self.moment) = context, highlight
-        self.timeline = Timeline(self.replay)
+        self.timeline = timeline_of(self.replay)
         self.start = max(0, self.moment.tick - BEFORE)
         self.end = min(self.timeline.length, self.moment.tick + AFTER)
         self.runner: MatchRunner | None = None

@@ -7,7 +7,8 @@ import pytest
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import UNMEASURED
-from pigaming_app.hardware.recordings import Recording, RecordingError, RecordingWriter, RobotRecording, load
+from pigaming_app.hardware.recordings import Recording, RecordingError, RobotRecording, load
+from pigaming_app.hardware.run_writer import RecordingWriter
 from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, errors, measure, predictions, replay
 from pigaming_app.hardware.sysid.excitation import ExcitationPattern

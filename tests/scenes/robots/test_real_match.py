@@ -15,6 +15,7 @@ from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.real_replays import verify
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.robots.fault_page import FaultPage
@@ -100,7 +101,8 @@ def test_rounds_are_played_with_robots_that_take_their_places_again(arcade: Arca
     until(arcade, Results)
     results = arcade.stack.top
     assert isinstance(results, Results)
-    assert results.recording is None, "the replay of real robots cannot be saved"
+    assert results.recording is not None
+    assert verify(results.recording)
 
 
 def started(arcade: Arcade, match: RealMatch, seconds: float = 0.5) -> None:

@@ -1,0 +1,142 @@
+"""Recording of a match with real robots: its replay, the robots at every tick, faults, and the run for `fidelity`.
+
+The file is a zip archive. Part `match.replay` is a replay file like that of simulated robots; `robots.bin` is a
+RobotTrack, with which the rules are judged again to the same end; `faults.json` has the faults; `run.jsonl.gz` is a run
+(see recordings).
+"""
+
+import json
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from io import BytesIO
+from typing import Any, NamedTuple
+
+from pigaming_app.hardware.control.recorded_plant import ROW, SIZE, RobotTrack
+from pigaming_app.hardware.control.safety import RULES, Fault
+from pigaming_app.hardware.run_writer import RUN_PART, RunInMemory
+from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.parsing import parse_json
+
+MAX_TICKS = 180_000  # an hour
+MAX_SECONDS = 86_400.0  # s of a fault
+MAX_FAULTS = 10_000
+MAGIC = b"PK\x03\x04"
+REPLAY, ROBOTS_PART, FAULTS = "match.replay", "robots.bin", "faults.json"
+LIMITS = {  # bytes of a part, unpacked
+    REPLAY: 8_000_000,
+    ROBOTS_PART: ROW * SIZE * (MAX_TICKS + 1),
+    FAULTS: 1_000_000,
+    RUN_PART: 100_000_000,
+}
+MAX_BYTES = sum(LIMITS.values())
+NAMES = frozenset(rule.name for rule in RULES)
+
+
+class MatchFileError(ValueError):
+    """A file is not a recording of a match; the reason in one line."""
+
+
+@dataclass
+class RecordedFault:
+    """A fault of a robot, counted from 0, or of all (None): the tick at which it began, and how long it lasted."""
+
+    name: str
+    robot: int | None
+    tick: int
+    pauses: bool  # True: the match waited
+    seconds: float = 0.0  # s of real time
+
+
+class MatchRecording(NamedTuple):
+    """What the replay of a match lacks if its robots were real."""
+
+    track: RobotTrack
+    faults: tuple[RecordedFault, ...] = ()
+    run: bytes = b""  # JSONL, compressed
+
+
+class MatchRecorder:
+    """Records a match while it is played: the plant adds the robots, the scene the faults, the rig the run."""
+
+    def __init__(self, mm: float, emulated: bool = False) -> None:
+        self.track = RobotTrack()
+        self.run = RunInMemory(mm, emulated)
+        self.faults: list[RecordedFault] = []
+        self._present: dict[tuple[str, int | None], RecordedFault] = {}
+
+    def record_faults(self, tick: int, now: float, faults: Sequence[Fault]) -> None:
+        """Record the faults present at `now` (s); call it regularly."""
+        keys = {(fault.name, fault.robot): fault for fault in faults}
+        self._present = {key: one for key, one in self._present.items() if key in keys}
+        for key, fault in keys.items():
+            if key not in self._present and len(self.faults) < MAX_FAULTS:
+                self._present[key] = RecordedFault(fault.name, fault.robot, tick, fault.pauses)
+                self.faults.append(self._present[key])
+            if key in self._present:
+                self._present[key].seconds = min(max(0.0, now - fault.since), MAX_SECONDS)
+                self._present[key].pauses |= fault.pauses
+
+    def recording(self, ticks: int, robots: Sequence[Any]) -> MatchRecording:
+        """The recording of the first ticks, after which the robots of the world are as they are now."""
+        track = self.track.first(ticks)
+        track.add(robots)
+        return MatchRecording(track, tuple(self.faults), self.run.compressed())
+
+
+def pack(replay: bytes, recording: MatchRecording) -> bytes:
+    """The contents of a file."""
+    file = BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        for name, part in (
+            (REPLAY, replay),
+            (ROBOTS_PART, recording.track.pack()),
+            (FAULTS, json.dumps([asdict(fault) for fault in recording.faults]).encode()),
+            (RUN_PART, recording.run),
+        ):
+            archive.writestr(zipfile.ZipInfo(name), part)
+    return file.getvalue()
+
+
+def unpack(raw: bytes) -> dict[str, bytes]:
+    """The parts of a file. Raises MatchFileError."""
+    try:
+        with zipfile.ZipFile(BytesIO(raw)) as archive:
+            sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
+            if sizes.keys() != LIMITS.keys() or len(archive.infolist()) != len(LIMITS):
+                raise MatchFileError("not a recording of a match")
+            if any(size > LIMITS[name] for name, size in sizes.items()):
+                raise MatchFileError("not a recording of a match: a part of it is too big")
+            return {name: archive.read(name) for name in LIMITS}
+    except MatchFileError:
+        raise
+    except Exception:  # zipfile raises many kinds of exceptions for damaged files
+        raise MatchFileError("damaged: it has been cut short or edited") from None
+
+
+def recording_of(parts: Mapping[str, bytes], ticks: int) -> MatchRecording:
+    """The recording in the parts of a file, whose replay has that many ticks. Raises MatchFileError."""
+    try:
+        track = RobotTrack.unpack(parts[ROBOTS_PART], ticks + 1)
+        faults = parse_json(parts[FAULTS])
+        if not isinstance(faults, list) or len(faults) > MAX_FAULTS:
+            raise ValueError("faults")
+        return MatchRecording(track, tuple(_fault(one, ticks) for one in faults), parts[RUN_PART])
+    except (ValueError, KeyError, TypeError, OverflowError) as error:
+        raise MatchFileError(f"not a valid recording ({type(error).__name__}: {str(error)[:80]!a})") from None
+
+
+def _fault(entry: Any, ticks: int) -> RecordedFault:
+    """Parse a fault. Raises KeyError, TypeError or ValueError."""
+    fault = RecordedFault(
+        str(entry["name"]),
+        entry["robot"] if entry["robot"] is None else int(entry["robot"]),
+        int(entry["tick"]),
+        entry["pauses"] is True,
+        float(entry["seconds"]),
+    )
+    if fault.name not in NAMES or fault.robot not in (None, *range(ROBOTS)):
+        raise ValueError("fault")
+    if not 0 <= fault.tick <= ticks or not 0.0 <= fault.seconds <= MAX_SECONDS:
+        raise ValueError("time of a fault")
+    return fault

@@ -1,0 +1,140 @@
+"""The node of PiGaming in a ROS 1 network: the only module that imports rospy, which belongs to the system's Python.
+
+Poses and twists cross this boundary in m and rad, in a frame with its origin at the arena's lower left corner, x to the
+right and y up, headings and turns counter-clockwise (REP 103).
+"""
+
+import sys
+import threading
+from collections.abc import Callable
+from math import atan2, cos, sin
+from typing import Any
+
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
+
+SYSTEM = "/usr/lib/python3/dist-packages"  # where Debian installs rospy
+FRAME = "arena"
+QUEUE = 1  # messages: only the newest counts
+
+Pose = tuple[float, float, float]  # m, m, rad
+PoseHandler = Callable[[int, Pose, float], None]  # robot, pose, age in s
+Twist = tuple[float, float]  # m/s, rad/s
+
+
+class RosUnavailable(OperatorError):
+    """No ROS on this computer, or no roscore."""
+
+
+def require_roscore() -> None:
+    """Raises RosUnavailable without rospy, or if no roscore answers."""
+    if SYSTEM not in sys.path:
+        sys.path.append(SYSTEM)  # last: packages of our own environment come first
+    try:
+        import rosgraph
+        import rospy  # noqa: F401
+    except ImportError as error:
+        raise RosUnavailable(OperatorMessage("ros_missing", package=error.name or "rospy")) from None
+    if not rosgraph.is_master_online():
+        raise RosUnavailable(OperatorMessage("ros_master", address=rosgraph.get_master_uri()))
+
+
+class RosNode:
+    """A node named `name` with a suffix of its own. Raises RosUnavailable."""
+
+    def __init__(self, name: str) -> None:
+        require_roscore()  # without one, init_node would wait for ever
+        import geometry_msgs.msg as geometry
+        import rospy
+        import sensor_msgs.msg as sensors
+        import std_msgs.msg as standard
+
+        self._ros, self._geometry, self._sensors, self._standard = rospy, geometry, sensors, standard
+        if not rospy.core.is_initialized():
+            rospy.init_node(name, anonymous=True, disable_signals=True)
+        self._lock = threading.Lock()
+        self._publishers: dict[str, Any] = {}
+        self._subscribers: list[Any] = []
+
+    @property
+    def fault(self) -> OperatorMessage | None:
+        """Set once the node has been shut down from outside."""
+        return OperatorMessage("ros_gone") if self._ros.is_shutdown() else None
+
+    def on_pose(self, robot: int, handle: PoseHandler) -> None:
+        """Call `handle` for every pose of a robot: geometry_msgs PoseStamped or Pose2D."""
+
+        def take(raw: Any) -> None:
+            kind = raw._connection_header["type"]
+            if kind == "geometry_msgs/PoseStamped":
+                stamped = self._geometry.PoseStamped().deserialize(raw._buff)
+                x, y, heading = _flat(stamped.pose)
+                sent = stamped.header.stamp
+                age = (self._ros.Time.now() - sent).to_sec() if sent else 0.0
+                handle(robot, (x, y, heading), max(0.0, age))
+            elif kind == "geometry_msgs/Pose2D":
+                flat = self._geometry.Pose2D().deserialize(raw._buff)
+                handle(robot, (flat.x, flat.y, flat.theta), 0.0)
+
+        self._subscribe(_topic(robot, "pose"), self._ros.AnyMsg, take)
+
+    def on_twist(self, robot: int, handle: Callable[[int, Twist], None]) -> None:
+        """Call `handle` for every command to a robot: geometry_msgs Twist."""
+        self._subscribe(
+            _topic(robot, "cmd_vel"),
+            self._geometry.Twist,
+            lambda twist: handle(robot, (twist.linear.x, twist.angular.z)),
+        )
+
+    def on_joystick(self, handle: Callable[[str, tuple[float, ...], tuple[int, ...]], None]) -> None:
+        """Call `handle` with frame, axes and buttons of every sensor_msgs Joy on /joystick."""
+        self._subscribe(
+            "/joystick", self._sensors.Joy, lambda joy: handle(joy.header.frame_id, tuple(joy.axes), tuple(joy.buttons))
+        )
+
+    def publish_pose(self, robot: int, pose: Pose, age: float = 0.0) -> None:
+        """Publish a pose that is `age` s old."""
+        message = self._geometry.PoseStamped()
+        message.header.frame_id = FRAME
+        message.header.stamp = self._ros.Time.now() - self._ros.Duration.from_sec(age)
+        message.pose.position.x, message.pose.position.y = pose[0], pose[1]
+        message.pose.orientation.z, message.pose.orientation.w = sin(0.5 * pose[2]), cos(0.5 * pose[2])
+        self._publish(_topic(robot, "pose"), message)
+
+    def publish_twist(self, robot: int, twist: Twist) -> None:
+        """Publish a command."""
+        message = self._geometry.Twist()
+        message.linear.x, message.angular.z = twist
+        self._publish(_topic(robot, "cmd_vel"), message)
+
+    def publish_state(self, text: str) -> None:
+        """Publish the state of the match, JSON."""
+        self._publish("/game/state", self._standard.String(text))
+
+    def close(self) -> None:
+        """Leave all topics; a node of the same process may join again."""
+        for topic in (*self._subscribers, *self._publishers.values()):
+            topic.unregister()
+        self._subscribers.clear()
+        self._publishers.clear()
+
+    def _subscribe(self, topic: str, kind: type, handle: Callable[[Any], None]) -> None:
+        self._subscribers.append(self._ros.Subscriber(topic, kind, handle, queue_size=QUEUE, tcp_nodelay=True))
+
+    def _publish(self, topic: str, message: Any) -> None:
+        with self._lock:
+            if topic not in self._publishers:
+                self._publishers[topic] = self._ros.Publisher(topic, type(message), queue_size=5, tcp_nodelay=True)
+        if not self._ros.is_shutdown():
+            self._publishers[topic].publish(message)
+
+
+def _topic(robot: int, name: str) -> str:
+    """Topic of a robot, counted from 0 here and from 1 there."""
+    return f"/robot_{robot + 1}/{name}"
+
+
+def _flat(pose: Any) -> Pose:
+    """Position and heading in the plane."""
+    at, turn = pose.position, pose.orientation
+    heading = atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z))
+    return at.x, at.y, heading

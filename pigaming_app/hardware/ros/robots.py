@@ -1,0 +1,139 @@
+"""Robots and cameras of a ROS network as the camera, tracker and link of a rig.
+
+The same filters predict over the dead time, and the same safety judges ages. Commands go out 50 times a second; without
+a new one for 0.1 s, and five times at the end, the speeds are zero.
+"""
+
+import atexit
+import threading
+from collections.abc import Mapping, Sequence
+from math import isfinite
+
+import numpy as np
+
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.link import BEAT, FAREWELLS, PATIENCE
+from pigaming_app.hardware.ros.node import Pose, RosNode
+from pigaming_app.hardware.ros.units import ArenaFrame
+from pigaming_app.hardware.signals import CameraFrame, Clock, Fix, Telemetry, WheelCommand
+from pigaming_app.hardware.tracking.pose_filters import PoseFilters
+from pigaming_app.sim.drivetrain import Drivetrain, twist
+from pigaming_app.sim.plant import Twist
+from pigaming_app.sim.world import ROBOTS
+
+BATTERY = 9.9  # V: none is reported
+OUTSIDE = 5000.0  # px, poses farther off are refused
+NO_PICTURE = np.zeros((0, 0), np.uint8)
+REST: Twist = (0.0, 0.0)
+
+
+class RosPoses(PoseFilters):
+    """Poses from topics: CameraSource and TrackerPort of a rig."""
+
+    def __init__(self, node: RosNode, frame: ArenaFrame, clock: Clock, drivetrains: Sequence[Drivetrain]) -> None:
+        super().__init__(drivetrains, frame.mm)
+        self.node, self.frame, self.clock = node, frame, clock
+        self.expected = set(range(ROBOTS))
+        self.last_captured = float("-inf")
+        self.rejections: Mapping[int, str] = {}
+        self.received = [float("-inf")] * ROBOTS  # s, newest pose of each robot
+        self._lock = threading.Lock()
+        self._waiting: list[Fix] = []
+        self._frames = 0
+        for robot in range(ROBOTS):
+            node.on_pose(robot, self._take)
+
+    @property
+    def fault(self) -> OperatorMessage | None:
+        return self.node.fault
+
+    def newest(self) -> CameraFrame | None:
+        """A frame without a picture if poses have arrived, else None."""
+        if not self._waiting:
+            return None
+        self._frames += 1
+        return CameraFrame(NO_PICTURE, self.clock(), self._frames)
+
+    def process(self, frame: CameraFrame) -> list[Fix]:
+        """Correct the filters with the poses that have arrived."""
+        with self._lock:
+            fixes, self._waiting = self._waiting, []
+        for fix in fixes:
+            self.last_captured = max(self.last_captured, fix.captured)
+        return [fix for fix in sorted(fixes, key=lambda fix: fix.captured) if self.filters[fix.robot].correct(fix)]
+
+    def duplicates(self) -> set[int]:
+        return set()
+
+    def close(self) -> None:
+        """Leave the topics."""
+        self.node.close()
+
+    def _take(self, robot: int, pose: Pose, age: float) -> None:
+        x, y, heading = self.frame.from_ros(pose)
+        if not all(isfinite(number) for number in (x, y, heading, age)) or max(abs(x), abs(y)) > OUTSIDE:
+            return
+        captured = self.clock() - age
+        with self._lock:
+            self.received[robot] = max(self.received[robot], captured)
+            self._waiting.append(Fix(robot, x, y, heading, captured))
+
+
+class RosLink:
+    """Commands to topics: LinkPort of a rig."""
+
+    def __init__(self, node: RosNode, poses: RosPoses, drivetrains: Sequence[Drivetrain]) -> None:
+        self.node, self.poses, self.drivetrains = node, poses, drivetrains
+        self._mail: tuple[float, Sequence[WheelCommand | None]] = (float("-inf"), (None,) * ROBOTS)
+        self._closing = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._driven: set[int] = set()  # robots that were commanded; the others belong to somebody else
+
+    @property
+    def telemetry(self) -> dict[int, Telemetry]:
+        """A pose counts as a report."""
+        seen = enumerate(self.poses.received)
+        return {i: Telemetry(i, BATTERY, 0, received) for i, received in seen if isfinite(received)}
+
+    @property
+    def fault(self) -> OperatorMessage | None:
+        dead = self._thread is not None and not self._thread.is_alive() and not self._closing.is_set()
+        return OperatorMessage("ros_gone") if dead else self.node.fault
+
+    def send(self, wheels: Sequence[WheelCommand | None]) -> None:
+        """Post the wheel commands of all robots; None: stop."""
+        self._driven |= {i for i, command in enumerate(wheels) if command is not None}
+        self._mail = self.poses.clock(), tuple(wheels)
+
+    def pump(self) -> None:
+        """Publish the speeds of the robots that were driven."""
+        posted, wheels = self._mail
+        fresh = self.poses.clock() - posted <= PATIENCE
+        for robot in sorted(self._driven):
+            command = wheels[robot] if fresh else None
+            speeds = twist(self.drivetrains[robot], *command) if command else REST
+            self.node.publish_twist(robot, self.poses.frame.twist_to_ros(speeds))
+
+    def start(self) -> "RosLink":
+        self._thread = threading.Thread(target=self._run, name="link", daemon=True)
+        atexit.register(self.close)
+        self._thread.start()
+        return self
+
+    def close(self) -> None:
+        """Publish zero speeds five times. Idempotent."""
+        if self._closing.is_set():
+            return
+        self._closing.set()
+        atexit.unregister(self.close)
+        if self._thread is not None:
+            self._thread.join(timeout=1.0)
+        pause = threading.Event()
+        for _ in range(FAREWELLS):
+            self._mail = (float("-inf"), self._mail[1])
+            self.pump()
+            pause.wait(BEAT)  # a topic is sent by a thread of its own
+
+    def _run(self) -> None:
+        while not self._closing.wait(BEAT):
+            self.pump()

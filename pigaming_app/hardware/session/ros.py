@@ -1,0 +1,106 @@
+"""The session of robots in a ROS network: their poses come from topics, and their speeds go to topics."""
+
+import json
+import time
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of
+from pigaming_app.sim.world import DT, ROBOTS
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.calibration.site import CalibrationSite
+    from pigaming_app.hardware.control.rig import Rig
+    from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.ros.node import RosNode
+
+WIDTH_MM = 2112.0  # of the nominal arena
+STICK_AGE = 0.5  # s, after which a joystick message no longer counts
+STATE_EVERY = 0.1  # s between two messages of the state
+Stick = tuple[float, float, bool, bool]  # ahead, clockwise, fire, turbo
+
+
+class RosSession:
+    """Robots of an arena `width` mm wide."""
+
+    emulated = False
+
+    def __init__(self, width: float = WIDTH_MM) -> None:
+        self.width, self.mm = width, 0.0
+        self._rig: Rig | None = None
+        self._node: RosNode | None = None
+        self._sticks: dict[int | None, tuple[float, Stick]] = {}  # by seat; None: not addressed
+        self._next = time.monotonic()
+        self._published = 0.0
+
+    @property
+    def fault(self) -> OperatorMessage | None:
+        return fault_of(self._rig) if self._rig else None
+
+    @property
+    def site(self) -> "CalibrationSite":
+        raise RobotsUnavailable(OperatorMessage("ros_site"))
+
+    def open(self) -> "Rig":
+        if self._rig is None:
+            from pigaming_app.hardware.control.kinematics import Kinematics
+            from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+            from pigaming_app.hardware.ros.node import RosNode, RosUnavailable
+            from pigaming_app.hardware.ros.robots import RosLink, RosPoses
+            from pigaming_app.hardware.ros.units import ArenaFrame
+
+            try:
+                self._node = RosNode("pigaming")
+            except RosUnavailable as error:
+                raise RobotsUnavailable(error.message) from error
+            frame, drivetrains = ArenaFrame.of_width(self.width), [UNMEASURED] * ROBOTS
+            self._node.on_joystick(self._take_stick)
+            poses = RosPoses(self._node, frame, time.monotonic, drivetrains)
+            rig = Rig(poses, poses, RosLink(self._node, poses, drivetrains), time.monotonic, drivetrains)
+            rig.kinematics = [Kinematics(drivetrain, levels=None) for drivetrain in drivetrains]
+            self.mm, self._rig = frame.mm, rig.start()
+        return self._rig
+
+    def open_link(self) -> "Link | None":
+        return None
+
+    def tick(self) -> None:
+        self._next = max(self._next + DT, time.monotonic() - DT)
+        time.sleep(max(0.0, self._next - time.monotonic()))
+
+    def advance(self, seconds: float) -> float:
+        return seconds
+
+    def stick(self, seat: int, first: bool) -> Stick | None:
+        """The joystick of a seat; one that addresses none is that of the `first` person."""
+        now = time.monotonic()
+        for key in (seat, None) if first else (seat,):
+            received, stick = self._sticks.get(key, (float("-inf"), (0.0, 0.0, False, False)))
+            if now - received < STICK_AGE:
+                return stick
+        return None
+
+    def publish(self, state: Mapping[str, Any]) -> None:
+        """Publish the state of the match, ten times a second at most."""
+        now = time.monotonic()
+        if self._node is not None and now - self._published >= STATE_EVERY:
+            self._published = now
+            self._node.publish_state(json.dumps(state))
+
+    def close(self) -> None:
+        rig, self._rig = self._rig, None
+        if rig is not None:
+            rig.close()
+        self._node = None
+
+    def end(self) -> None:
+        self.close()
+
+    def _take_stick(self, frame: str, axes: tuple[float, ...], buttons: tuple[int, ...]) -> None:
+        """The layout of joy_node: axis 0 to the left, axis 1 ahead; buttons 0 and 1."""
+        left, ahead = (max(-1.0, min(1.0, axis)) if axis == axis else 0.0 for axis in (*axes, 0.0, 0.0)[:2])
+        fire, turbo = (bool(button) for button in (*buttons, 0, 0)[:2])
+        number = frame.removeprefix("robot_")
+        seat = int(number) - 1 if number in {str(i + 1) for i in range(ROBOTS)} else None
+        self._sticks[seat] = time.monotonic(), (ahead, -left, fire, turbo)

@@ -1,0 +1,50 @@
+"""One pose filter for each robot, corrected by whatever sees the robots."""
+
+from collections.abc import Sequence
+from math import hypot
+
+from pigaming_app.hardware.control.motion_model import WheelCorrection
+from pigaming_app.hardware.tracking.ekf import COAST, PoseFilter
+from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
+from pigaming_app.sim.plant import Sighting, Twist
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import ROBOTS
+
+
+class PoseFilters:
+    """Filters of the robots 0 to 3. `mm`: mm of the mat per arena px."""
+
+    def __init__(self, drivetrains: Sequence[Drivetrain] | None, mm: float) -> None:
+        self.filters = [PoseFilter(drivetrain, mm) for drivetrain in drivetrains or [NOMINAL] * ROBOTS]
+
+    def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None:
+        """Record the twists sent to the robots at a time, px/s and rad/s; None: stop."""
+        for pose_filter, twist in zip(self.filters, twists, strict=True):
+            pose_filter.record_command(time, (0.0, 0.0) if twist is None else twist)
+
+    def sense(self, now: float) -> list[Sighting]:
+        """Pose of every robot at a time, with the age of its newest fix."""
+        return _apart([pose_filter.at(now) for pose_filter in self.filters])
+
+    def predict(self, now: float, ahead: Sequence[float]) -> tuple[list[Sighting], list[Sighting]]:
+        """Pose of every robot at a time, and that of robot i `ahead[i]` s later."""
+        both = [robot.along((now, now + more)) for robot, more in zip(self.filters, ahead, strict=True)]
+        return _apart([at for at, _ in both]), _apart([later for _, later in both])
+
+    def wheel_correction(self, robot: int) -> WheelCorrection:
+        """Estimated wheel correction of a robot."""
+        return self.filters[robot].correction
+
+
+def _apart(sights: list[Sighting]) -> list[Sighting]:
+    """Separate overlapping predictions, each by half the overlap: robots push each other apart."""
+    for i, first in enumerate(sights):
+        for j in range(i + 1, len(sights)):
+            other = sights[j]
+            dx, dy = other.x - first.x, other.y - first.y
+            gap = hypot(dx, dy)
+            if 1e-6 < gap < 2.0 * RADIUS and max(first.age, other.age) < COAST:
+                push = 0.5 * (2.0 * RADIUS - gap) / gap
+                first = sights[i] = first._replace(x=first.x - push * dx, y=first.y - push * dy)
+                sights[j] = other._replace(x=other.x + push * dx, y=other.y + push * dy)
+    return sights

@@ -1,0 +1,151 @@
+"""Stops when the whole arcade fails, with a match in its window and the robots in another process: this one."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from select import select
+
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane, to_toml
+from pigaming_app.hardware.proof.outside import OutsideArena
+from pigaming_app.jobs.bench.sabotage import PLAYING, ROOT
+from pigaming_app.storage.log import FILE
+from pigaming_app.storage.safe_files import write_atomic
+from pigaming_app.ui.i18n import english
+
+START = 120.0  # s until the robots have taken their places
+PLAY = ("play", "pitanks", "--seats", "level5,level5,level5,level5", "--real", "all", "--minutes", "30")
+
+
+class Arcade:
+    """A running arcade; a context manager."""
+
+    def __init__(self, home: Path, feed: Path, port: str) -> None:
+        sabotaged = [sys.executable, "-X", "pigaming", "-m", "pigaming_app.jobs.bench.sabotage", str(feed)]
+        radio = ["--port", port, "--radio", "api2", "--camera", "0"]
+        with (home / "arcade.log").open("ab") as log:
+            self.process = subprocess.Popen(
+                [*sabotaged, *PLAY, *radio],
+                cwd=ROOT,
+                env=environment(home),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=log,
+            )
+
+    def __enter__(self) -> "Arcade":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.process.kill()
+        self.process.wait()
+        with suppress(OSError):
+            assert self.process.stdin
+            assert self.process.stdout
+            self.process.stdout.close()
+            self.process.stdin.close()
+
+    @property
+    def alive(self) -> bool:
+        return self.process.poll() is None
+
+    def await_match(self) -> None:
+        """Wait until its match has begun. Raises RuntimeError after START s, or if it ends."""
+        assert self.process.stdout
+        ready = select([self.process.stdout], [], [], START)[0]
+        if not ready or self.process.stdout.readline().decode().strip() != PLAYING:
+            raise RuntimeError("the match in the arcade did not begin")
+
+    def order(self, word: str) -> None:
+        """Hand it a word of `sabotage`."""
+        assert self.process.stdin
+        self.process.stdin.write(f"{word}\n".encode())
+        self.process.stdin.flush()
+
+    def signal(self, number: int) -> None:
+        self.process.send_signal(number)
+
+
+def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
+    """Stopping times by fault, s. Raises OSError without pseudo-terminals, RuntimeError if the robots do not drive."""
+    stops: dict[str, float] = {}
+    with tempfile.TemporaryDirectory(dir=_memory()) as folder:
+        home, feed = Path(folder), Path(folder, "camera")
+        log = home / "data" / FILE
+        with OutsideArena(seed, feed) as outside:
+            _save(outside.ground, home)
+
+            def run(*trials: Callable[[Arcade], None]) -> None:
+                """Play a match and try these faults on it."""
+                with Arcade(home, feed, outside.terminal.name) as arcade:
+                    arcade.await_match()
+                    for trial in trials:
+                        trial(arcade)
+
+            def fault(
+                name: str,
+                begin: Callable[[Arcade], None],
+                end: Callable[[Arcade], None] = lambda _: None,
+                report: str = "",
+            ) -> Callable[[Arcade], None]:
+                """A trial; `report`: the fault that the arcade must show and log."""
+
+                def trial(arcade: Arcade) -> None:
+                    outside.settle(lambda: arcade.alive)
+                    before = len(log.read_text(encoding="utf-8"))
+                    stops[name] = outside.stopping(lambda: begin(arcade))
+                    note(f"arcade, {name}: motors stood after {1e3 * stops[name]:.0f} ms")
+                    if report and english()(f"faults.{report}") not in log.read_text(encoding="utf-8")[before:]:
+                        raise RuntimeError(f"{name}: the fault was not reported")
+                    end(arcade)
+
+                return trial
+
+            def freeze(on: bool) -> None:
+                outside.arena.faults.switch("camera_frozen", on, 0)
+
+            run(
+                fault("SIGSTOP", lambda one: one.signal(signal.SIGSTOP), lambda one: one.signal(signal.SIGCONT)),
+                fault("lock held", lambda one: one.order("lock"), lambda one: time.sleep(1.5)),
+                fault("camera frozen", lambda one: freeze(True), lambda one: freeze(False), "camera"),
+                fault("exception in the tracker", lambda one: one.order("tracker"), lambda one: one.order("mend")),
+                fault("kill -9", lambda one: one.signal(signal.SIGKILL)),
+            )
+            run(fault("exception in the link", lambda one: one.order("link"), report="radio"))
+            run(fault("exception in a scene", lambda one: one.order("scene")))
+            run(fault("port pulled", lambda one: outside.pull(), report="radio"))
+    return stops
+
+
+def environment(home: Path) -> dict[str, str]:
+    """Environment of the arcade: a window that nobody sees, no sound, files of its own."""
+    dummies = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": str(home)}
+    dummies["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"  # standard output belongs to `sabotage`
+    return {**os.environ, **dummies}
+
+
+def _save(ground: GroundPlane, home: Path) -> None:
+    """Save the calibration for the projection of the arcade's window."""
+    code = (
+        "from pigaming_app.storage.settings import Settings\nfrom pigaming_app.ui.window import Canvas\n"
+        "print(Canvas.open(Settings(), None, None, False).projection)"
+    )
+    found = subprocess.run(
+        [sys.executable, "-X", "pigaming", "-c", code], cwd=ROOT, env=environment(home), capture_output=True
+    )
+    if found.returncode:
+        raise RuntimeError("a window could not be opened")
+    display = found.stdout.decode().splitlines()[-1]
+    (home / "config").mkdir(parents=True, exist_ok=True)
+    write_atomic(home / "config" / "calibration.toml", to_toml(replace(ground, display=display)).encode())
+
+
+def _memory() -> str | None:
+    """A folder in memory, if there is one."""
+    return "/dev/shm" if os.access("/dev/shm", os.W_OK) else None

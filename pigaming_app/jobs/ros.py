@@ -1,0 +1,56 @@
+"""Robots on the mat in a ROS network: their poses as topics, their speeds by topics, within the safety of a match."""
+
+import time
+from argparse import ArgumentParser, Namespace
+
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable, settings_problem
+from pigaming_app.jobs.sessions import new_session
+from pigaming_app.jobs.terminal.options import decimal, mat_settings, shared
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.sim.world import DT, WIDTH
+from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.i18n import english
+
+
+def options(parser: ArgumentParser) -> None:
+    parser.add_argument("--seconds", type=decimal(0.1, 1e6), metavar="NUMBER", help="length; default: until Ctrl+C")
+    shared(parser, "--emulate", "--camera", "--port")
+
+
+def run(arguments: Namespace) -> int:
+    """Publish poses and obey speeds until the time is over. Raises Refusal."""
+    mat_settings(arguments)
+    if arguments.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
+        raise Refusal(english().long_sentence(problem))
+    require("hardware")
+    from pigaming_app.hardware.ros.bridge import Bridge
+    from pigaming_app.hardware.ros.node import RosNode, RosUnavailable, require_roscore
+
+    with refused(RosUnavailable):
+        require_roscore()
+    with refused(RobotsUnavailable):
+        session = new_session(arguments.emulate, arguments.camera, arguments.port)
+    node: RosNode | None = None
+    try:
+        with refused(RobotsUnavailable, RosUnavailable):
+            rig = session.open()
+            node = RosNode("pigaming_mat")
+        bridge, faults = Bridge(rig, node, session.mm, time.monotonic), set[tuple[str, int | None]]()
+        print(f"/robot_1 to /robot_4; the arena is {1e-3 * session.mm * WIDTH:.3f} m wide", flush=True)
+        end = time.monotonic() + (arguments.seconds or float("inf"))
+        due = time.monotonic()
+        while time.monotonic() < end and node.fault is None:
+            bridge.tick()
+            session.tick()
+            if session.emulated:  # its time is simulated
+                due = max(due + DT, time.monotonic() - DT)
+                time.sleep(max(0.0, due - time.monotonic()))
+            now = {(fault.name, fault.robot) for fault in bridge.plant.faults if fault.pauses}
+            for name, robot in sorted(now - faults, key=str):
+                print(english()(f"faults.{name}", robot=(robot or 0) + 1, button="the button"), flush=True)
+            faults = now
+    finally:
+        session.end()
+        if node is not None:
+            node.close()
+    return 0
