@@ -1,0 +1,165 @@
+"""Heights above the mat from the pictures of a scan.
+
+All pictures are rectified to the canvas grid, where a point of the flat mat lies at the canvas px that lights it. A
+point z mm above the mat appears at a, displaced away from the camera's foot, and is lit by px q, displaced away from
+the projector's foot: a - q = z d, d = (a - C) / H - (q - L) / G with camera and projector at heights H, G over C, L.
+The fringes yield q. The flat mat is its own reference: no pictures of an empty mat are needed.
+"""
+
+from collections.abc import Sequence
+from math import pi, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.calibration.boards import ARENA_AT, CANVAS
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.scan.patterns import PATTERNS, SETS, STEPS, flat_phase
+from pigaming_app.hardware.scan.things import ProjectorPlace
+from pigaming_app.hardware.vision.markers import opencv
+
+COARSE = 8  # px between the points of the grid whose camera px are calculated; those in between are interpolated
+SMOOTH = 1.0  # px, standard deviation of the blur of the fringes' phasors
+MARGIN = 4  # px, of that blur
+TYPICAL = 170.0  # mm, the height about which displacements are unwrapped
+SPARSE = 8  # px between the samples of statistics
+
+Map = NDArray[np.float32]
+Mask = NDArray[np.bool_]
+
+
+class Surface(NamedTuple):
+    """Rectified measurements, each (rows, columns)."""
+
+    height: Map  # mm; meaningless where the fringes are faint
+    strength: Map  # grey levels, amplitude of the fringes
+    contrast: Map  # grey levels, white minus black
+    misfit: Map  # canvas px by which camera ray and projector ray miss each other
+
+
+class Rectified:
+    """The averaged camera pictures of PATTERNS, to be looked up on the canvas grid."""
+
+    def __init__(self, ground: GroundPlane, pictures: Sequence[Map]) -> None:
+        self.ground = ground
+        self._cv = opencv()
+        self._maps = _camera_maps(ground)
+        samples = [self._rectify(picture, slice(0, None, SPARSE), slice(0, None, SPARSE)) for picture in pictures]
+        self._pictures = _evened(pictures, samples)
+        even = _evened(samples, samples)
+        self._harmonics = [self._harmonic(even, number) for number in range(len(SETS))]
+
+    def phasors(self, rows: slice, columns: slice) -> tuple[list[tuple[Map, Map]], Map]:
+        """For each of SETS the fringes relative to those of the flat mat, as real and imaginary parts; and white - black.
+
+        Amplitudes are grey levels; the angle is the displacement of the light in turns of the period.
+        """
+        cv = self._cv
+        part = [self._rectify(picture, rows, columns) for picture in self._pictures]
+        result = []
+        for number, fringes in enumerate(SETS):
+            real, imaginary = _demodulated(part, number)
+            real, imaginary = _without_harmonic(real, imaginary, self._harmonics[number])
+            start, count = (columns.start, real.shape[1]) if fringes.axis == 0 else (rows.start, real.shape[0])
+            phase = flat_phase(fringes, start, count)
+            c, s = np.cos(phase), np.sin(phase)
+            if fringes.axis == 1:
+                c, s = c[:, None], s[:, None]
+            turned = real * c + imaginary * s, imaginary * c - real * s
+            result.append(tuple(cv.GaussianBlur(one, (7, 7), SMOOTH) for one in turned))
+        return result, part[0] - part[1]
+
+    def _rectify(self, picture: Map, rows: slice, columns: slice) -> Map:
+        maps = (np.ascontiguousarray(axis[rows, columns]) for axis in self._maps)
+        return np.asarray(self._cv.remap(picture, *maps, self._cv.INTER_LINEAR, borderValue=0))
+
+    def _harmonic(self, samples: Sequence[Map], number: int) -> float:
+        """Share of the second harmonic in a set of fringes, as a projector or camera with a bent response adds it."""
+        real, imaginary = _demodulated(samples, number)
+        fringes = SETS[number]
+        phase = 2.0 * pi / fringes.period * SPARSE * np.arange(real.shape[1 - fringes.axis])
+        turn = np.exp(1j * (phase if fringes.axis == 0 else phase[:, None]))
+        phasor = real + 1j * imaginary
+        flat = float((phasor / turn).real.mean())
+        return float((phasor * turn * turn).real.mean()) / flat if flat > 1.0 else 0.0
+
+
+def displacements(phasors: Sequence[tuple[Map, Map]], expected: Sequence[Map | float]) -> tuple[Map, Map]:
+    """Displacement of the light along x and y, canvas px, unwrapped about the `expected` one."""
+    cv, result = opencv(), []
+    for axis in (0, 1):
+        at = expected[axis]
+        for number in (2 * axis, 2 * axis + 1):
+            period = np.float32(SETS[number].period)
+            angle = cv.phase(*phasors[number]) * (period / np.float32(2.0 * pi))
+            at = at + _wrapped(angle - at, period)
+        result.append(np.asarray(at, dtype=np.float32))
+    return result[0], result[1]
+
+
+def surface(pictures: Rectified, projector: ProjectorPlace, rows: slice, columns: slice) -> Surface:
+    """Heights in a window of the canvas grid. A window of 60 rows takes some 20 ms."""
+    top, bottom = max(0, rows.start - MARGIN), min(CANVAS[1], rows.stop + MARGIN)
+    left, right = max(0, columns.start - MARGIN), min(CANVAS[0], columns.stop + MARGIN)
+    phasors, contrast = pictures.phasors(slice(top, bottom), slice(left, right))
+    ground = pictures.ground
+    x = np.arange(left, right, dtype=np.float32)[None, :] - np.float32(ARENA_AT[0])
+    y = np.arange(top, bottom, dtype=np.float32)[:, None] - np.float32(ARENA_AT[1])
+    seen_x, seen_y = (x - np.float32(ground.foot[0])) / np.float32(ground.height), (
+        y - np.float32(ground.foot[1])
+    ) / np.float32(ground.height)
+    foot_x, foot_y = (np.float32(value) for value in projector.foot)
+    per_mm = np.float32(1.0 / projector.height)
+    typical = np.float32(-TYPICAL)
+    grown = np.float32(projector.height / (projector.height - TYPICAL))  # the light of a high point comes from afar
+    expected = typical * (seen_x - (x - foot_x) * per_mm) * grown, typical * (seen_y - (y - foot_y) * per_mm) * grown
+    dx, dy = displacements(phasors, expected)
+    way_x, way_y = seen_x - (x + dx - foot_x) * per_mm, seen_y - (y + dy - foot_y) * per_mm
+    square = way_x * way_x + way_y * way_y
+    height = -(dx * way_x + dy * way_y) / square
+    misfit = np.abs(dx * way_y - dy * way_x) / np.sqrt(square)
+    strength = np.minimum(*(opencv().magnitude(*phasors[number]) for number in (1, 3)))
+    inner = slice(rows.start - top, rows.stop - top), slice(columns.start - left, columns.stop - left)
+    return Surface(height[inner], strength[inner], contrast[inner], misfit[inner])
+
+
+def _demodulated(pictures: Sequence[Map], number: int) -> tuple[Map, Map]:
+    """The phasor of a set of fringes, real and imaginary part."""
+    one, two, three = pictures[2 + STEPS * number : 2 + STEPS * (number + 1)]
+    side = two + three
+    return (2.0 * one - side) / np.float32(3.0), (two - three) * np.float32(1.0 / sqrt(3.0))
+
+
+def _without_harmonic(real: Map, imaginary: Map, share: float) -> tuple[Map, Map]:
+    """Remove a second harmonic, which adds `share` times the conjugate's square to a phasor of length 1."""
+    if abs(share) < 1e-3:
+        return real, imaginary
+    scale = np.float32(share) / np.maximum(np.sqrt(real * real + imaginary * imaginary), np.float32(1e-3))
+    return real - scale * (real * real - imaginary * imaginary), imaginary + scale * 2.0 * real * imaginary
+
+
+def _evened(pictures: Sequence[Map], samples: Sequence[Map]) -> list[Map]:
+    """The pictures with equal brightness within each set of fringes: an exposure step must not look like a phase."""
+    means = [float(sample.mean()) for sample in samples]
+    result = [*pictures[:2]]
+    for first in range(2, len(PATTERNS), STEPS):
+        level = sum(means[first : first + STEPS]) / STEPS
+        result += [pictures[i] * np.float32(level / max(means[i], 1.0)) for i in range(first, first + STEPS)]
+    return result
+
+
+def _wrapped(values: Map, period: np.float32) -> Map:
+    return np.asarray(values - period * np.rint(values / period))
+
+
+def _camera_maps(ground: GroundPlane) -> tuple[Map, Map]:
+    """The camera px at which each canvas px of the flat mat is seen: x and y, (1080, 1920)."""
+    cv = opencv()
+    wide, high = CANVAS[0] // COARSE + 2, CANVAS[1] // COARSE + 2
+    rows, columns = np.mgrid[0:high, 0:wide] * float(COARSE)
+    places = np.column_stack([columns.ravel() - ARENA_AT[0], rows.ravel() - ARENA_AT[1]])
+    seen = ground.to_camera(places).astype(np.float32).reshape(high, wide, 2)
+    u, v = (np.arange(size, dtype=np.float32) / np.float32(COARSE) for size in CANVAS)
+    dense = cv.remap(seen, *np.meshgrid(u, v), cv.INTER_LINEAR)
+    return np.ascontiguousarray(dense[..., 0]), np.ascontiguousarray(dense[..., 1])
