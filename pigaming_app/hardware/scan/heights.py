@@ -103,25 +103,40 @@ def surface(pictures: Rectified, projector: ProjectorPlace, rows: slice, columns
     top, bottom = max(0, rows.start - MARGIN), min(CANVAS[1], rows.stop + MARGIN)
     left, right = max(0, columns.start - MARGIN), min(CANVAS[0], columns.stop + MARGIN)
     phasors, contrast = pictures.phasors(slice(top, bottom), slice(left, right))
-    ground = pictures.ground
-    x = np.arange(left, right, dtype=np.float32)[None, :] - np.float32(ARENA_AT[0])
-    y = np.arange(top, bottom, dtype=np.float32)[:, None] - np.float32(ARENA_AT[1])
-    seen_x, seen_y = (x - np.float32(ground.foot[0])) / np.float32(ground.height), (
-        y - np.float32(ground.foot[1])
-    ) / np.float32(ground.height)
-    foot_x, foot_y = (np.float32(value) for value in projector.foot)
-    per_mm = np.float32(1.0 / projector.height)
-    typical = np.float32(-TYPICAL)
-    grown = np.float32(projector.height / (projector.height - TYPICAL))  # the light of a high point comes from afar
-    expected = typical * (seen_x - (x - foot_x) * per_mm) * grown, typical * (seen_y - (y - foot_y) * per_mm) * grown
-    dx, dy = displacements(phasors, expected)
-    way_x, way_y = seen_x - (x + dx - foot_x) * per_mm, seen_y - (y + dy - foot_y) * per_mm
+    dx, dy = displacements(
+        phasors, plane_displacement(pictures.ground, projector, TYPICAL, slice(top, bottom), slice(left, right))
+    )
+    way_x, way_y = _ways(pictures.ground, projector, (left, top), dx, dy)
     square = way_x * way_x + way_y * way_y
     height = -(dx * way_x + dy * way_y) / square
     misfit = np.abs(dx * way_y - dy * way_x) / np.sqrt(square)
     strength = np.minimum(*(opencv().magnitude(*phasors[number]) for number in (1, 3)))
     inner = slice(rows.start - top, rows.stop - top), slice(columns.start - left, columns.stop - left)
     return Surface(height[inner], strength[inner], contrast[inner], misfit[inner])
+
+
+def plane_displacement(
+    ground: GroundPlane, projector: ProjectorPlace, height: float, rows: slice, columns: slice
+) -> tuple[Map, Map]:
+    """Displacement of the light, canvas px, that a plane `height` mm above the mat causes in a window."""
+    zero = np.zeros((rows.stop - rows.start, columns.stop - columns.start), np.float32)
+    way_x, way_y = _ways(ground, projector, (columns.start, rows.start), zero, zero)
+    share = np.float32(-height * projector.height / (projector.height - height))
+    return share * way_x, share * way_y
+
+
+def _ways(
+    ground: GroundPlane, projector: ProjectorPlace, at: tuple[int, int], dx: Map, dy: Map
+) -> tuple[Map, Map]:
+    """The vector d of each px of a window from canvas px `at` on, canvas px per mm, with its light displaced by dx, dy."""
+    result = []
+    for axis, moved in enumerate((dx, dy)):
+        line = np.arange(at[axis], at[axis] + moved.shape[1 - axis], dtype=np.float32) - np.float32(ARENA_AT[axis])
+        seen = (line - np.float32(ground.foot[axis])) / np.float32(ground.height)
+        lit = (line - np.float32(projector.foot[axis])) / np.float32(projector.height)
+        way = seen - lit
+        result.append((way if axis == 0 else way[:, None]) - moved * np.float32(1.0 / projector.height))
+    return result[0], result[1]
 
 
 def _demodulated(pictures: Sequence[Map], number: int) -> tuple[Map, Map]:
