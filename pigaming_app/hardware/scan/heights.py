@@ -70,6 +70,16 @@ class Rectified:
             result.append(tuple(cv.GaussianBlur(one, (7, 7), SMOOTH) for one in turned))
         return result, part[0] - part[1]
 
+    def camera_maps(self, step: int) -> tuple[Map, Map]:
+        """The camera px of every `step`th px of the canvas grid, from the middle of the first step on: x and y."""
+        x, y = (np.ascontiguousarray(axis[step // 2 :: step, step // 2 :: step]) for axis in self._maps)
+        return x, y
+
+    def samples(self, step: int) -> list[Map]:
+        """All pictures at every `step`th px of the canvas grid."""
+        part = slice(step // 2, None, step)
+        return [self._rectify(picture, part, part) for picture in self._pictures]
+
     def _rectify(self, picture: Map, rows: slice, columns: slice) -> Map:
         maps = (np.ascontiguousarray(axis[rows, columns]) for axis in self._maps)
         return np.asarray(self._cv.remap(picture, *maps, self._cv.INTER_LINEAR, borderValue=0))

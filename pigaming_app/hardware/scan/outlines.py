@@ -59,8 +59,8 @@ def find_things(
             if _counts(outline, NARROW_TALL, ground):
                 things.append(_thing(ThingKind.TALL, outline, top, margin))
         yield things
-    bodies = [(_disc(robot, ROBOT[0], ground), ROBOT[1]) for robot in robots]
-    hidden = _hidden([*bodies, *((thing.points, thing.height_mm) for thing in things)], ground, projector)
+    hidden = robot_shadows(robots, ground, projector)
+    hidden |= _hidden([(thing.points, thing.height_mm) for thing in things], ground, projector)
     yield things
     brightness = surface.contrast / own_brightness(surface.contrast, flat)
     yield things
@@ -71,6 +71,11 @@ def find_things(
                 things.append(_thing(ThingKind.FLAT, corners, 0.0, margin))
         yield things
     yield things
+
+
+def robot_shadows(robots: Sequence[Place], ground: GroundPlane, projector: ProjectorPlace) -> Pixels:
+    """Mask, on the canvas grid, of what robots hide from the camera or the projector."""
+    return _hidden([(_disc(robot, ROBOT[0], ground), ROBOT[1]) for robot in robots], ground, projector)
 
 
 def _sorted_out(surface: Surface) -> tuple[Mask, Mask]:

@@ -1,0 +1,198 @@
+"""Real things on the emulated mat: random scenes, scanned and compared with the truth.
+
+A scene has eight things: boxes (dark, of the mat's colour, printed), cups, a plate of 20 mm, and two strips of tape of 25
+mm; four robots stand among them. Outlines are compared in both directions, every millimetre, along their whole length.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import hypot, pi
+from random import Random
+from time import perf_counter, thread_time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.camera import FrameTiming
+from pigaming_app.hardware.emulator.optics import Optics, TrueLens
+from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
+from pigaming_app.hardware.emulator.things.prism import TAPE, Prism, box, cylinder
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.scan.procedure import Scan
+from pigaming_app.hardware.scan.things import Layout, Outline, Thing, ThingKind
+from pigaming_app.hardware.session.emulated import calibrated
+from pigaming_app.hardware.signals import CameraFrame, CameraSource
+
+TILTED = TrueLens(eye=(150.0, 1150.0, 2400.0), aim=(25.0, 50.0), focal=1830.0)  # 25 degrees off the vertical
+SMALL = (1280, 720)  # px
+GRAIN = 2.0  # grey levels, noise of the small camera
+FREE = 700.0, 420.0  # mm: things stand within these distances of the middle
+GAPS = (70.0, 190.0, 170.0)  # mm between tall things, around flat ones, around robots
+NEAR = 45.0  # mm between the middles of a found thing and a true one
+POLL = 0.005  # s between two looks at the camera
+
+
+class SmallCamera:
+    """The emulated camera with 1280 x 720 px."""
+
+    fault: OperatorMessage | None = None
+
+    def __init__(self, camera: CameraSource) -> None:
+        self._camera = camera
+
+    def newest(self) -> CameraFrame | None:
+        import cv2
+
+        frame = self._camera.newest()
+        if frame is None:
+            return None
+        small = cv2.resize(frame.image, SMALL, interpolation=cv2.INTER_AREA).astype(np.float32)
+        small += np.random.default_rng(frame.number).normal(0.0, GRAIN, small.shape).astype(np.float32)
+        return CameraFrame(np.rint(small.clip(0, 255)).astype(np.uint8), frame.captured, frame.number)
+
+    def close(self) -> None:
+        self._camera.close()
+
+
+class SmallSite(EmulatedCalibrationSite):
+    """The calibration site of an arena with the small camera."""
+
+    def open(self, number: int, locks: bool = True, fresh: bool = False) -> SmallCamera:  # type: ignore[override]
+        return SmallCamera(super().open(number, locks, fresh))
+
+
+class ThingsBed:
+    """A calibrated arena for scans. `tilted`: 720p, from 25 degrees; else 1080p, from above."""
+
+    def __init__(self, seed: int, tilted: bool = False) -> None:
+        self.arena = EmulatedArena(seed, FrameTiming(30.0), optics=Optics(TILTED) if tilted else None)
+        site = (SmallSite if tilted else EmulatedCalibrationSite)(arena=self.arena)
+        self.camera: CameraSource = site.open(0)
+        self.ground: GroundPlane = calibrated(self.arena, site)
+        self.arena.camera.painter.refresh = 1
+        self.slices: list[float] = []  # s of CPU time, of each slice of the last computation
+        self.seconds = 0.0  # of the last computation
+        self.pictures = 0.0  # s of the arena's clock, of the last scan
+
+    def furnish(self, things: Sequence[Prism], robots: Sequence[tuple[float, float, float]]) -> None:
+        """Put things on the mat, and robots, in arena px and rad; fewer than four: the others are taken away."""
+        self.arena.furnish(things)
+        for robot in range(len(self.arena.robots)):
+            away = robots[robot] if robot < len(robots) else (-3000.0, -3000.0 + 400.0 * robot, 0.0)
+            self.arena.place(robot, away)
+
+    def scan(self, before: Layout | None = None) -> Scan:
+        """Scan the mat: the projected pictures, the camera's frames, and the computation."""
+        scan, arena = Scan(self.ground, self.arena.clock, before), self.arena
+        began = arena.clock()
+        while (pattern := scan.pattern) is not None:
+            arena.project(pattern.picture())
+            scan.mark_shown(pattern)
+            arena.advance(0.08)
+            self.camera.newest()
+            while scan.pattern is pattern:
+                arena.advance(POLL)
+                if (frame := self.camera.newest()) is not None:
+                    scan.process(frame)
+        self.pictures, self.slices = arena.clock() - began, []
+        began = perf_counter()
+        while scan.computing:
+            slice_began = thread_time()
+            scan.compute()
+            self.slices.append(thread_time() - slice_began)
+        self.seconds = perf_counter() - began
+        return scan
+
+
+@dataclass(frozen=True)
+class ThingsResult:
+    """Comparison of a scan with the truth; mm."""
+
+    means: tuple[float, ...]  # of the outlines, one for each thing found
+    worsts: tuple[float, ...]
+    heights: tuple[float, ...]  # errors
+    missed: int
+    false: int
+
+
+def scene(seed: int, arena: EmulatedArena) -> tuple[list[Prism], list[tuple[float, float, float]]]:
+    """Eight random things (mm on the mat), and the poses of four robots (arena px and rad)."""
+    random = Random(f"things {seed}")
+    taken: list[tuple[float, float, float, int]] = []  # place, radius, index in GAPS
+
+    def place(radius: float, sort: int) -> tuple[float, float]:
+        for _ in range(20000):
+            x, y = random.uniform(-FREE[0], FREE[0]), random.uniform(-FREE[1], FREE[1])
+            if all(hypot(x - u, y - v) > radius + r + GAPS[max(sort, s)] for u, v, r, s in taken):
+                taken.append((x, y, radius, sort))
+                return x, y
+        raise RuntimeError("no room for a thing")
+
+    robots = []
+    for i in range(4):
+        x, y = (-900.0 if i in (0, 3) else 900.0), (-400.0 if i < 2 else 400.0)
+        x, y = x + random.uniform(-60.0, 60.0), y + random.uniform(-60.0, 60.0)
+        taken.append((x, y, 50.0, 2))
+        u, v = (arena.optics.canvas(np.array([(x, y)]))[0] - (160.0, 140.0)).tolist()
+        robots.append((u, v, random.uniform(-pi, pi)))
+    things = []
+    for i, grey in enumerate((random.uniform(0.12, 0.3), 0.08)):  # the tapes first: they need most room
+        long = random.uniform(150.0, 300.0) if i == 0 else random.uniform(120.0, 200.0)
+        x, y = place(0.35 * long, 1)
+        things.append(box(x, y, long, 25.0, TAPE, random.uniform(0.0, pi), grey, seed=seed + i))
+    looks = ((0.85, "plain"), (0.07, "plain"), (0.45, "printed"), (0.6, "striped"), (0.9, "plain"), (0.3, "cloudy"))
+    for i, (grey, look) in enumerate(looks):
+        turn, high = random.uniform(0.0, pi), random.uniform(60.0, 180.0)
+        if i >= 4:
+            radius = random.uniform(32.0, 50.0)
+            things.append(cylinder(*place(radius, 0), radius, high, grey, look, seed + i))
+            continue
+        long, wide = random.uniform(70.0, 170.0), random.uniform(60.0, 100.0)
+        high = 20.0 if i == 2 else high
+        long, wide = (200.0, 140.0) if i == 2 else (long, wide)
+        x, y = place(0.5 * hypot(long, wide), 0)
+        things.append(box(x, y, long, wide, high, turn, grey, look, seed + i))
+    return things, robots
+
+
+def compare(found: Sequence[Thing], true: Sequence[Prism], bed: ThingsBed) -> ThingsResult:
+    """Compare found things with the true ones, each found thing with the nearest true one."""
+    mm, left = bed.ground.mm, list(found)
+    means, worsts, heights, missed = [], [], [], 0
+    for thing in true:
+        outline = bed.arena.outline(thing)
+        kind = ThingKind.TALL if thing.height > 5.0 else ThingKind.FLAT
+        near = [(hypot(*(_centre(one.points) - _centre(outline))), i) for i, one in enumerate(left) if one.kind == kind]
+        if not near or min(near)[0] * mm > NEAR:
+            missed += 1
+            continue
+        match = left.pop(min(near)[1])
+        misses = np.concatenate([distances(match.points, outline, 1.0 / mm), distances(outline, match.points, 1.0 / mm)])
+        means.append(mm * float(misses.mean()))
+        worsts.append(mm * float(misses.max()))
+        heights.append(match.height_mm - (thing.height if kind == ThingKind.TALL else 0.0))
+    return ThingsResult(tuple(means), tuple(worsts), tuple(heights), missed, len(left))
+
+
+def distances(line: Outline, other: Outline, step: float) -> NDArray[np.float64]:
+    """Distances of points every `step` along one closed outline from another one, (n,)."""
+    after = np.roll(line, -1, axis=0)
+    points = np.concatenate(
+        [
+            a + (b - a) * np.arange(0.0, 1.0, step / max(step, float(np.hypot(*(b - a)))))[:, None]
+            for a, b in zip(line, after, strict=True)
+        ]
+    )
+    ways = np.roll(other, -1, axis=0) - other
+    away = points[:, None] - other
+    share = ((away * ways).sum(axis=2) / (ways * ways).sum(axis=1)).clip(0.0, 1.0)
+    return np.asarray(np.sqrt(((away - share[..., None] * ways) ** 2).sum(axis=2)).min(axis=1))
+
+
+def _centre(outline: Outline) -> NDArray[np.float64]:
+    """Centre of the area of an outline."""
+    after = np.roll(outline, -1, axis=0)
+    weight = outline[:, 0] * after[:, 1] - after[:, 0] * outline[:, 1]
+    return np.asarray(((outline + after) * weight[:, None]).sum(axis=0) / (3.0 * weight.sum()))
