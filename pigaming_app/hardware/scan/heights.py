@@ -23,6 +23,7 @@ COARSE = 8  # px between the points of the grid whose camera px are calculated; 
 SMOOTH = 1.0  # px, standard deviation of the blur of the fringes' phasors
 MARGIN = 4  # px, of that blur
 TYPICAL = 170.0  # mm, the height about which displacements are unwrapped
+UNWRAP = 0.35  # of the coarse period, by which the expected displacement may differ from that of the flat mat
 SPARSE = 8  # px between the samples of statistics
 
 Map = NDArray[np.float32]
@@ -45,10 +46,11 @@ class Rectified:
         self.ground = ground
         self._cv = opencv()
         self._maps = _camera_maps(ground)
-        samples = [self._rectify(picture, slice(0, None, SPARSE), slice(0, None, SPARSE)) for picture in pictures]
-        self._pictures = _evened(pictures, samples)
-        even = _evened(samples, samples)
-        self._harmonics = [self._harmonic(even, number) for number in range(len(SETS))]
+        self._pictures = pictures
+        self._scales = [1.0] * len(pictures)
+        self._scales = _evening(self.samples(SPARSE))
+        samples = self.samples(SPARSE)
+        self._harmonics = [self._harmonic(samples, number) for number in range(len(SETS))]
 
     def phasors(self, rows: slice, columns: slice) -> tuple[list[tuple[Map, Map]], Map]:
         """For each of SETS the fringes relative to those of the flat mat, as real and imaginary parts; and white - black.
@@ -56,7 +58,7 @@ class Rectified:
         Amplitudes are grey levels; the angle is the displacement of the light in turns of the period.
         """
         cv = self._cv
-        part = [self._rectify(picture, rows, columns) for picture in self._pictures]
+        part = self._rectify(rows, columns)
         result = []
         for number, fringes in enumerate(SETS):
             real, imaginary = _demodulated(part, number)
@@ -78,17 +80,21 @@ class Rectified:
     def samples(self, step: int) -> list[Map]:
         """All pictures at every `step`th px of the canvas grid."""
         part = slice(step // 2, None, step)
-        return [self._rectify(picture, part, part) for picture in self._pictures]
+        return self._rectify(part, part)
 
-    def _rectify(self, picture: Map, rows: slice, columns: slice) -> Map:
-        maps = (np.ascontiguousarray(axis[rows, columns]) for axis in self._maps)
-        return np.asarray(self._cv.remap(picture, *maps, self._cv.INTER_LINEAR, borderValue=0))
+    def _rectify(self, rows: slice, columns: slice) -> list[Map]:
+        cv = self._cv
+        maps = [np.ascontiguousarray(axis[rows, columns]) for axis in self._maps]
+        return [
+            np.float32(scale) * cv.remap(picture, *maps, cv.INTER_LINEAR, borderValue=0)
+            for picture, scale in zip(self._pictures, self._scales, strict=True)
+        ]
 
     def _harmonic(self, samples: Sequence[Map], number: int) -> float:
         """Share of the second harmonic in a set of fringes, as a projector or camera with a bent response adds it."""
         real, imaginary = _demodulated(samples, number)
         fringes = SETS[number]
-        phase = 2.0 * pi / fringes.period * SPARSE * np.arange(real.shape[1 - fringes.axis])
+        phase = 2.0 * pi / fringes.period * (SPARSE // 2 + SPARSE * np.arange(real.shape[1 - fringes.axis]))
         turn = np.exp(1j * (phase if fringes.axis == 0 else phase[:, None]))
         phasor = real + 1j * imaginary
         flat = float((phasor / turn).real.mean())
@@ -113,9 +119,9 @@ def surface(pictures: Rectified, projector: ProjectorPlace, rows: slice, columns
     top, bottom = max(0, rows.start - MARGIN), min(CANVAS[1], rows.stop + MARGIN)
     left, right = max(0, columns.start - MARGIN), min(CANVAS[0], columns.stop + MARGIN)
     phasors, contrast = pictures.phasors(slice(top, bottom), slice(left, right))
-    dx, dy = displacements(
-        phasors, plane_displacement(pictures.ground, projector, TYPICAL, slice(top, bottom), slice(left, right))
-    )
+    typical = plane_displacement(pictures.ground, projector, TYPICAL, slice(top, bottom), slice(left, right))
+    most = [np.float32(UNWRAP * SETS[2 * axis].period) for axis in (0, 1)]
+    dx, dy = displacements(phasors, [line.clip(-high, high) for line, high in zip(typical, most, strict=True)])
     way_x, way_y = _ways(pictures.ground, projector, (left, top), dx, dy)
     square = way_x * way_x + way_y * way_y
     height = -(dx * way_x + dy * way_y) / square
@@ -164,13 +170,13 @@ def _without_harmonic(real: Map, imaginary: Map, share: float) -> tuple[Map, Map
     return real - scale * (real * real - imaginary * imaginary), imaginary + scale * 2.0 * real * imaginary
 
 
-def _evened(pictures: Sequence[Map], samples: Sequence[Map]) -> list[Map]:
-    """The pictures with equal brightness within each set of fringes: an exposure step must not look like a phase."""
+def _evening(samples: Sequence[Map]) -> list[float]:
+    """Factors for equal brightness within each set of fringes: an exposure step must not look like a phase."""
     means = [float(sample.mean()) for sample in samples]
-    result = [*pictures[:2]]
+    result = [1.0, 1.0]
     for first in range(2, len(PATTERNS), STEPS):
         level = sum(means[first : first + STEPS]) / STEPS
-        result += [pictures[i] * np.float32(level / max(means[i], 1.0)) for i in range(first, first + STEPS)]
+        result += [level / max(means[i], 1.0) for i in range(first, first + STEPS)]
     return result
 
 
