@@ -16,9 +16,10 @@ MAY = {
     "tracking": {"calibration", "control", "vision"},
     "commissioning": {"control"},
     "sysid": {"calibration"},
+    "scan": {"calibration", "vision"},
     "emulator": {"calibration", "vision"},
-    "session": {"calibration", "control", "emulator", "radio", "tracking", "vision"},
-    "proof": {"calibration", "control", "emulator", "session", "tracking"},
+    "session": {"calibration", "control", "emulator", "radio", "scan", "tracking", "vision"},
+    "proof": {"calibration", "control", "emulator", "scan", "session", "tracking"},
 }
 
 

@@ -142,8 +142,9 @@ class SceneRenderer:
         left, right = max(patch.columns.start, window.left), min(patch.columns.stop, window.right)
         if top >= bottom or left >= right:
             return
-        inner = slice(top - patch.rows.start, bottom - patch.rows.start), slice(
-            left - patch.columns.start, right - patch.columns.start
+        inner = (
+            slice(top - patch.rows.start, bottom - patch.rows.start),
+            slice(left - patch.columns.start, right - patch.columns.start),
         )
         here = slice(top - window.top, bottom - window.top), slice(left - window.left, right - window.left)
         lamp = projected(patch, scene.image, BLUR)[inner]

@@ -1,7 +1,7 @@
 """Real things on the emulated mat: random scenes, scanned and compared with the truth.
 
-A scene has eight things: boxes (dark, of the mat's colour, printed), cups, a plate of 20 mm, and two strips of tape of 25
-mm; four robots stand among them. Outlines are compared in both directions, every millimetre, along their whole length.
+A scene has eight things: boxes (dark, of the mat's colour, striped), cups, a plate of 20 mm, and two strips of tape,
+25 mm wide; four robots stand among them. Outlines are compared every millimetre, in both directions.
 """
 
 from collections.abc import Sequence
@@ -48,7 +48,7 @@ class SmallCamera:
         frame = self._camera.newest()
         if frame is None:
             return None
-        small = cv2.resize(frame.image, SMALL, interpolation=cv2.INTER_AREA).astype(np.float32)
+        small = np.asarray(cv2.resize(frame.image, SMALL, interpolation=cv2.INTER_AREA), dtype=np.float32)
         small += np.random.default_rng(frame.number).normal(0.0, GRAIN, small.shape).astype(np.float32)
         return CameraFrame(np.rint(small.clip(0, 255)).astype(np.uint8), frame.captured, frame.number)
 
@@ -169,7 +169,8 @@ def compare(found: Sequence[Thing], true: Sequence[Prism], bed: ThingsBed) -> Th
             missed += 1
             continue
         match = left.pop(min(near)[1])
-        misses = np.concatenate([distances(match.points, outline, 1.0 / mm), distances(outline, match.points, 1.0 / mm)])
+        pairs = ((match.points, outline), (outline, match.points))
+        misses = np.concatenate([distances(line, other, 1.0 / mm) for line, other in pairs])
         means.append(mm * float(misses.mean()))
         worsts.append(mm * float(misses.max()))
         heights.append(match.height_mm - (thing.height if kind == ThingKind.TALL else 0.0))

@@ -46,15 +46,14 @@ def refined(pictures: Rectified, projector: ProjectorPlace, outline: Outline, he
 def _light(
     pictures: Rectified, projector: ProjectorPlace, height: float, window: tuple[int, int, int, int]
 ) -> list[Floats]:
-    """Fine phasors in a window of the canvas (left, top, right, bottom), relative to those of a plane at `height` mm."""
+    """Fine phasors in a window (left, top, right, bottom; canvas px), relative to those of a plane at `height` mm."""
     left, top, right, bottom = window
-    phasors, contrast = pictures.phasors(slice(top, bottom), slice(left, right))
+    phasors, _ = pictures.phasors(slice(top, bottom), slice(left, right))
     shift = plane_displacement(pictures.ground, projector, height, slice(top, bottom), slice(left, right))
     result = []
     for number, displaced in zip((1, 3), shift, strict=True):
-        c, s = np.cos(displaced * (2.0 * np.pi / SETS[number].period)), np.sin(
-            displaced * (2.0 * np.pi / SETS[number].period)
-        )
+        turn = displaced * np.float32(2.0 * np.pi / SETS[number].period)
+        c, s = np.cos(turn), np.sin(turn)
         real, imaginary = phasors[number]
         result += [real * c + imaginary * s, imaginary * c - real * s]
     return [np.ascontiguousarray(part, dtype=np.float32) for part in result]
@@ -90,7 +89,7 @@ def _shift(light: list[Floats], start: Floats, way: Floats, length: float, out: 
 
 
 def _share(profile: Floats, top: Floats, other: Floats) -> Floats:
-    """Share of the top's light in phasors (n, 4) that mix it with another light, and with shadow if both differ enough."""
+    """Share of the top's light in phasors (n, 4), mixed with another light, and with shadow if both differ enough."""
     own, cross, theirs = float(top @ top), float(top @ other), float(other @ other)
     if theirs < 0.01 * own or cross < ALIKE * np.sqrt(own * theirs):
         inverse = np.linalg.inv(np.array(((own, cross), (cross, theirs + 1e-3 * own))))
@@ -102,7 +101,7 @@ def _share(profile: Floats, top: Floats, other: Floats) -> Floats:
 def _meetings(corners: Outline, ways: Floats, moves: Floats) -> Outline:
     """Corners of an outline whose sides, with unit directions `ways`, were moved by `moves`."""
     begins, ends = corners + moves, np.roll(corners, -1, axis=0) + moves
-    before_way, before_end, before_begin = np.roll(ways, 1, axis=0), np.roll(ends, 1, axis=0), np.roll(begins, 1, axis=0)
+    before_way, before_end, before_begin = (np.roll(line, 1, axis=0) for line in (ways, ends, begins))
     cross = before_way[:, 0] * ways[:, 1] - before_way[:, 1] * ways[:, 0]
     gap = begins - before_begin
     share = (gap[:, 0] * ways[:, 1] - gap[:, 1] * ways[:, 0]) / np.where(np.abs(cross) < 1e-9, 1e-9, cross)

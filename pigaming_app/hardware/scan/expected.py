@@ -96,8 +96,8 @@ def _response(white: Map, black: Map, fringes: list[Map], flat: Mask) -> NDArray
         axis = pattern.fringes.axis
         count = picture.shape[1 - axis]
         phase = flat_phase(pattern.fringes, CELL // 2, CELL * count)[::CELL] - 2.0 * np.pi * pattern.step / 3.0
-        wave = np.broadcast_to((0.5 + 0.5 * np.cos(phase)) if axis == 0 else (0.5 + 0.5 * np.cos(phase))[:, None], picture.shape)
-        levels.append(wave[flat])
+        wave = 0.5 + 0.5 * np.cos(phase)
+        levels.append(np.broadcast_to(wave if axis == 0 else wave[:, None], picture.shape)[flat])
         shares.append(((picture - black) / np.maximum(white - black, 1.0))[flat])
     if not levels or not levels[0].size:
         return np.asarray(np.arange(256) / LIGHT, dtype=np.float32)

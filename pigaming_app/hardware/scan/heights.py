@@ -8,7 +8,7 @@ The fringes yield q. The flat mat is its own reference: no pictures of an empty 
 
 from collections.abc import Sequence
 from math import pi, sqrt
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +53,7 @@ class Rectified:
         self._harmonics = [self._harmonic(samples, number) for number in range(len(SETS))]
 
     def phasors(self, rows: slice, columns: slice) -> tuple[list[tuple[Map, Map]], Map]:
-        """For each of SETS the fringes relative to those of the flat mat, as real and imaginary parts; and white - black.
+        """For each of SETS the fringes relative to those of the flat mat, real and imaginary part; and white - black.
 
         Amplitudes are grey levels; the angle is the displacement of the light in turns of the period.
         """
@@ -128,7 +128,7 @@ def surface(pictures: Rectified, projector: ProjectorPlace, rows: slice, columns
     misfit = np.abs(dx * way_y - dy * way_x) / np.sqrt(square)
     strength = np.minimum(*(opencv().magnitude(*phasors[number]) for number in (1, 3)))
     inner = slice(rows.start - top, rows.stop - top), slice(columns.start - left, columns.stop - left)
-    return Surface(height[inner], strength[inner], contrast[inner], misfit[inner])
+    return Surface(_single(height[inner]), strength[inner], contrast[inner], _single(misfit[inner]))
 
 
 def plane_displacement(
@@ -138,13 +138,11 @@ def plane_displacement(
     zero = np.zeros((rows.stop - rows.start, columns.stop - columns.start), np.float32)
     way_x, way_y = _ways(ground, projector, (columns.start, rows.start), zero, zero)
     share = np.float32(-height * projector.height / (projector.height - height))
-    return share * way_x, share * way_y
+    return _single(share * way_x), _single(share * way_y)
 
 
-def _ways(
-    ground: GroundPlane, projector: ProjectorPlace, at: tuple[int, int], dx: Map, dy: Map
-) -> tuple[Map, Map]:
-    """The vector d of each px of a window from canvas px `at` on, canvas px per mm, with its light displaced by dx, dy."""
+def _ways(ground: GroundPlane, projector: ProjectorPlace, at: tuple[int, int], dx: Map, dy: Map) -> tuple[Map, Map]:
+    """The vector d, px per mm, of each px of a window from canvas px `at` on, whose light is displaced by (dx, dy)."""
     result = []
     for axis, moved in enumerate((dx, dy)):
         line = np.arange(at[axis], at[axis] + moved.shape[1 - axis], dtype=np.float32) - np.float32(ARENA_AT[axis])
@@ -152,14 +150,18 @@ def _ways(
         lit = (line - np.float32(projector.foot[axis])) / np.float32(projector.height)
         way = seen - lit
         result.append((way if axis == 0 else way[:, None]) - moved * np.float32(1.0 / projector.height))
-    return result[0], result[1]
+    return _single(result[0]), _single(result[1])
+
+
+def _single(values: NDArray[Any]) -> Map:
+    return np.asarray(values, dtype=np.float32)
 
 
 def _demodulated(pictures: Sequence[Map], number: int) -> tuple[Map, Map]:
     """The phasor of a set of fringes, real and imaginary part."""
     one, two, three = pictures[2 + STEPS * number : 2 + STEPS * (number + 1)]
     side = two + three
-    return (2.0 * one - side) / np.float32(3.0), (two - three) * np.float32(1.0 / sqrt(3.0))
+    return _single((2.0 * one - side) / np.float32(3.0)), (two - three) * np.float32(1.0 / sqrt(3.0))
 
 
 def _without_harmonic(real: Map, imaginary: Map, share: float) -> tuple[Map, Map]:
@@ -167,7 +169,8 @@ def _without_harmonic(real: Map, imaginary: Map, share: float) -> tuple[Map, Map
     if abs(share) < 1e-3:
         return real, imaginary
     scale = np.float32(share) / np.maximum(np.sqrt(real * real + imaginary * imaginary), np.float32(1e-3))
-    return real - scale * (real * real - imaginary * imaginary), imaginary + scale * 2.0 * real * imaginary
+    square, product = real * real - imaginary * imaginary, 2.0 * real * imaginary
+    return _single(real - scale * square), _single(imaginary + scale * product)
 
 
 def _evening(samples: Sequence[Map]) -> list[float]:

@@ -133,9 +133,7 @@ def _counts(outline: Outline, narrow: float, ground: GroundPlane) -> bool:
     return min(sides) * ground.mm > narrow and area(outline) * ground.mm**2 > SMALL and bool(inside.any())
 
 
-def _hidden(
-    bodies: Sequence[tuple[Outline, float]], ground: GroundPlane, projector: ProjectorPlace
-) -> Pixels:
+def _hidden(bodies: Sequence[tuple[Outline, float]], ground: GroundPlane, projector: ProjectorPlace) -> Pixels:
     """Mask of the mat that is hidden from the camera or the projector by bodies, given as outline and height in mm."""
     cv, mask = opencv(), np.zeros(CANVAS[::-1], np.uint8)
     for outline, height in bodies:

@@ -14,7 +14,10 @@ from pigaming_app.hardware.calibration.boards import CANVAS, LIGHT
 from pigaming_app.hardware.signals import Image
 
 STEPS = 3
-PERIODS = ((160.0, 32.0), (180.0, 36.0))  # canvas px, coarse and fine, across x and y: whole numbers of them on the canvas
+PERIODS = (
+    (160.0, 32.0),
+    (180.0, 36.0),
+)  # canvas px, coarse and fine, across x and y: whole numbers of them on the canvas
 
 
 class Fringes(NamedTuple):

@@ -21,7 +21,7 @@ from pigaming_app.hardware.scan.heights import Map, Rectified, Surface, surface
 from pigaming_app.hardware.scan.outlines import find_things
 from pigaming_app.hardware.scan.patterns import PATTERNS, SETS, STEPS, Pattern
 from pigaming_app.hardware.scan.projector_place import Place, projector_place
-from pigaming_app.hardware.scan.things import Layout, ProjectorPlace, largest
+from pigaming_app.hardware.scan.things import Layout, ProjectorPlace, Thing, largest
 from pigaming_app.hardware.signals import CameraFrame, Clock
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, opencv
 
@@ -153,10 +153,11 @@ class Scan:
             yield
         whole = Surface(*(np.concatenate(parts) for parts in zip(*bands, strict=True)))
         yield
-        things = []
+        found: list[Thing] = []
         for things in find_things(whole, pictures, projector, self.robots):
+            found = things
             yield
-        layout = Layout(largest(things), projector)
+        layout = Layout(largest(found), projector)
         self.expected = ExpectedLight(pictures, whole, projector)
         self.layout = layout
 
@@ -173,9 +174,7 @@ class Scan:
 class ScanTask(CameraTask):
     """A scan with a camera of its own, as in the wizard; `scan` is its state."""
 
-    def __init__(
-        self, site: CalibrationSite, number: int, ground: GroundPlane, before: Layout | None = None
-    ) -> None:
+    def __init__(self, site: CalibrationSite, number: int, ground: GroundPlane, before: Layout | None = None) -> None:
         super().__init__(site, number)
         self.scan = Scan(ground, site.clock, before)
 
@@ -207,7 +206,7 @@ def _difference(one: Map, other: Map) -> float:
 def _has_moved(pictures: Sequence[Map]) -> bool:
     """True if something moved meanwhile: the mean of three phases of any fringes is the same even grey."""
     few = [picture[::SPARSE, ::SPARSE] for picture in pictures[2:]]
-    means = [sum(few[STEPS * i : STEPS * (i + 1)]) / STEPS for i in range(len(SETS))]
+    means = [np.mean(few[STEPS * i : STEPS * (i + 1)], axis=0) for i in range(len(SETS))]
     level = [float(mean.mean()) for mean in means]
     even = np.stack([mean * np.float32(level[0] / max(own, 1.0)) for mean, own in zip(means, level, strict=True)])
     return float((even.max(axis=0) - even.min(axis=0) > MOVED).mean()) > SOME

@@ -81,10 +81,11 @@ class ThingsWatch:
         seen, light = expected.seen(image), expected.light(canvases)
         usable = expected.usable & ~self._hidden(robots)
         low, high = light.room + light.least, light.room + light.most
-        gain = _gain(seen, 0.5 * (low + high), usable & (high - low < 0.1 * high + 3.0))
+        gain = _gain(seen, np.float32(0.5) * (low + high), usable & (high - low < 0.1 * high + 3.0))
         beyond = seen - np.clip(seen, gain * low, gain * high)
         slow = _slow(np.where(usable, seen - gain * 0.5 * (low + high), np.float32(0.0)), usable)
-        off = np.where(beyond > 0.0, np.maximum(beyond - slow.clip(0.0), 0.0), np.maximum(-beyond + slow.clip(None, 0.0), 0.0))
+        brighter, darker = beyond - np.maximum(slow, 0.0), -beyond + np.minimum(slow, 0.0)
+        off = np.where(beyond > 0.0, brighter, darker)
         wrong = usable & (off > LEAST + SHARE * gain * light.most)
         return np.asarray(cv.morphologyEx(wrong.astype(np.uint8), cv.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0)
 

@@ -51,11 +51,11 @@ def projected(patch: Patch, image: Image, blur: float) -> Map:
 def shaded(things: Sequence[Prism], x: Map, y: Map, height: float) -> NDArray[np.bool_]:
     """True where a thing keeps the projector's light from points `height` mm above the mat."""
     z = np.full(x.shape, height, np.float32)
-    lit = np.zeros(x.shape, np.bool_)
+    dark = np.zeros(x.shape, np.bool_)
     for thing in things:
         if thing.height > height:
-            lit |= _blocks(thing, x, y, z)
-    return lit
+            dark |= _blocks(thing, x, y, z)
+    return dark
 
 
 def _window(thing: Prism, optics: Optics) -> tuple[slice, slice] | None:
@@ -144,8 +144,9 @@ def _blocks(thing: Prism, x: Map, y: Map, z: Map) -> NDArray[np.bool_]:
 
 def _canvas(optics: Optics, x: Map, y: Map, z: Map) -> tuple[Map, Map]:
     """The canvas px that light these points."""
-    grow = np.float32(LAMP[2]) / (np.float32(LAMP[2]) - z)
-    x, y = np.float32(LAMP[0]) + (x - np.float32(LAMP[0])) * grow, np.float32(LAMP[1]) + (y - np.float32(LAMP[1])) * grow
+    lamp_x, lamp_y, lamp_z = (np.float32(value) for value in LAMP)
+    grow = lamp_z / (lamp_z - z)
+    x, y = lamp_x + (x - lamp_x) * grow, lamp_y + (y - lamp_y) * grow
     h = optics.to_canvas.astype(np.float32)
     below = h[2, 0] * x + h[2, 1] * y + h[2, 2]
     return (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below, (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below

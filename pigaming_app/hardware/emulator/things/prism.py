@@ -99,7 +99,7 @@ def cut(prism: Prism, x: Map, y: Map, vx: Map, vy: Map) -> tuple[Map, Map, NDArr
 def texture(look: str, grey: float, seed: int) -> Map:
     """Reflectance of a surface, (TEXELS, TEXELS), one texel a mm.
 
-    `plain`: almost uniform; `cloudy`: blotches; `printed`: a label with lines of text; `striped`: a bar code of stripes.
+    `plain`: almost uniform; `cloudy`: blotches; `printed`: a label with lines of text; `striped`: stripes.
     """
     import cv2
 
