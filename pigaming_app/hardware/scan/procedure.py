@@ -31,7 +31,7 @@ SAME, OTHER = 0.05, 0.12  # shares of the light: frames of one picture differ by
 NOISE = 4.0  # grey levels by which frames of the same picture may always differ
 DARK = 8.0  # grey levels, least mean difference between white and black
 SPARSE = 8  # px between the samples of these comparisons
-PATIENCE = 30.0  # s for all pictures
+PATIENCE = 4.0  # s for each picture
 MOVED, SOME = 14.0, 0.002  # grey levels by which the mean of fringes may vary, and the share of px that may do so
 BAND = 60  # rows of a slice of the computation
 
@@ -52,7 +52,7 @@ class Scan:
         self._pictures: list[Map] = []
         self._sum: Map | None = None
         self._count = 0
-        self._begun = self._shown = inf  # s, when the first and the present picture were first projected
+        self._shown = inf  # s, when the present picture was first projected
         self._last: Map | None = None  # sparse samples of the previous frame of the present picture
         self._seen: list[Map] = []  # sparse samples of each finished picture
         self._work: Iterator[None] | None = None
@@ -84,13 +84,12 @@ class Scan:
         """Confirm that `pattern` is projected; call it with every frame."""
         if pattern is self.pattern and self._shown == inf:
             self._shown = self.clock()
-            self._begun = min(self._begun, self._shown)
 
     def process(self, frame: CameraFrame) -> None:
         """Use a camera frame, if it shows the present picture."""
         if self.pattern is None or self._shown == inf:
             return
-        if self.clock() - self._begun > PATIENCE:
+        if self.clock() - self._shown > PATIENCE:
             self.fault = OperatorMessage("scan_dark" if len(self._pictures) < 3 else "slow")
         size = (frame.image.shape[1], frame.image.shape[0])
         if size != self.ground.lens.size:
