@@ -5,10 +5,11 @@ A scene has eight things: boxes (dark, of the mat's colour, striped), cups, a pl
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot, pi
 from random import Random
-from time import perf_counter, thread_time
+from threading import Thread
+from time import perf_counter, sleep
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,9 +73,9 @@ class ThingsBed:
         self.camera: CameraSource = site.open(0)
         self.ground: GroundPlane = calibrated(self.arena, site)
         self.arena.camera.painter.refresh = 1
-        self.slices: list[float] = []  # s of CPU time, of each slice of the last computation
-        self.seconds = 0.0  # of the last computation
         self.pictures = 0.0  # s of the arena's clock, of the last scan
+        self.seconds = 0.0  # of its computation
+        self.stall = 0.0  # s for which that held up the main thread at most
 
     def furnish(self, things: Sequence[Prism], robots: Sequence[tuple[float, float, float]]) -> None:
         """Put things on the mat, and robots, in arena px and rad; fewer than four: the others are taken away."""
@@ -96,14 +97,26 @@ class ThingsBed:
                 arena.advance(POLL)
                 if (frame := self.camera.newest()) is not None:
                     scan.process(frame)
-        self.pictures, self.slices = arena.clock() - began, []
-        began = perf_counter()
-        while scan.computing:
-            slice_began = thread_time()
-            scan.compute()
-            self.slices.append(thread_time() - slice_began)
-        self.seconds = perf_counter() - began
+        self.pictures = arena.clock() - began
+        self._compute(scan)
         return scan
+
+    def _compute(self, scan: Scan) -> None:
+        """Compute in a thread, as the arcade does, and see how long it keeps the main thread from running."""
+
+        def work() -> None:
+            while scan.computing:
+                scan.compute()
+
+        thread = Thread(target=work)
+        began = last = perf_counter()
+        self.stall = 0.0
+        thread.start()
+        while thread.is_alive():
+            sleep(POLL)
+            now = perf_counter()
+            self.stall, last = max(self.stall, now - last - POLL), now
+        self.seconds = perf_counter() - began
 
 
 @dataclass(frozen=True)
@@ -115,6 +128,29 @@ class ThingsResult:
     heights: tuple[float, ...]  # errors
     missed: int
     false: int
+    seconds: float = 0.0  # of the computation
+    stall: float = 0.0  # s for which that held up the main thread at most
+
+
+def trial(seeds: Sequence[int], tilted: bool = False) -> ThingsResult:
+    """Scan random scenes. Times are the best of all: other programs can only add to them. Raises RuntimeError."""
+    bed, results = ThingsBed(seeds[0], tilted), []
+    for seed in seeds:
+        things, robots = scene(seed, bed.arena)
+        bed.furnish(things, robots)
+        scan = bed.scan()
+        if scan.layout is None:
+            raise RuntimeError(f"the scan of scene {seed} failed: {scan.fault}")
+        results.append(replace(compare(scan.layout.things, things, bed), seconds=bed.seconds, stall=bed.stall))
+    return ThingsResult(
+        tuple(mm for one in results for mm in one.means),
+        tuple(mm for one in results for mm in one.worsts),
+        tuple(mm for one in results for mm in one.heights),
+        sum(one.missed for one in results),
+        sum(one.false for one in results),
+        min(one.seconds for one in results),
+        min(one.stall for one in results),
+    )
 
 
 def scene(seed: int, arena: EmulatedArena) -> tuple[list[Prism], list[tuple[float, float, float]]]:

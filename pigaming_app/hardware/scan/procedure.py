@@ -146,12 +146,12 @@ class Scan:
         pictures = Rectified(self.ground, self._pictures)
         yield
         projector = self._place(pictures)
-        bands = []
+        whole = Surface(*(np.zeros(CANVAS[::-1], np.float32) for _ in Surface._fields))
         for top in range(0, CANVAS[1], BAND):
-            bands.append(surface(pictures, projector, slice(top, top + BAND), slice(0, CANVAS[0])))
+            rows = slice(top, top + BAND)
+            for all_rows, part in zip(whole, surface(pictures, projector, rows, slice(0, CANVAS[0])), strict=True):
+                all_rows[rows] = part
             yield
-        whole = Surface(*(np.concatenate(parts) for parts in zip(*bands, strict=True)))
-        yield
         found: list[Thing] = []
         for things in find_things(whole, pictures, projector, self.robots):
             found = things
