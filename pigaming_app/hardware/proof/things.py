@@ -1,13 +1,11 @@
 """Real things on the emulated mat: random scenes, scanned and compared with the truth.
 
-A scene has eight things: boxes (dark, of the mat's colour, striped), cups, a plate of 20 mm, and two strips of tape,
-25 mm wide; four robots stand among them. Outlines are compared every millimetre, in both directions.
+Outlines are compared every millimetre, in both directions.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import hypot, pi
-from random import Random
+from math import hypot
 from threading import Thread
 from time import perf_counter, sleep
 
@@ -19,7 +17,8 @@ from pigaming_app.hardware.emulator.arena import EmulatedArena
 from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.optics import Optics, TrueLens
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-from pigaming_app.hardware.emulator.things.prism import TAPE, Prism, box, cylinder
+from pigaming_app.hardware.emulator.things.prism import Prism
+from pigaming_app.hardware.emulator.things.random_scene import scene
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.procedure import Scan
 from pigaming_app.hardware.scan.things import Layout, Outline, Thing, ThingKind
@@ -29,8 +28,6 @@ from pigaming_app.hardware.signals import CameraFrame, CameraSource
 TILTED = TrueLens(eye=(150.0, 1150.0, 2400.0), aim=(25.0, 50.0), focal=1830.0)  # 25 degrees off the vertical
 SMALL = (1280, 720)  # px
 GRAIN = 2.0  # grey levels, noise of the small camera
-FREE = 700.0, 420.0  # mm: things stand within these distances of the middle
-GAPS = (70.0, 190.0, 170.0)  # mm between tall things, around flat ones, around robots
 NEAR = 45.0  # mm between the middles of a found thing and a true one
 POLL = 0.005  # s between two looks at the camera
 
@@ -136,7 +133,7 @@ def trial(seeds: Sequence[int], tilted: bool = False) -> ThingsResult:
     """Scan random scenes. Times are the best of all: other programs can only add to them. Raises RuntimeError."""
     bed, results = ThingsBed(seeds[0], tilted), []
     for seed in seeds:
-        things, robots = scene(seed, bed.arena)
+        things, robots = scene(seed, bed.arena.optics)
         bed.furnish(things, robots)
         scan = bed.scan()
         if scan.layout is None:
@@ -151,46 +148,6 @@ def trial(seeds: Sequence[int], tilted: bool = False) -> ThingsResult:
         min(one.seconds for one in results),
         min(one.stall for one in results),
     )
-
-
-def scene(seed: int, arena: EmulatedArena) -> tuple[list[Prism], list[tuple[float, float, float]]]:
-    """Eight random things (mm on the mat), and the poses of four robots (arena px and rad)."""
-    random = Random(f"things {seed}")
-    taken: list[tuple[float, float, float, int]] = []  # place, radius, index in GAPS
-
-    def place(radius: float, sort: int) -> tuple[float, float]:
-        for _ in range(20000):
-            x, y = random.uniform(-FREE[0], FREE[0]), random.uniform(-FREE[1], FREE[1])
-            if all(hypot(x - u, y - v) > radius + r + GAPS[max(sort, s)] for u, v, r, s in taken):
-                taken.append((x, y, radius, sort))
-                return x, y
-        raise RuntimeError("no room for a thing")
-
-    robots = []
-    for i in range(4):
-        x, y = (-900.0 if i in (0, 3) else 900.0), (-400.0 if i < 2 else 400.0)
-        x, y = x + random.uniform(-60.0, 60.0), y + random.uniform(-60.0, 60.0)
-        taken.append((x, y, 50.0, 2))
-        u, v = (arena.optics.canvas(np.array([(x, y)]))[0] - (160.0, 140.0)).tolist()
-        robots.append((u, v, random.uniform(-pi, pi)))
-    things = []
-    for i, grey in enumerate((random.uniform(0.12, 0.3), 0.08)):  # the tapes first: they need most room
-        long = random.uniform(150.0, 300.0) if i == 0 else random.uniform(120.0, 200.0)
-        x, y = place(0.35 * long, 1)
-        things.append(box(x, y, long, 25.0, TAPE, random.uniform(0.0, pi), grey, seed=seed + i))
-    looks = ((0.85, "plain"), (0.07, "plain"), (0.45, "printed"), (0.6, "striped"), (0.9, "plain"), (0.3, "cloudy"))
-    for i, (grey, look) in enumerate(looks):
-        turn, high = random.uniform(0.0, pi), random.uniform(60.0, 180.0)
-        if i >= 4:
-            radius = random.uniform(32.0, 50.0)
-            things.append(cylinder(*place(radius, 0), radius, high, grey, look, seed + i))
-            continue
-        long, wide = random.uniform(70.0, 170.0), random.uniform(60.0, 100.0)
-        high = 20.0 if i == 2 else high
-        long, wide = (200.0, 140.0) if i == 2 else (long, wide)
-        x, y = place(0.5 * hypot(long, wide), 0)
-        things.append(box(x, y, long, wide, high, turn, grey, look, seed + i))
-    return things, robots
 
 
 def compare(found: Sequence[Thing], true: Sequence[Prism], bed: ThingsBed) -> ThingsResult:

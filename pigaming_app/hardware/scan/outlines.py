@@ -31,7 +31,7 @@ NARROW_TALL, NARROW_FLAT = 18.0, 11.0  # mm, least width
 SMALL = 900.0  # mm^2, least area
 ROBOT = 47.5, 75.0  # mm, radius and height of a robot
 AROUND = 12.0  # mm left out around robots, and around everything that tall things hide or shade
-UNSURE = 2.0, 1.5  # mm, and camera px: by how far a thing may extend beyond its outline
+UNSURE = 2.0, 2.5  # mm, and camera px: by how far a thing may extend beyond its outline
 
 Pixels = NDArray[np.uint8]
 Place = tuple[float, float]  # arena px
@@ -120,10 +120,11 @@ def _components(mask: Pixels, thread: float, ground: GroundPlane) -> Iterator[tu
 
 def _top(heights: Map, corners: Outline) -> float:
     """Height of the top within an outline, mm."""
-    x, y, wide, high = opencv().boundingRect(np.rint(corners + ARENA_AT).astype(np.int32))
-    values = heights[y : y + high, x : x + wide]
+    left, top = np.maximum(np.floor((corners + ARENA_AT).min(axis=0)).astype(int), 0)
+    right, bottom = np.ceil((corners + ARENA_AT).max(axis=0)).astype(int) + 1
+    values = heights[top:bottom, left:right]
     values = values[values > LOWEST]
-    return float(np.median(values[values > 0.8 * np.percentile(values, 90.0)]))
+    return float(np.median(values[values > 0.8 * np.percentile(values, 90.0)])) if len(values) else LOWEST
 
 
 def _counts(outline: Outline, narrow: float, ground: GroundPlane) -> bool:

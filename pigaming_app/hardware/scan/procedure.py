@@ -6,7 +6,7 @@ does the same with a camera of its own. Robots may stand on the mat, but must no
 """
 
 from collections.abc import Iterator, Sequence
-from math import inf
+from math import hypot, inf
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from pigaming_app.hardware.scan.projector_place import Place, projector_place
 from pigaming_app.hardware.scan.things import Layout, ProjectorPlace, Thing, largest
 from pigaming_app.hardware.signals import CameraFrame, Clock
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, opencv
+from pigaming_app.sim.robot import RADIUS
 
 FRAMES = 3  # camera frames averaged for each picture
 SOONEST, FIRST = 0.06, 0.4  # s from drawing a picture, and the first one, to the earliest frame that may show it
@@ -39,16 +40,19 @@ BAND = 60  # rows of a slice of the computation
 class Scan:
     """One scan. It ends with a `layout`, or with a `fault`.
 
-    `before`: the layout known so far, whose projector is used if there are no robots to find its place again.
+    `before`: the layout known so far, whose projector is used if there are no robots to find its place again. `known`:
+    places of robots, arena px, that are on the mat even if their markers cannot be read during the scan.
     """
 
-    def __init__(self, ground: GroundPlane, clock: Clock, before: Layout | None = None) -> None:
+    def __init__(
+        self, ground: GroundPlane, clock: Clock, before: Layout | None = None, known: Sequence[Place] = ()
+    ) -> None:
         self.ground, self.clock = ground, clock
         self.fault: OperatorMessage | None = None
         self.layout: Layout | None = None
         self.expected: ExpectedLight | None = None  # of the scanned mat, for `ThingsWatch`
         self.robots: list[Place] = []  # arena px, on the mat during the scan
-        self._projector = before.projector if before else None
+        self._projector, self._known = before.projector if before else None, known
         self._pictures: list[Map] = []
         self._sum: Map | None = None
         self._count = 0
@@ -141,11 +145,12 @@ class Scan:
             self.fault = OperatorMessage("scan_moved")
             return
         yield
-        self.robots = _robots(self._pictures[0], self.ground)
+        seen = _robots(self._pictures[0], self.ground)
+        self.robots = [*seen, *(at for at in self._known if all(hypot(at[0] - x, at[1] - y) > RADIUS for x, y in seen))]
         yield
         pictures = Rectified(self.ground, self._pictures)
         yield
-        projector = self._place(pictures)
+        projector = self._place(pictures, seen)
         whole = Surface(*(np.zeros(CANVAS[::-1], np.float32) for _ in Surface._fields))
         for top in range(0, CANVAS[1], BAND):
             rows = slice(top, top + BAND)
@@ -160,10 +165,10 @@ class Scan:
         self.expected = ExpectedLight(pictures, whole, projector)
         self.layout = layout
 
-    def _place(self, pictures: Rectified) -> ProjectorPlace:
-        """The projector's place by the robots on the mat, or else the one known before. Raises CalibrationError."""
+    def _place(self, pictures: Rectified, robots: Sequence[Place]) -> ProjectorPlace:
+        """The projector's place by robots on the mat, or else the one known before. Raises CalibrationError."""
         try:
-            return projector_place(pictures, self.robots)
+            return projector_place(pictures, robots)
         except CalibrationError:
             if self._projector is None:
                 raise
@@ -173,9 +178,16 @@ class Scan:
 class ScanTask(CameraTask):
     """A scan with a camera of its own, as in the wizard; `scan` is its state."""
 
-    def __init__(self, site: CalibrationSite, number: int, ground: GroundPlane, before: Layout | None = None) -> None:
+    def __init__(
+        self,
+        site: CalibrationSite,
+        number: int,
+        ground: GroundPlane,
+        before: Layout | None = None,
+        known: Sequence[Place] = (),
+    ) -> None:
         super().__init__(site, number)
-        self.scan = Scan(ground, site.clock, before)
+        self.scan = Scan(ground, site.clock, before, known)
 
     def step(self) -> None:
         if self.scan.computing:
