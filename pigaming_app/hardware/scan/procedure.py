@@ -163,7 +163,7 @@ class Scan:
             yield
         layout = Layout(largest(found), projector)
         self.expected = ExpectedLight(pictures, whole, projector)
-        self.layout = layout
+        self.layout, self._pictures = layout, []  # 120 MB
 
     def _place(self, pictures: Rectified, robots: Sequence[Place]) -> ProjectorPlace:
         """The projector's place by robots on the mat, or else the one known before. Raises CalibrationError."""

@@ -21,6 +21,7 @@ from pigaming_app.hardware.vision.markers import opencv
 PERIOD = 1.0  # s between two checks
 LIGHT_AFTER = 0.035  # s from drawing a picture to its light
 SLACK = 0.07  # s by which the time of a camera frame, or of the light, may be wrong
+WAIT = 0.2  # s after which a camera frame is used though no later picture of the canvas was kept
 BURST = 0.3  # s before a check from which on pictures of the canvas are kept
 PATIENCE = 3  # checks in a row
 LEAST, SHARE = 9.0, 0.35  # grey levels, and share of the projected light, by which a cell may be off
@@ -55,16 +56,17 @@ class ThingsWatch:
     def process(self, frame: CameraFrame, robots: Sequence[Place]) -> None:
         """Check a camera frame if one is due. `robots`: those seen or expected on the mat, arena px. About 8 ms."""
         lit = frame.captured - LIGHT_AFTER
-        if frame.captured < self._due or not self._canvases:
+        if frame.captured < self._due:
             return
-        if self._canvases[-1][0] < lit + SLACK and self.clock() < frame.captured + 0.2:
+        kept = tuple(self._canvases)  # the window adds to them in its own thread
+        if not kept or (kept[-1][0] < lit + SLACK and self.clock() < frame.captured + WAIT):
             return  # a later picture may still come
-        shown = [image for drawn, image in self._canvases if lit - SLACK < drawn < lit + SLACK]
-        earlier = [image for drawn, image in self._canvases if drawn <= lit - SLACK]
-        self._due, canvases = self.clock() + PERIOD, [*earlier[-1:], *shown]
+        shown = [image for drawn, image in kept if lit - SLACK < drawn < lit + SLACK]
+        earlier = [image for drawn, image in kept if drawn <= lit - SLACK]
+        self._due = self.clock() + PERIOD
         self._canvases.clear()
         if earlier and len(shown) > 1:
-            self.check(frame.image, canvases, robots)
+            self.check(frame.image, [earlier[-1], *shown], robots)
 
     def check(self, image: Image, canvases: list[Image], robots: Sequence[Place]) -> None:
         """Compare a camera picture with what these pictures, as kept by `shrunk`, cause on the mat."""
