@@ -53,7 +53,7 @@ def _write(path: Path, edge: float) -> int:
         raise Refusal(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     with refused(OperatorError, ValueError):
         require_writable(path)
-        write_atomic(path, sheet(edge, all_languages("sheet.print", "sheet.cut")))
+        write_atomic(path, sheet(edge, all_languages("sheet.print", "sheet.cut"), all_languages("sheet.blocks")))
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")
     return 0
 

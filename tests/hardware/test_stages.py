@@ -17,9 +17,10 @@ MAY = {
     "ros": {"control", "radio", "tracking"},
     "commissioning": {"control"},
     "sysid": {"calibration"},
+    "scan": {"calibration", "vision"},
     "emulator": {"calibration", "vision"},
-    "session": {"calibration", "control", "emulator", "radio", "ros", "tracking", "vision"},
-    "proof": {"calibration", "control", "emulator", "session", "tracking", "vision"},
+    "session": {"calibration", "control", "emulator", "radio", "ros", "scan", "tracking", "vision"},
+    "proof": {"calibration", "control", "emulator", "scan", "session", "tracking", "vision"},
 }
 
 

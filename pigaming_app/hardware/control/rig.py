@@ -130,6 +130,7 @@ class Rig:
         self._channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # drift of the corner markers, mm
         self.recorder: Recorder | None = None
+        self.viewers: list[Callable[[CameraFrame], None]] = []  # also get every new picture, in the rig's thread
         self._begun = clock()
         self._deaf_since: dict[int, float] = {}  # s, by robot
         self._image: Image | None = None  # the newest
@@ -295,6 +296,8 @@ class Rig:
                 kinematics.correction = self.tracker.wheel_correction(robot)
             if self.recorder:
                 self.recorder.record_fixes(self.clock(), frame.captured, fixes)
+        for view in tuple(self.viewers):
+            view(frame)
 
 
 def _same(one: Image, other: Image) -> bool:

@@ -5,6 +5,7 @@ same seed and calls give the same run. Poses in the interface are in arena px; i
 """
 
 from collections import deque
+from collections.abc import Sequence
 from math import atan2, ceil, cos, sin
 from random import Random
 from threading import Lock
@@ -15,10 +16,11 @@ from pigaming_app.hardware.emulator.camera import CameraTraits, EmulatedCamera, 
 from pigaming_app.hardware.emulator.faults import FaultInjector
 from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.objects import Placing
-from pigaming_app.hardware.emulator.optics import CANVAS, Optics
+from pigaming_app.hardware.emulator.optics import CANVAS, Floats, Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.renderer import CameraScene, SceneRenderer
 from pigaming_app.hardware.emulator.robots import STEP, EmulatedRobot, push_apart, random_parameters
+from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
 
@@ -50,11 +52,12 @@ class EmulatedArena:
         begin: float = 0.0,
         arena_id: int = ARENA_ID,
         traits: CameraTraits | None = None,
+        optics: Optics | None = None,
     ) -> None:
         random = Random(f"arena {seed}")
         self.ticks, self.begin, self.arena_id = 0, begin, arena_id  # ticks of STEP
         traits = traits or CameraTraits()
-        self.optics = Optics(traits.lens)
+        self.optics = optics or Optics(traits.lens)
         self.robots = [
             EmulatedRobot(random_parameters(random), *self._on_mat(pose), Random(f"{seed} {i}"))
             for i, pose in enumerate(STARTS)
@@ -64,6 +67,7 @@ class EmulatedArena:
         painter = SceneRenderer(self.optics, seed, refresh, size=traits.size, defocus=traits.defocus)
         self.camera = EmulatedCamera(painter, timing or FrameTiming(), self.clock, seed, traits)
         self.faults = FaultInjector(self)
+        self.things: tuple[Prism, ...] = ()  # on the mat
         self.gain = 1.0  # exposure
         self.cleared = False  # True if the robots are off the mat, out of view
         self.last_driven = [float("-inf")] * len(self.robots)  # s, when a robot's motors last ran
@@ -109,6 +113,15 @@ class EmulatedArena:
         """Place a robot, arena px and rad."""
         body = self.robots[robot]
         body.x, body.y, body.heading = self._on_mat(pose)
+
+    def furnish(self, things: Sequence[Prism]) -> None:
+        """Put these things on the mat, in place of all that stand on it."""
+        self.things = tuple(things)
+        self.camera.painter.furnish(self.things)
+
+    def outline(self, thing: Prism) -> Floats:
+        """True outline of a thing on the mat, arena px, (n, 2)."""
+        return self.optics.canvas(np.array(thing.outline)) - ARENA_AT
 
     def _on_mat(self, pose: Pose) -> tuple[float, float, float]:
         x, y, heading = pose

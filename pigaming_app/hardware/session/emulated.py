@@ -233,7 +233,7 @@ class EmulatedSession:
             self.arena.project(self.lighting.picture(rig.sense(SHOWS_AFTER)))
 
 
-def calibrated(arena: "EmulatedArena") -> "GroundPlane":
+def calibrated(arena: "EmulatedArena", site: "EmulatedCalibrationSite | None" = None) -> "GroundPlane":
     """Calibrate an arena and verify the result, by the wizard's procedure. Raises CalibrationError."""
     from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
     from pigaming_app.hardware.calibration.ground_plane import CalibrationError
@@ -241,7 +241,7 @@ def calibrated(arena: "EmulatedArena") -> "GroundPlane":
     from pigaming_app.hardware.calibration.solver import with_verification
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 
-    site = EmulatedCalibrationSite(arena=arena)
+    site = site or EmulatedCalibrationSite(arena=arena)
     work = Calibration(site, 0, site.measures, "emulated")
     pictures = {board: board.picture() for board in (BOARD, HELD_OUT)}
     while not work.finished:

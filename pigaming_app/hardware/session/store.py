@@ -1,4 +1,4 @@
-"""The user's robot files: calibration by site, identified drivetrains, and the mapping of radios to robots.
+"""The user's robot files: calibration and things by site, identified drivetrains, mapping of radios to robots.
 
 Files of the emulated arena have separate names, so they never overwrite those of the real one.
 """
@@ -12,6 +12,9 @@ from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Gro
 from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import LAST_ARENA
+from pigaming_app.hardware.scan.things import Layout, LayoutError
+from pigaming_app.hardware.scan.things import read as read_layout
+from pigaming_app.hardware.scan.things import to_toml as layout_to_toml
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.parsing import ParseError, describe_error, read_text
@@ -43,6 +46,26 @@ def load(path: Path, projection: str | None = None, camera: tuple[int, int] | No
 def save(ground: GroundPlane, path: Path) -> None:
     """Save a calibration, keeping the previous one as `.bak`. Raises NotSaved."""
     write_with_backup(path, to_toml(ground))
+
+
+def things_file(site: str) -> Path:
+    """File of the things on the mat of a site, `real` or `emulated`."""
+    return folders().config / ("things.toml" if site == "real" else f"things-{site}.toml")
+
+
+def load_things(path: Path) -> Layout:
+    """Load the things on a mat; an empty layout if nothing was saved. Raises LayoutError."""
+    try:
+        return read_layout(read_text(path))
+    except FileNotFoundError:
+        return Layout()
+    except (OSError, ParseError) as error:
+        raise LayoutError(OperatorMessage("damaged_things", detail=describe_error(error))) from error
+
+
+def save_things(layout: Layout, path: Path) -> None:
+    """Save the things on a mat, keeping the previous ones as `.bak`. Raises NotSaved."""
+    write_with_backup(path, layout_to_toml(layout))
 
 
 def robots_file(emulated: bool) -> Path:

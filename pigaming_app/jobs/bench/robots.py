@@ -2,8 +2,9 @@
 
 Robots are tracked at 0.35 m/s by a 1080p camera at 30 and at 60 frames/s with a total latency of 80 ms; every fault of
 the table occurs once; twenty minutes of all three games are played with random button mashing, one match of PiTanks by
-its best level, and 2 % of packets and frames lost; and whole arcades fail or are killed (see robots_arcade). Of several
-runs the worst counts, except for the time that a frame takes, where the best counts: other programs can only add to it.
+its best level, and 2 % of packets and frames lost; whole arcades fail or are killed (see robots_arcade); and things on
+the mat are scanned, from above and by a tilted camera of 720p. Of several runs the worst counts, except for times of
+computation, where the best counts: other programs can only add to them.
 """
 
 from collections.abc import Callable, Mapping
@@ -20,7 +21,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.emulator.radio import RadioChannel
-from pigaming_app.hardware.proof import emergencies
+from pigaming_app.hardware.proof import emergencies, things
 from pigaming_app.hardware.proof import trials as proving
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, StopResult
 from pigaming_app.hardware.proof.testbed import Testbed, one_core
@@ -34,6 +35,7 @@ RATES = (30.0, 60.0)  # frames/s
 SECONDS = 20.0  # of tracking
 MATCHES, MINUTES = 10, 2.0
 BEST = "level5"
+SCENES = {False: range(1, 9), True: range(1, 6)}  # seeds of the scenes of things, by a tilted camera
 LOST = 0.02  # share of packets, and of frames, in a match
 TARGETS = {  # upper limits, but for frames_complete
     "pose_rmse_mm": 3.0,
@@ -46,6 +48,14 @@ TARGETS = {  # upper limits, but for frames_complete
     "worst_stop_ms": 300.0,
     "arcade_worst_stop_ms": 300.0,
     "false_alarms": 0.0,
+    "things_mean_mm": 3.0,
+    "things_worst_mm": 7.0,
+    "things_tilted_mean_mm": 6.0,
+    "things_tilted_worst_mm": 12.0,
+    "things_missed": 0.0,
+    "things_false": 0.0,
+    "things_seconds": 2.0,
+    "things_stall_ms": 50.0,
 }
 
 
@@ -73,9 +83,11 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         followed = {(fps, seed): pool.submit(follow_alone, seed, fps) for seed in (1, 2) for fps in RATES}
         stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
         calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]
+        scanned = {tilted: pool.submit(things.trial, seeds, tilted) for tilted, seeds in SCENES.items()}
         played = [(job, pool.submit(on_mat, job)) for job in jobs()]
         tracks = _tracks(followed, note)
         stops = _stops(stopped, note)
+        scans = _scans(scanned, note)
         matches = [_match(job, future, note) for job, future in played]
         boards = [_result(future, "calibrating") for future in calibrated]
     return {
@@ -89,6 +101,7 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         "worst_stop_ms": 1e3 * max(stops.values()),
         "false_alarms": float(sum(run.alarms for run in matches)),
         **stops_outside(note),
+        **scans,
     }
 
 
@@ -176,6 +189,26 @@ def _stops(stopped: dict[float, Future[dict[str, StopResult]]], note: Callable[[
                 raise Unproven(f"{name}: the fault was not reported")
             stops[f"{name} {fps}"] = run.seconds
     return stops
+
+
+def _scans(scanned: Mapping[bool, Future[things.ThingsResult]], note: Callable[[str], None]) -> dict[str, float]:
+    """Outlines of things from above at 1080p, and from a tilted camera with 720p. A mean is that of the worst thing."""
+    figures: dict[str, float] = {}
+    runs = {tilted: _result(future, "scanning things") for tilted, future in scanned.items()}
+    for tilted, run in runs.items():
+        name = "things_tilted" if tilted else "things"
+        figures |= {f"{name}_mean_mm": max(run.means), f"{name}_worst_mm": max(run.worsts)}
+        note(
+            f"{'720p, tilted' if tilted else '1080p'}: {len(run.means)} things found, {run.missed} missed, {run.false} "
+            f"false, outlines {sum(run.means) / len(run.means):.2f} mm on average, {max(run.worsts):.1f} mm at most, "
+            f"computed in {run.seconds:.1f} s"
+        )
+    return figures | {
+        "things_missed": float(sum(run.missed for run in runs.values())),
+        "things_false": float(sum(run.false for run in runs.values())),
+        "things_seconds": min(run.seconds for run in runs.values()),
+        "things_stall_ms": 1e3 * min(run.stall for run in runs.values()),
+    }
 
 
 def _match(job: Job, future: Future[MatchResult], note: Callable[[str], None]) -> MatchResult:

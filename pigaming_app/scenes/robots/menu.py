@@ -99,7 +99,9 @@ class RobotsMenu:
 
         path, words = folders().data / SHEET, self.context.words
         try:
-            write_atomic(path, sheet(notes=all_languages("sheet.print", "sheet.cut")))
+            write_atomic(
+                path, sheet(notes=all_languages("sheet.print", "sheet.cut"), block_notes=all_languages("sheet.blocks"))
+            )
             self.navigation.show_message(words("robots.written", path=path))
         except OpenCVMissing as missing:
             log.warning("%s", english().long_sentence(missing.message))

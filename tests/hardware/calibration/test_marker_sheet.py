@@ -7,15 +7,16 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from pigaming_app.hardware.calibration.marker_sheet import CELLS, MarkerSheetError, cells, sheet  # noqa: E402
+from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES, CELLS, MarkerSheetError, cells, sheet  # noqa: E402
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector  # noqa: E402
 from tests.hardware.sentences import refused  # noqa: E402
 
 MM = 72.0 / 25.4  # PDF points
 
 
-def filled(page):
+def filled(file, number=0):
     """The black boxes of a page in points: (left, bottom, width, height)."""
+    page = file.split(b"\nstream\n")[number + 1]
     return [tuple(map(float, found)) for found in re.findall(rb"([\d.]+) ([\d.]+) ([\d.]+) ([\d.]+) re f", page)]
 
 
@@ -40,6 +41,25 @@ def test_the_markers_are_as_large_as_they_should_be(edge):
         assert mark.corners[0, 1] < mark.corners[2, 1]  # the top of each is up, where its triangle is
 
 
+def test_the_blocks_follow_each_in_the_middle_of_its_print():
+    file, numbers = sheet(), []
+    for page in range(1, 6):
+        text = file.split(b"\nstream\n")[page + 1]
+        prints = [tuple(map(float, found)) for found in re.findall(rb"0.6 G (\S+) (\S+) (\S+) (\S+) re S", text)]
+        marks = MarkerDetector(range(50)).detect(painted(filled(file, page)))
+        for mark in sorted(marks, key=lambda mark: mark.number):
+            x, y = mark.corners.mean(axis=0) / 2.0
+            left, bottom, wide, high = min(
+                prints, key=lambda box: abs(box[0] + box[2] / 2 - x) + abs(841.89 - box[1] - box[3] / 2 - y)
+            )
+            assert (x, 841.89 - y) == pytest.approx((left + wide / 2, bottom + high / 2), abs=1.0)
+            assert (wide / MM, high / MM) == pytest.approx(BLOCK_SIZES[mark.number], abs=0.01)
+            assert 5 * MM < left < left + wide < 205 * MM
+            assert bottom > 5 * MM
+            numbers.append(mark.number)
+    assert numbers == list(BLOCK_SIZES)
+
+
 def test_a_cell_is_a_sixth_of_a_marker():
     assert {round(wide / MM * CELLS, 2) for _, _, wide, _ in filled(sheet())} == {50.0}
 
@@ -60,10 +80,11 @@ def test_the_ruler_is_a_hundred_millimetres():
 def test_the_table_of_the_file_points_at_its_objects():
     page = sheet()
     begins = [int(found) for found in re.findall(rb"(\d{10}) 00000 n", page)]
-    assert [page[begin:].split(b" ", 1)[0] for begin in begins] == [b"1", b"2", b"3", b"4", b"5"]
+    assert [page[begin:].split(b" ", 1)[0] for begin in begins] == [b"%d" % number for number in range(1, 16)]
     assert page[int(page.rsplit(b"startxref\n", 1)[1].split()[0]) :].startswith(b"xref")
-    length = int(re.search(rb"/Length (\d+)", page)[1])
-    assert page.index(b"\nendstream") - page.index(b"stream\n") - len(b"stream\n") == length
+    for stream in page.split(b"/Length ")[1:]:
+        length, content = stream.split(b" >>\nstream\n", 1)
+        assert content[int(length) :].startswith(b"\nendstream")
 
 
 @pytest.mark.parametrize("edge", [0.0, 500.0])

@@ -1,0 +1,1 @@
+"""Real things on the emulated mat: boxes, cups, books, tape; their geometry and their look in the camera."""

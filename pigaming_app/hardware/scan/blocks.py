@@ -1,0 +1,112 @@
+"""Marker blocks: walls for a mat without a projector, seen by the camera 30 times a second.
+
+A block is a piece of wood or card of the printed size, with a marker of 50 mm in the middle of its top (numbers 20 to
+39, on the marker sheet). Its pose follows the hand that moves it; at rest it is smoothed. A hidden block stays where it
+was for TIMEOUT.
+"""
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, inf, pi, sin
+
+import numpy as np
+
+from pigaming_app.hardware.calibration.ground_plane import MARKER, SIZE_TOLERANCE, SKEW_TOLERANCE, GroundPlane
+from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES
+from pigaming_app.hardware.scan.things import Outline, Thing, ThingKind
+from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
+from pigaming_app.hardware.vision.markers import MarkerDetector, SearchWindow, mean_edge
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+BLOCK_HEIGHT = 50.0  # mm, unless the caller gives another
+TIMEOUT = 1.0  # s without sight, after which a block is gone
+SEARCH = 0.1  # s between two searches of the whole picture
+LOST = 0.25  # s for which a block that is out of sight is searched near its last place
+STILL, TURN = 4.0, 0.06  # px, rad: smaller changes are noise, and are smoothed; larger ones are followed at once
+SMOOTH = 0.15  # share of a small change that one picture contributes
+MARGIN = 3.0  # mm
+
+
+@dataclass
+class Block:
+    """A block in sight. `x`, `y`: arena px; `heading`: rad."""
+
+    number: int
+    x: float
+    y: float
+    heading: float
+    mark: DetectedMarker
+    seen: float  # s
+    height: float  # mm
+    size: tuple[float, float]  # mm
+
+    def outline(self, mm: float) -> Outline:
+        """Its footprint, (4, 2) arena px; `mm`: of the mat per px."""
+        c, s = cos(self.heading), sin(self.heading)
+        along, across = np.array((c, s)) * self.size[0] / (2.0 * mm), np.array((-s, c)) * self.size[1] / (2.0 * mm)
+        corners = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+        return np.array([np.array((self.x, self.y)) + u * along + v * across for u, v in corners])
+
+    def follow(self, x: float, y: float, heading: float) -> None:
+        """Move to a measured pose."""
+        turn = (heading - self.heading + pi) % (2.0 * pi) - pi
+        share = SMOOTH if hypot(x - self.x, y - self.y) < STILL and abs(turn) < TURN else 1.0
+        self.x, self.y = self.x + share * (x - self.x), self.y + share * (y - self.y)
+        self.heading += share * turn
+
+
+class BlockTracker:
+    """The blocks on one mat. `things` is what games get. Raises OpenCVMissing."""
+
+    def __init__(self, ground: GroundPlane, height: float = BLOCK_HEIGHT) -> None:
+        self.ground, self.height = ground, height
+        self.blocks: dict[int, Block] = {}
+        self._markers = MarkerDetector(BLOCK_SIZES)
+        self._searched = -inf
+        middle = np.array([(WIDTH / 2.0, HEIGHT / 2.0), (WIDTH / 2.0 + MARKER / ground.mm, HEIGHT / 2.0)])
+        self._edge = float(np.hypot(*np.diff(ground.to_camera(middle, height), axis=0)[0]))  # px, expected
+
+    @property
+    def things(self) -> list[Thing]:
+        """The blocks as walls, in the order of their numbers."""
+        mm = self.ground.mm
+        return [
+            Thing(ThingKind.TALL, tuple((x, y) for x, y in block.outline(mm).tolist()), block.height, MARGIN / mm)
+            for _, block in sorted(self.blocks.items())
+        ]
+
+    def process(self, frame: CameraFrame) -> None:
+        """Follow the blocks in one more picture."""
+        marks = self._near(frame)
+        if frame.captured - self._searched >= SEARCH:
+            self._searched = frame.captured
+            marks += self._markers.detect_quickly(frame.image, self._edge, marks, dim=False)
+        for mark in self._markers.refine(frame.image, marks):
+            self._note(mark, frame.captured)
+        self.blocks = {n: block for n, block in self.blocks.items() if frame.captured - block.seen < TIMEOUT}
+
+    def _near(self, frame: CameraFrame) -> list[DetectedMarker]:
+        """Known blocks, near their last places."""
+        found = []
+        for block in self.blocks.values():
+            if frame.captured - block.seen < LOST:
+                (x, y), edge = block.mark.corners.mean(axis=0).tolist(), mean_edge(block.mark.corners)
+                mark = self._markers.detect_in(frame.image, SearchWindow(x, y, 1.6 * edge, edge), block.number)
+                found += [mark] if mark is not None else []
+        return found
+
+    def _note(self, mark: DetectedMarker, captured: float) -> None:
+        """Create or move the block of a marker, unless the marker is not on a block."""
+        corners = self.ground.at_height(mark.corners, self.height)
+        sides = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) * self.ground.mm
+        if sides.max() > SKEW_TOLERANCE * sides.min() or abs(sides.mean() / MARKER - 1.0) > SIZE_TOLERANCE:
+            return
+        x, y = corners.mean(axis=0).tolist()
+        right = corners[1] + corners[2] - corners[0] - corners[3]
+        heading = atan2(right[1], right[0])
+        block = self.blocks.get(mark.number)
+        if block is None:
+            size = BLOCK_SIZES[mark.number]
+            self.blocks[mark.number] = Block(mark.number, x, y, heading, mark, captured, self.height, size)
+            return
+        block.follow(x, y, heading)
+        block.mark, block.seen = mark, captured

@@ -1,0 +1,183 @@
+"""The things on a mat as games get them, and their file: convex outlines in arena px with kind and height.
+
+The file is kept beside the calibration. It also holds the projector's place, so that a later scan needs no robots.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
+from pigaming_app.sim.toml_table import FieldError, TomlTable
+from pigaming_app.storage.parsing import ParseError, parse_toml, quote
+
+VERSION = 1
+MOST = 24  # things on a mat
+CORNERS = 48  # of an outline, at most
+
+Outline = NDArray[np.float64]  # (n, 2) arena px, convex, clockwise on screen
+
+
+class ThingKind(StrEnum):
+    """`tall`: it stops robots and bullets; `flat`: tape or paper, which robots drive over."""
+
+    TALL = "tall"
+    FLAT = "flat"
+
+
+@dataclass(frozen=True)
+class Thing:
+    """A thing on the mat. `outline`: its footprint; `margin_px`: by how far it may extend beyond the outline."""
+
+    kind: ThingKind
+    outline: tuple[tuple[float, float], ...]  # arena px
+    height_mm: float
+    margin_px: float
+
+    @property
+    def points(self) -> Outline:
+        """The outline as an array, (n, 2) arena px."""
+        return np.array(self.outline)
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Mean of the corners, arena px."""
+        x, y = self.points.mean(axis=0).tolist()
+        return x, y
+
+    def grown(self, px: float) -> Outline:
+        """The outline with every side moved outwards, (n, 2) arena px."""
+        return moved_outwards(self.points, px)
+
+    def contains(self, x: float, y: float) -> bool:
+        """True for a point on the thing, as for a mouse that points at it; arena px."""
+        corners = self.points
+        ways = np.roll(corners, -1, axis=0) - corners
+        away = np.array((x, y)) - corners
+        turns = ways[:, 0] * away[:, 1] - ways[:, 1] * away[:, 0]
+        return bool((turns >= 0.0).all() or (turns <= 0.0).all())
+
+
+@dataclass(frozen=True)
+class ProjectorPlace:
+    """The projector is `height` mm above the mat, over the point `foot` (arena px)."""
+
+    foot: tuple[float, float]
+    height: float  # mm
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Everything found on a mat. `without` removes one thing; all else is kept."""
+
+    things: tuple[Thing, ...] = ()
+    projector: ProjectorPlace | None = None
+
+    def without(self, thing: Thing) -> "Layout":
+        """The layout with one thing removed, as the player does by hand."""
+        return Layout(tuple(other for other in self.things if other is not thing), self.projector)
+
+
+class LayoutError(OperatorError):
+    """A file of things that cannot be used."""
+
+
+def moved_outwards(corners: Outline, by: float) -> Outline:
+    """A convex outline with every side moved outwards by a distance (inwards if negative), (n, 2); corners stay sharp.
+
+    Sides meet where their lines cross, but no corner moves further than twice the distance.
+    """
+    ways = np.roll(corners, -1, axis=0) - corners
+    length = np.maximum(np.hypot(ways[:, 0], ways[:, 1]), 1e-9)
+    normals = np.column_stack([ways[:, 1], -ways[:, 0]]) / length[:, None]
+    area = float((corners[:, 0] * np.roll(corners[:, 1], -1) - np.roll(corners[:, 0], -1) * corners[:, 1]).sum())
+    normals *= 1.0 if area > 0.0 else -1.0
+    before = np.roll(normals, 1, axis=0)
+    bisector = normals + before
+    share = np.maximum((bisector * bisector).sum(axis=1), 1.0)[:, None]
+    return np.asarray(corners + 2.0 * by * bisector / share)
+
+
+def to_toml(layout: Layout) -> str:
+    """Serialize a layout."""
+    import tomli_w
+
+    entries: dict[str, object] = {"version": VERSION}
+    if layout.projector is not None:
+        entries["projector"] = {"foot": list(layout.projector.foot), "height": layout.projector.height}
+    entries["thing"] = [
+        {
+            "kind": str(thing.kind),
+            "outline": [[round(x, 2), round(y, 2)] for x, y in thing.outline],
+            "height_mm": round(thing.height_mm, 1),
+            "margin_px": round(thing.margin_px, 2),
+        }
+        for thing in layout.things
+    ]
+    return tomli_w.dumps(entries)
+
+
+def read(text: str) -> Layout:
+    """Parse a layout. Raises LayoutError."""
+    try:
+        entries = parse_toml(text)
+    except ParseError as error:
+        raise LayoutError(OperatorMessage("damaged_things", detail=error)) from error
+    if entries.get("version") != VERSION:
+        raise LayoutError(OperatorMessage("version_things", theirs=quote(entries.get("version")), ours=VERSION))
+    try:
+        return _layout(TomlTable(entries))
+    except FieldError as wrong:
+        raise LayoutError(OperatorMessage("damaged_things", detail=wrong)) from wrong
+
+
+def _layout(table: TomlTable) -> Layout:
+    table.only("version", "projector", "thing")
+    place = None
+    if "projector" in table:
+        entry = table.table("projector")
+        x, y = entry.numbers("foot", 2, -1e5, 1e5)
+        place = ProjectorPlace((x, y), entry.number("height", None, 200.0, 20000.0, " mm"))
+    entries = table.tables("thing")
+    if len(entries) > MOST:
+        raise table.error("thing", f"{len(entries)} things, but {MOST} are possible")
+    return Layout(tuple(_thing(entry) for entry in entries), place)
+
+
+def _thing(entry: TomlTable) -> Thing:
+    entry.only("kind", "outline", "height_mm", "margin_px")
+    points = entry.entries.get("outline")
+    if not isinstance(points, list) or not 3 <= len(points) <= CORNERS:
+        raise entry.error("outline", f"3 to {CORNERS} points are needed")
+    row = TomlTable({f"[{i + 1}]": point for i, point in enumerate(points)}, f"{entry.path}outline")
+    outline = tuple((x, y) for x, y in (row.numbers(key, 2, -1000.0, 3000.0) for key in row.entries))
+    if not _is_convex(np.array(outline)):
+        raise entry.error("outline", "not convex")
+    kind = ThingKind(entry.word("kind", [str(kind) for kind in ThingKind]))
+    return Thing(
+        kind,
+        outline,
+        entry.number("height_mm", None, 0.0, 1000.0, " mm"),
+        entry.number("margin_px", None, 0.0, 100.0, " px"),
+    )
+
+
+def _is_convex(corners: Outline) -> bool:
+    ways = np.roll(corners, -1, axis=0) - corners
+    after = np.roll(ways, -1, axis=0)
+    turns = ways[:, 0] * after[:, 1] - ways[:, 1] * after[:, 0]
+    return bool((turns > -1.0).all() or (turns < 1.0).all()) and bool(abs(turns).max() > 1.0)
+
+
+def largest(things: Sequence[Thing]) -> tuple[Thing, ...]:
+    """The MOST largest things, the tall ones first."""
+    return tuple(sorted(things, key=lambda thing: (thing.kind != ThingKind.TALL, -area(thing.points)))[:MOST])
+
+
+def area(corners: Outline) -> float:
+    """Area of an outline, px^2."""
+    after = np.roll(corners, -1, axis=0)
+    return abs(float((corners[:, 0] * after[:, 1] - after[:, 0] * corners[:, 1]).sum())) / 2.0

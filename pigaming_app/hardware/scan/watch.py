@@ -1,0 +1,124 @@
+"""Watch over the things during a match: once a second, the camera picture is compared with the expected one.
+
+The scene hands over the pictures it projects around that moment (`wants`, `note_canvas`); the expected light lies
+between their least and greatest, so that moving content cannot disagree. Slow changes of the room light are left out,
+as are robots. A disagreement counts if it stays in its place for PATIENCE checks in a row.
+"""
+
+from collections import deque
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from pigaming_app.hardware.calibration.boards import ARENA_AT
+from pigaming_app.hardware.scan.expected import CELL, ExpectedLight, shrunk
+from pigaming_app.hardware.scan.heights import Map, Mask
+from pigaming_app.hardware.scan.outlines import robot_shadows
+from pigaming_app.hardware.scan.projector_place import Place
+from pigaming_app.hardware.signals import CameraFrame, Clock, Image
+from pigaming_app.hardware.vision.markers import opencv
+
+PERIOD = 1.0  # s between two checks
+LIGHT_AFTER = 0.035  # s from drawing a picture to its light
+SLACK = 0.07  # s by which the time of a camera frame, or of the light, may be wrong
+WAIT = 0.2  # s after which a camera frame is used though no later picture of the canvas was kept
+BURST = 0.3  # s before a check from which on pictures of the canvas are kept
+PATIENCE = 3  # checks in a row
+LEAST, SHARE = 9.0, 0.35  # grey levels, and share of the projected light, by which a cell may be off
+SMALL = 900.0  # mm^2, least area of a disagreement
+WIDE = 61  # cells, window of slow changes of the room light
+ROOM = 10.0  # grey levels by which one cell counts towards them at most
+MARKERS = 260  # px, edge of the corner markers' squares on the canvas, which the drift monitor watches
+
+
+class ThingsWatch:
+    """Compares a match with the scanned mat. `changed` is True once things have moved, at `places` (arena px)."""
+
+    def __init__(self, expected: ExpectedLight, clock: Clock) -> None:
+        self.expected, self.clock = expected, clock
+        self.changed = False
+        self.places: list[Place] = []
+        self.checks = 0
+        self._canvases: deque[tuple[float, Image]] = deque(maxlen=64)
+        self._due = clock() + PERIOD
+        self._before: list[Mask] = []  # disagreements of the previous checks
+
+    @property
+    def wants(self) -> bool:
+        """True while the pictures of the canvas are needed."""
+        return self.clock() > self._due - BURST
+
+    def note_canvas(self, pixels: Callable[[], Image], drawn: float) -> None:
+        """Keep the projected picture if it is needed. `pixels`: grey (1080, 1920) or BGRA; `drawn`: s of the clock."""
+        if self.wants:
+            self._canvases.append((drawn, shrunk(pixels())))
+
+    def process(self, frame: CameraFrame, robots: Sequence[Place]) -> None:
+        """Check a camera frame if one is due. `robots`: those seen or expected on the mat, arena px. About 8 ms."""
+        lit = frame.captured - LIGHT_AFTER
+        if frame.captured < self._due:
+            return
+        kept = tuple(self._canvases)  # the window adds to them in its own thread
+        if not kept or (kept[-1][0] < lit + SLACK and self.clock() < frame.captured + WAIT):
+            return  # a later picture may still come
+        shown = [image for drawn, image in kept if lit - SLACK < drawn < lit + SLACK]
+        earlier = [image for drawn, image in kept if drawn <= lit - SLACK]
+        self._due = self.clock() + PERIOD
+        self._canvases.clear()
+        if earlier and len(shown) > 1:
+            self.check(frame.image, [earlier[-1], *shown], robots)
+
+    def check(self, image: Image, canvases: list[Image], robots: Sequence[Place]) -> None:
+        """Compare a camera picture with what these pictures, as kept by `shrunk`, cause on the mat."""
+        self.checks += 1
+        self._before = [*self._before[1 - PATIENCE :], self.disagreement(image, canvases, robots)]
+        if len(self._before) == PATIENCE:
+            lasting = np.logical_and.reduce(self._before)
+            self.places = _large_parts(lasting, self.expected.ground.mm)
+            self.changed = self.changed or bool(self.places)
+
+    def disagreement(self, image: Image, canvases: list[Image], robots: Sequence[Place]) -> Mask:
+        """Cells whose light cannot be explained."""
+        cv, expected = opencv(), self.expected
+        seen, light = expected.seen(image), expected.light(canvases)
+        usable = expected.usable & ~self._hidden(robots)
+        low, high = light.room + light.least, light.room + light.most
+        gain = _gain(seen, np.float32(0.5) * (low + high), usable & (high - low < 0.1 * high + 3.0))
+        beyond = seen - np.clip(seen, gain * low, gain * high)
+        slow = _slow(np.where(usable, seen - gain * 0.5 * (low + high), np.float32(0.0)), usable)
+        brighter, darker = beyond - np.maximum(slow, 0.0), -beyond + np.minimum(slow, 0.0)
+        off = np.where(beyond > 0.0, brighter, darker)
+        wrong = usable & (off > LEAST + SHARE * gain * light.most)
+        return np.asarray(cv.morphologyEx(wrong.astype(np.uint8), cv.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0)
+
+    def _hidden(self, robots: Sequence[Place]) -> Mask:
+        """Cells that robots, or the corner markers, occupy."""
+        hidden = robot_shadows(robots, self.expected.ground, self.expected.projector)
+        side = MARKERS // 2
+        hidden[:side, :side] = hidden[:side, -side:] = hidden[-side:, :side] = hidden[-side:, -side:] = 1
+        return np.asarray(hidden[CELL // 2 :: CELL, CELL // 2 :: CELL] > 0)
+
+
+def _gain(seen: Map, expected: Map, usable: Mask) -> np.float32:
+    """Exposure now relative to the scan's: the median ratio."""
+    bright = usable & (expected > 15.0)
+    if bright.sum() < 500:
+        return np.float32(1.0)
+    return np.float32(np.clip(np.median(seen[bright] / expected[bright]), 0.4, 2.5))
+
+
+def _slow(difference: Map, usable: Mask) -> Map:
+    """Smooth part of a difference: the room light has changed."""
+    cv = opencv()
+    weight = cv.blur(usable.astype(np.float32), (WIDE, WIDE)) + np.float32(1e-3)
+    return np.asarray(cv.blur(np.clip(difference, -ROOM, ROOM), (WIDE, WIDE)) / weight)
+
+
+def _large_parts(mask: Mask, mm: float) -> list[Place]:
+    """Centres of the large connected parts of a mask of cells, arena px."""
+    count, _, stats, centres = opencv().connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
+    return [
+        (CELL * (float(centres[i][0]) + 0.5) - ARENA_AT[0], CELL * (float(centres[i][1]) + 0.5) - ARENA_AT[1])
+        for i in range(1, count)
+        if stats[i][4] * (CELL * mm) ** 2 > SMALL
+    ]

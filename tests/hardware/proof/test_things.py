@@ -1,0 +1,62 @@
+"""Things on the emulated mat are found where they are, and nothing else is found."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.hardware.proof.things import ThingsBed, distances, trial
+from pigaming_app.hardware.proof.things_watch import BETWEEN, WatchedMatch
+from pigaming_app.hardware.scan.things import ThingKind
+from pigaming_app.jobs.bench.robots import TARGETS
+
+
+def test_outlines_apart_by_a_millimetre_on_all_sides_differ_by_one():
+    square = np.array([(0.0, 0.0), (100.0, 0.0), (100.0, 60.0), (0.0, 60.0)])
+    misses = distances(square, square + 1.0 * np.sign(square - (50.0, 30.0)), 1.0)
+    assert misses == pytest.approx(np.ones(len(misses)))
+    assert len(misses) == 320
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", range(1, 51, 10))
+def test_in_fifty_scenes_every_thing_is_found_and_no_other(first):
+    run = trial(range(first, first + 10))
+    assert (run.missed, run.false) == (0, 0)
+    assert len(run.means) == 80
+    assert max(run.means) <= TARGETS["things_mean_mm"]
+    assert max(run.worsts) <= TARGETS["things_worst_mm"]
+    assert max(map(abs, run.heights)) < 6.0
+
+
+@pytest.mark.long
+def test_a_tilted_camera_of_720p_finds_them_too():
+    run = trial(range(1, 11), tilted=True)
+    assert (run.missed, run.false) == (0, 0)
+    assert max(run.means) <= TARGETS["things_tilted_mean_mm"]
+    assert max(run.worsts) <= TARGETS["things_tilted_worst_mm"]
+
+
+@pytest.mark.long
+def test_an_empty_mat_is_empty_and_a_mat_without_robots_uses_the_projectors_known_place():
+    bed = ThingsBed(3)
+    places = [(300.0, 200.0, 0.0), (1300.0, 700.0, 1.0), (1300.0, 200.0, 2.0), (800.0, 450.0, 3.0)]
+    bed.furnish([], places)
+    empty = bed.scan().layout
+    assert empty is not None
+    assert empty.things == ()
+    bed.furnish(BETWEEN, [])
+    assert "projector_robots" in str(bed.scan().fault)
+    layout = bed.scan(empty).layout
+    assert layout is not None
+    assert [thing.kind for thing in layout.things] == [ThingKind.TALL] * len(BETWEEN)
+
+
+@pytest.mark.long
+def test_things_are_watched_over_a_match_without_a_false_alarm_until_one_is_pushed():
+    match = WatchedMatch(2)
+    assert len(match.scan.layout.things) == len(BETWEEN)
+    assert not match.drive(120.0)
+    assert match.watch.checks > 100
+    match.push(1)
+    assert match.drive(8.0)

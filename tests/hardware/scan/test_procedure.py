@@ -1,0 +1,84 @@
+"""A scan takes each picture when the camera really shows it, and says why it cannot go on."""
+
+import numpy as np
+import pytest
+
+cv2 = pytest.importorskip("cv2")
+
+from pigaming_app.hardware.scan.patterns import PATTERNS  # noqa: E402
+from pigaming_app.hardware.scan.procedure import Scan  # noqa: E402
+from pigaming_app.hardware.scan.watch import PATIENCE, ThingsWatch  # noqa: E402
+from pigaming_app.hardware.signals import CameraFrame  # noqa: E402
+from tests.hardware.grounds import nominal  # noqa: E402
+from tests.hardware.sentences import sentence  # noqa: E402
+
+SIZE = (320, 180)
+TICK = 1 / 30  # s
+
+
+class Mat:
+    """A flat mat under a projector whose light comes `late` pictures after it was drawn, of a strength."""
+
+    def __init__(self, late, light=0.6):
+        self.now, self.late, self.light = 0.0, late, light
+        self.scan = Scan(nominal(SIZE), lambda: self.now)
+        self.shown, self.used = [], []
+        self.cards = {id(p): cv2.resize(p.picture(), SIZE, interpolation=cv2.INTER_AREA) for p in PATTERNS}
+
+    def run(self):
+        noise = np.random.default_rng(1).normal(0.0, 2.0, (7, SIZE[1], SIZE[0]))
+        for number in range(300):
+            if self.scan.pattern is None:
+                break
+            pattern = self.scan.pattern
+            self.scan.mark_shown(pattern)
+            self.shown.append(pattern)
+            self.now += TICK
+            card = self.cards[id(self.shown[max(0, len(self.shown) - 1 - self.late)])]
+            image = (40 + self.light * card + noise[number % 7]).clip(0, 255).astype(np.uint8)
+            self.scan.process(CameraFrame(image, self.now, number))
+        return self.scan
+
+
+@pytest.mark.parametrize("late", [0, 3, 9])
+def test_every_picture_is_taken_when_its_light_has_come(late):
+    mat = Mat(late)
+    scan = mat.run()
+    assert scan.computing
+    for pattern, picture in zip(PATTERNS, scan._pictures, strict=True):
+        assert np.abs(picture - 40 - 0.6 * mat.cards[id(pattern)]).max() < 9.0
+    assert mat.now < 6.0 + 0.5 * late
+
+
+def test_without_projected_light_the_projector_is_named():
+    assert "projector" in sentence(Mat(0, light=0.0).run().fault)
+
+
+class Eyes(ThingsWatch):
+    """A watch over masks given by the test."""
+
+    def __init__(self, *masks):
+        self.masks = iter(masks)
+        super().__init__(type("Expected", (), {"ground": nominal()})(), lambda: 0.0)
+
+    def disagreement(self, image, canvases, robots):
+        return next(self.masks)
+
+
+def spot(x, y):
+    mask = np.zeros((180, 320), bool)
+    mask[y : y + 6, x : x + 6] = True
+    return mask
+
+
+@pytest.mark.parametrize(
+    ("masks", "changed"),
+    [([spot(50, 50)] * 3, True), ([spot(50, 50), spot(90, 50), spot(130, 50)], False), ([spot(50, 50)] * 2, False)],
+    ids=["a thing was moved", "a hand passed", "not yet"],
+)
+def test_things_have_moved_if_the_same_place_disagrees_in_a_row(masks, changed):
+    watch = Eyes(*masks)
+    for _ in masks[:PATIENCE]:
+        watch.check(np.zeros((2, 2), np.uint8), [], [])
+    assert watch.changed == changed
+    assert watch.places == ([pytest.approx((158.0, 178.0))] if changed else [])
