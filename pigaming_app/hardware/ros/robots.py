@@ -15,7 +15,7 @@ from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.link import BEAT, FAREWELLS, PATIENCE
 from pigaming_app.hardware.ros.node import Pose, RosNode
 from pigaming_app.hardware.ros.units import ArenaFrame
-from pigaming_app.hardware.signals import CameraFrame, Clock, Fix, Telemetry, WheelCommand
+from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureState, Fix, Telemetry, WheelCommand
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
 from pigaming_app.sim.drivetrain import Drivetrain, twist
 from pigaming_app.sim.plant import Twist
@@ -46,6 +46,11 @@ class RosPoses(PoseFilters):
     @property
     def fault(self) -> OperatorMessage | None:
         return self.node.fault
+
+    @property
+    def exposure(self) -> ExposureState:
+        """Unknown: the cameras are the network's."""
+        return ExposureState()
 
     def newest(self) -> CameraFrame | None:
         """A frame without a picture if poses have arrived, else None."""
@@ -99,6 +104,14 @@ class RosLink:
     def fault(self) -> OperatorMessage | None:
         dead = self._thread is not None and not self._thread.is_alive() and not self._closing.is_set()
         return OperatorMessage("ros_gone") if dead else self.node.fault
+
+    @property
+    def boards(self) -> dict[int, int]:
+        """None: topics do not tell the kind of a robot."""
+        return {}
+
+    def misfit(self, robot: int) -> None:
+        """None: the robots of a topic are those of this network."""
 
     def send(self, wheels: Sequence[WheelCommand | None]) -> None:
         """Post the wheel commands of all robots; None: stop."""

@@ -10,9 +10,11 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault
 from pigaming_app.sim.world import DT, ROBOTS
 
 if TYPE_CHECKING:
+    from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.ros.node import RosNode
 
 WIDTH_MM = 2112.0  # of the nominal arena
@@ -25,6 +27,7 @@ class RosSession:
     """Robots of an arena `width` mm wide."""
 
     emulated = False
+    quality: "CameraQuality | None" = None  # the cameras are those of the network
 
     def __init__(self, width: float = WIDTH_MM) -> None:
         self.width, self.mm = width, 0.0
@@ -40,6 +43,13 @@ class RosSession:
 
     @property
     def site(self) -> "CalibrationSite":
+        raise RobotsUnavailable(OperatorMessage("ros_site"))
+
+    @property
+    def arena_id(self) -> int:
+        raise RobotsUnavailable(OperatorMessage("ros_site"))
+
+    def carrier(self, number: int) -> "Carrier":
         raise RobotsUnavailable(OperatorMessage("ros_site"))
 
     def open(self) -> "Rig":
