@@ -1,0 +1,73 @@
+"""Stand-in of the module `machine`: pins, PWM, ADC, timers and watchdog of an emulated board."""
+
+import js
+
+PWRON_RESET, WDT_RESET = 1, 3
+FULL_MV = 9300  # of the boards' dividers
+timers = []
+
+
+class Pin:
+    IN, OUT, PULL_UP, IRQ_RISING = 0, 1, 2, 4
+
+    def __init__(self, name, mode=-1, pull=-1):
+        self.name = str(name)
+
+    def value(self, value=None):
+        if value is not None:
+            js.bridge.pin(self.name, int(value))
+
+
+class PWM:
+    def __init__(self, pin, freq):
+        self.name = pin.name
+
+    def duty_u16(self, duty):
+        if not 0 <= duty <= 65535:
+            raise ValueError(duty)
+        js.bridge.pin(self.name, duty)
+
+
+class ADC:
+    def __init__(self, pin):
+        pass
+
+    def read_u16(self):
+        return min(65535, js.bridge.battery() * 65536 // FULL_MV)
+
+
+class WDT:
+    def __init__(self, timeout):
+        js.bridge.watch(timeout)
+        self.feed()
+
+    def feed(self):
+        js.bridge.feed()
+
+
+class Timer:
+    PERIODIC = 1
+
+    def __init__(self, number):
+        pass
+
+    def init(self, mode, period, callback):
+        self.period, self.callback = period, callback
+        self.due = js.bridge.ticks() + period
+        timers.append(self)
+
+
+def fire():
+    """Call back the timers that are due."""
+    for timer in timers:
+        if js.bridge.ticks() >= timer.due:
+            timer.due += timer.period * ((js.bridge.ticks() - timer.due) // timer.period + 1)
+            timer.callback(timer)
+
+
+def next_timer():
+    return min([timer.due for timer in timers] or [1 << 29])
+
+
+def reset_cause():
+    return js.bridge.cause()
