@@ -1,4 +1,5 @@
 // One emulated board: MicroPython in this thread, with the robot's files and stand-ins for the hardware.
+import { randomBytes } from "node:crypto";
 import { parentPort, receiveMessageOnPort, workerData } from "node:worker_threads";
 
 const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6; // as in boards.mjs
@@ -10,6 +11,7 @@ const time = () => paced ? Atomics.load(numbers, NOW) : monotonic();
 
 globalThis.bridge = {
   ticks: () => Math.floor(time()),
+  random: (size) => randomBytes(size).toString("hex"),
   cause: () => numbers[CAUSE],
   battery: () => numbers[BATTERY],
   hangs: () => numbers[HANG] === 1,

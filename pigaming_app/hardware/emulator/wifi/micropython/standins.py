@@ -1,7 +1,6 @@
 """Completes the WebAssembly build of MicroPython by what every board has: a clock that sleeps, and random bytes."""
 
 import os
-import random
 import time
 
 import js
@@ -26,5 +25,4 @@ def sleep_ms(ms):
 
 
 time.ticks_ms, time.sleep_ms = ticks_ms, sleep_ms
-os.urandom = lambda size: bytes([random.getrandbits(8) for _ in range(size)])
-random.seed(js.bridge.ticks())
+os.urandom = lambda size: bytes.fromhex(js.bridge.random(size))
