@@ -73,8 +73,9 @@ def faults(seed: int, channel: WifiChannel = LOSSY) -> dict[str, float]:
     """Stopping times, s, of paired robots in the emulated arena. Raises RuntimeError if a fault is not reported."""
     bed = Testbed(seed, 30.0, wifi=channel)
     try:
-        trail = FigureEight(bed)
+        bed.session.find()
         pair(bed)
+        trail = FigureEight(bed)
         stops = {}
         for i, name in enumerate(FAULTS):
             result = emergencies.stop(trail, name, i % ROBOTS)
