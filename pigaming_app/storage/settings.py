@@ -155,6 +155,9 @@ class Settings:
     port: str = _setting("", ShortText())  # of the radio; empty: the first one found
     baud: int = _setting(57600, Range(1200, 921600))
     radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # its mode
+    arena_id: int = _setting(0, Range(0, 16383))  # of this computer and its robots; 0: drawn on first use
+    radio_channel: int = _setting(0, Range(0, 26))  # of the XBees, 11 to 26; 0: follows from the arena id
+    radio_pan: int = _setting(0, Range(0, 65534))  # of the XBees; 0: follows from the arena id
     mat: bool = _setting(False, Boolean())  # real robots are selectable
     real: list[int] = field(
         default_factory=list, metadata={"validator": SeatNumbers()}

@@ -28,6 +28,7 @@ OPEN = 3  # steps of exposure
 SHOWS_AFTER = 0.025  # s, latency of the projector
 REFRESH = 0.01  # s, least interval of two projected pictures; of two closer ones only the second is shown
 LIGHT_TURN = 40.0  # s, period of the moving light
+ARENA_ID = 4711  # of robots and computer, see firmware
 EXPOSURE_PERIOD = 6.0  # s between two exposure steps
 
 
@@ -35,7 +36,7 @@ class EmulatedArena:
     """The mat and its surroundings. `camera` is a CameraSource, `radio` a SerialPort, `faults` a FaultInjector.
 
     `exposure_jitter`: size of spontaneous exposure steps, as a share; `begin`: start of the clock, s; `refresh`: see
-    SceneRenderer, 1 renders every picture completely.
+    SceneRenderer, 1 renders every picture completely; `arena_id`: of its robots.
     """
 
     def __init__(
@@ -46,15 +47,16 @@ class EmulatedArena:
         refresh: int = 1,
         exposure_jitter: float = 0.0,
         begin: float = 0.0,
+        arena_id: int = ARENA_ID,
     ) -> None:
         random = Random(f"arena {seed}")
-        self.ticks, self.begin = 0, begin  # ticks of STEP
+        self.ticks, self.begin, self.arena_id = 0, begin, arena_id  # ticks of STEP
         self.optics = Optics()
         self.robots = [
             EmulatedRobot(random_parameters(random), *self._on_mat(pose), Random(f"{seed} {i}"))
             for i, pose in enumerate(STARTS)
         ]
-        self.firmwares = [Firmware(robot, i + 1) for i, robot in enumerate(self.robots)]
+        self.firmwares = [Firmware(robot, i + 1, arena_id) for i, robot in enumerate(self.robots)]
         self.radio = EmulatedRadio(self.firmwares, channel or RadioChannel(), self.clock, seed)
         self.camera = EmulatedCamera(
             SceneRenderer(self.optics, seed, refresh), timing or FrameTiming(), self.clock, seed

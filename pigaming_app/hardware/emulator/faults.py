@@ -43,6 +43,9 @@ FAULTS = {
     "battery_low": "the battery of the robot is at 3.9 V",
     "robot_off": "the robot is switched off",
     "robot_mute": "the robot receives commands, but its reports are lost",
+    "old_firmware": "the robot has firmware 1, which knows neither arena ids nor today's packets",
+    "no_arena": "the robot was flashed without an arena id",
+    "other_arena": "the robot was flashed with the id of another arena",
     "pinned": "a hand holds the robot down on the mat",
     "lids_swapped": "the robot and the next one wear each other's lids",
     "motors_swapped": "the motors of the robot are connected to each other's outputs",
@@ -70,6 +73,7 @@ class FaultyArena(Protocol):
     camera: EmulatedCamera
     optics: Optics
     gain: float  # of the exposure
+    arena_id: int
 
     def clock(self) -> float: ...
 
@@ -115,6 +119,11 @@ class FaultInjector:
             target.powered = not on
         elif name == "robot_mute":
             arena.firmwares[robot].mute = on
+        elif name == "old_firmware":
+            arena.firmwares[robot].version = 1 if on else 2
+        elif name in ("no_arena", "other_arena"):
+            other = 0 if name == "no_arena" else arena.arena_id + 1
+            arena.firmwares[robot].arena = other if on else arena.arena_id
         elif name == "pinned":
             target.pinned = on
         elif name == "motors_swapped":

@@ -19,7 +19,6 @@ from pigaming_app.hardware.signals import Clock
 TRANSPARENT, API, API_ESCAPED = 0, 1, 2
 SILENCE = 3  # character times without data that end a packet in transparent mode
 LINE_HOLDS = 4096  # bytes in each queue; writes beyond it are refused
-PARAMETERS = {b"MY": 2, b"ID": 2, b"CH": 1, b"DB": 1, b"NI": 0, b"VR": 2, b"AP": 1, b"BD": 4}  # bytes of each
 
 
 @dataclass(frozen=True)
@@ -40,13 +39,20 @@ MODERATE = RadioChannel(loss=0.005, duplicates=0.005, broken=0.002)
 
 
 class EmulatedRadio:
-    """The computer's end of the radio, a SerialPort. `dead`: nothing goes through; `unplugged`: the port is gone."""
+    """The computer's end of the radio, a SerialPort. `dead`: nothing goes through; `unplugged`: the port is gone.
+
+    `module` is the computer's XBee, `modules` are those of the robots: only equal channels and PANs hear each other.
+    `neighbours`, the radios of other arenas in range, share their air.
+    """
 
     def __init__(self, firmwares: list[Firmware], channel: RadioChannel, clock: Clock, seed: int) -> None:
         self.firmwares, self.channel, self.clock = firmwares, channel, clock
         self.dead = self.unplugged = False
         self.extra_loss = self.extra_garbage = 0.0  # in addition to those of `channel`
         self.frames = 0  # valid frames from the computer
+        self.module = xbee.Module(channel.mode, 0, channel.baud)
+        self.modules = [xbee.Module(TRANSPARENT, firmware.address, channel.baud) for firmware in firmwares]
+        self.neighbours: list[EmulatedRadio] = []
         self._random = Random(f"radio {seed}")
         self._lock = Lock()
         self._receiver = xbee.FrameReceiver(channel.mode == API_ESCAPED)
@@ -131,18 +137,23 @@ class EmulatedRadio:
                 self._answer(bytes([xbee.TX_STATUS, number, 0 if reached else 1]), now + self._flight())
         elif frame[0] == xbee.AT and len(frame) >= 4:
             name, given = frame[2:4], frame[4:]
-            known = name in PARAMETERS
-            value = self.channel.mode if name == b"AP" else 0
-            answer = b"" if given or not known else value.to_bytes(max(1, PARAMETERS[name]), "big")
-            self._answer(bytes([xbee.AT_ANSWER, frame[1], *name, 0 if known else 2]) + answer, now + 0.002)
+            status, value = self.module.command(name, given)
+            self._answer(bytes([xbee.AT_ANSWER, frame[1], *name, status]) + value, now + 0.002)
 
     def _send(self, to: int, data: bytes, now: float) -> bool:
         """Send a packet to one robot or all; true if it counts as delivered."""
         if self.dead:
             return False
-        reached = to == xbee.BROADCAST
+        for neighbour in self.neighbours:
+            neighbour._arrive(to, data, now, self.module.network)
+        return self._arrive(to, data, now, self.module.network) or to == xbee.BROADCAST
+
+    def _arrive(self, to: int, data: bytes, now: float, network: tuple[int, int]) -> bool:
+        """Pass a packet on the air of a network to the robots that it reaches; true if there is one."""
+        reached = False
         for robot, firmware in enumerate(self.firmwares):
-            if to in (xbee.BROADCAST, firmware.address) and not self._lost(to):
+            in_network = self.modules[robot].network == network
+            if in_network and to in (xbee.BROADCAST, firmware.address) and not self._lost(to):
                 reached = reached or firmware.robot.alive
                 for _ in range(2 if self._random.random() < self.channel.duplicates else 1):
                     self._deliver(robot, data, now + self._flight())
@@ -157,16 +168,21 @@ class EmulatedRadio:
         heappush(self._events, (now + len(data) * 10.0 / self.channel.baud, self._order, robot, data))
 
     def _report(self, robot: int, data: bytes, now: float) -> None:
-        """Send a report of a robot to the computer."""
-        if self.dead or self._lost(0):
+        """Send a report of a robot to the computer, and to those of other arenas."""
+        if self.dead:
             return
-        leaves = now + (len(data) + SILENCE) * 10.0 / self.channel.baud + self._flight()
+        sent = now + (len(data) + SILENCE) * 10.0 / self.channel.baud
+        for radio in (self, *self.neighbours):
+            if radio.module.network == self.modules[robot].network and not self._lost(0):
+                radio._overhear(robot, self.firmwares[robot].address, data, sent + self._flight())
+
+    def _overhear(self, robot: int, address: int, data: bytes, now: float) -> None:
+        """Queue a report for the computer."""
         if self.channel.mode == TRANSPARENT:
-            self._line(data, leaves)
+            self._line(data, now)
             return
         strength = 38 + 2 * robot + self._random.randrange(6)  # -dBm
-        address = self.firmwares[robot].address
-        self._answer(bytes([xbee.RX16, 0, address, strength, 0]) + data, leaves)
+        self._answer(bytes([xbee.RX16, 0, address, strength, 0]) + data, now)
 
     def _answer(self, data: bytes, now: float) -> None:
         self._line(xbee.framed(data, self.channel.mode == API_ESCAPED), now)

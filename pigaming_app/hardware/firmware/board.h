@@ -16,6 +16,7 @@
 #define BAUD 57600UL
 #endif
 
+#define VERSION 2        /* of this firmware and of its radio protocol; robots of version 1 report without it */
 #define ROBOTS 4
 #define DEADMAN_MS 250   /* time without a valid drive packet after which the motors stop */
 #define REPORT_MS 200    /* reporting cycle */
@@ -27,7 +28,11 @@
 #define LOW_MV 4400      /* warning */
 #define EMPTY_MV 4000    /* motors off until the voltage is at least LOW_MV again */
 
-#define ADDRESS_AT 0     /* in the EEPROM: the robot's number, 1 to 4; with others it neither drives nor reports */
+/* In the EEPROM. Without a valid address a robot neither drives nor reports; without an arena it reports NO_ARENA. */
+#define ADDRESS_AT 0     /* the robot's number, 1 to 4 */
+#define ARENA_AT 1       /* two bytes, low first: the arena's id, 1 to LAST_ARENA */
+#define NO_ARENA 0
+#define LAST_ARENA 16383
 
 enum { DEADMAN = 1, LOW = 2, EMPTY = 4, RESTARTED = 8 }; /* flags of a report */
 

@@ -1,6 +1,6 @@
-/* Main program of a robot: executes the newest valid drive packet and reports five times a second.
+/* Main program of a robot: executes the newest drive packet of its arena and reports five times a second.
  *
- * Three mechanisms stop the motors: the deadman, counted in a timer interrupt, after 250 ms without a valid packet; the
+ * Three mechanisms stop the motors: the deadman, counted in a timer interrupt, after 250 ms without a new packet; the
  * hardware watchdog, which resets the processor, and so switches the motor pins off, if the main loop or that timer
  * hangs for 120 ms; and an empty battery.
  * SPDX-License-Identifier: MIT */
@@ -17,11 +17,14 @@
 #include "packets.h"
 #include "serial.h"
 
-static volatile uint8_t quiet = DEADMAN_MS; /* ms since the last valid packet, at most DEADMAN_MS */
+#define NO_SEQ UINT8_MAX
+
+static volatile uint8_t quiet = DEADMAN_MS; /* ms since the last new packet, at most DEADMAN_MS */
 static volatile uint8_t ticks; /* ms passed and not yet processed */
 
 static uint8_t address, restarted;
-static uint8_t seq; /* sequence number of the last valid packet */
+static uint16_t arena;
+static uint8_t seq = NO_SEQ; /* sequence number of the last packet executed */
 static uint8_t phase; /* ms within the reporting cycle; restarts with packets 0, 10, 20, ... */
 static uint8_t since_report = REPORT_GAP_MS; /* ms since the last report, at most REPORT_GAP_MS */
 
@@ -39,9 +42,12 @@ static void timer_begin(void)
     TIMSK1 = _BV(OCIE1A);
 }
 
+/* Packets of other arenas and repeated ones are ignored: they neither drive nor feed the deadman. */
 static void execute(const struct drive *drive)
 {
     uint8_t robot = address - 1; /* out of range without a valid address */
+    if (arena == NO_ARENA || drive->arena != arena || drive->seq == seq)
+        return;
     seq = drive->seq;
     if (seq % 10 == 0)
         phase = 0;
@@ -58,8 +64,14 @@ static void execute(const struct drive *drive)
 static void report(void)
 {
     uint8_t packet[REPORT_LENGTH];
-    uint8_t flags = battery_flags() | restarted | (quiet == DEADMAN_MS ? DEADMAN : 0);
-    report_packet(packet, address, seq, flags, battery_millivolts());
+    struct report report = {
+        .arena = arena,
+        .address = address,
+        .seq = seq == NO_SEQ ? 0 : seq,
+        .flags = battery_flags() | restarted | (quiet == DEADMAN_MS ? DEADMAN : 0),
+        .millivolts = battery_millivolts(),
+    };
+    report_packet(packet, &report);
     serial_write(packet, REPORT_LENGTH);
     since_report = 0;
 }
@@ -102,6 +114,9 @@ int main(void)
     address = eeprom_read_byte((const uint8_t *)ADDRESS_AT);
     if (address == 0)
         address = UINT8_MAX;
+    arena = eeprom_read_word((const uint16_t *)ARENA_AT);
+    if (arena > LAST_ARENA)
+        arena = NO_ARENA;
     DDRD |= _BV(PD7);
     serial_begin();
     battery_begin();

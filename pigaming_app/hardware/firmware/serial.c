@@ -17,6 +17,7 @@ static volatile uint8_t sent[ROOM], sent_in, sent_out;
 
 void serial_begin(void)
 {
+    PORTD |= _BV(PD0); /* pull-up: without a radio the line rests instead of picking up noise */
     UCSR0A = _BV(U2X0);
     UBRR0 = DIVISOR;
     UCSR0C = _BV(UCSZ01) | _BV(UCSZ00); /* 8N1 */

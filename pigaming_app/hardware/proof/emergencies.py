@@ -136,8 +136,9 @@ DRIVER = """
 import sys, time
 from pigaming_app.hardware.radio.serial_line import serial_port
 from pigaming_app.hardware.radio.link import Link
+from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
 from pigaming_app.hardware.signals import WheelCommand
-link = Link(serial_port(sys.argv[1]), time.monotonic).start()
+link = Link(serial_port(sys.argv[1]), time.monotonic, XBeeProtocol(int(sys.argv[2]))).start()
 while True:
     link.send([WheelCommand(0.5, 0.4)] * 4)
     time.sleep(0.02)
@@ -153,7 +154,7 @@ def kill(seed: int) -> float:
         raise ImportError("pyserial is not installed")
     arena = EmulatedArena(seed, refresh=1000, begin=time.monotonic())
     with RealtimeArena(arena, terminal := PseudoTerminal()):
-        driver = subprocess.Popen([sys.executable, "-c", DRIVER, terminal.name], cwd=ROOT)
+        driver = subprocess.Popen([sys.executable, "-c", DRIVER, terminal.name, str(arena.arena_id)], cwd=ROOT)
         try:
             _wait_until(lambda: all(robot.left_speed > 100.0 for robot in arena.robots))
             killed = arena.clock()

@@ -29,7 +29,7 @@ SLICE = 0.5 * DT  # s of simulated time after which arena and rig alternate
 DARK = (1080, 1920)  # px, size of a black image
 FPS = 30.0  # frames/s of the emulated camera
 WHOLE, QUICK = 3, 30  # interval of complete renders, frames: in real and in simulated time
-EMULATED = 77  # id of the arena with emulated boards
+EMULATED_KEY = bytes(range(16))  # of the emulated Wi-Fi robots
 SEARCH = 10.0  # timeout for finding all robots, s
 
 
@@ -120,12 +120,17 @@ class EmulatedSession:
             from pigaming_app.hardware.control.rig import UNMEASURED
             from pigaming_app.hardware.emulator.site import EmulatedCameraSource
             from pigaming_app.hardware.radio.link import Link
+            from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
             from pigaming_app.sim.world import ROBOTS
 
             arena, ground = self.arena, self.ground
             arena.cleared = False
             self._now, self.mm = arena.clock(), ground.mm
-            link = self._wifi_link(self._wifi) if self._wifi else Link(arena.radio.open, arena.clock, name="EMU0")
+            link = (
+                self._wifi_link(self._wifi)
+                if self._wifi
+                else Link(arena.radio.open, arena.clock, XBeeProtocol(arena.arena_id), "EMU0")
+            )
             self._rig = new_rig(
                 EmulatedCameraSource(arena), link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker
             )
@@ -220,7 +225,7 @@ class EmulatedSession:
         from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
 
         if self.network is None:
-            network = WifiNetwork(EMULATED, bytes(range(16)), self.arena.clock, 0, LOOPBACK).open()
+            network = WifiNetwork(self.arena.arena_id, EMULATED_KEY, self.arena.clock, 0, LOOPBACK).open()
             try:
                 self.arena.radio = WifiRadio(self.arena, channel, network.bound, network.arena, network.key)
             except NoMicroPython as error:

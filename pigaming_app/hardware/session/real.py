@@ -98,12 +98,14 @@ class RealSession:
         from pigaming_app.hardware.radio.serial_line import ports, serial_port
         from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
         from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
+        from pigaming_app.hardware.session import store
 
         chosen = self.settings
         name = chosen.port or next((port.device for port in ports()), NO_PORT)
         if chosen.radio == STOCK:
             return Link(serial_port(name, BAUD), time.monotonic, StockProtocol(0), name)
-        return Link(serial_port(name, chosen.baud), time.monotonic, XBeeProtocol(XBeeMode(chosen.radio)), name)
+        protocol = XBeeProtocol(store.arena_id(chosen), XBeeMode(chosen.radio))
+        return Link(serial_port(name, chosen.baud), time.monotonic, protocol, name)
 
 
 class SizedCamera:

@@ -3,17 +3,22 @@
 Files of the emulated arena have separate names, so they never overwrite those of the real one.
 """
 
+import logging
+import secrets
 from collections.abc import Sequence
 from pathlib import Path
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
 from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.parsing import ParseError, describe_error, read_text
-from pigaming_app.storage.safe_files import write_with_backup
+from pigaming_app.storage.safe_files import NotSaved, write_with_backup
 from pigaming_app.storage.settings import Settings, folders
+
+log = logging.getLogger("pigaming")
 
 
 def calibration_file(site: str) -> Path:
@@ -62,3 +67,18 @@ def save_radios(channels: Sequence[int]) -> None:
     settings, _ = Settings.load(config)
     settings.radios = [channel + 1 for channel in channels]
     settings.save(config)
+
+
+def arena_id(settings: Settings) -> int:
+    """The arena id of these settings; on first use it is drawn at random and saved."""
+    if not settings.arena_id:
+        config = folders().config
+        saved, _ = Settings.load(config)
+        if not saved.arena_id:
+            saved.arena_id = 1 + secrets.randbelow(LAST_ARENA)
+            try:
+                saved.save(config)
+            except NotSaved as error:
+                log.warning("%s", error)
+        settings.arena_id = saved.arena_id
+    return settings.arena_id

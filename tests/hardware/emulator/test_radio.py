@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.arena import ARENA_ID, EmulatedArena
 from pigaming_app.hardware.emulator.firmware import check
 from pigaming_app.hardware.emulator.radio import API, TRANSPARENT, RadioChannel
 from pigaming_app.hardware.emulator.xbee import FrameReceiver, framed
@@ -13,10 +13,10 @@ GOLDEN = bytes.fromhex("7E 00 09 01 01 00 01 00 50 07 11 7E 16")
 GOLDEN_ESCAPED = bytes.fromhex("7E 00 09 01 01 00 01 00 50 07 7D 31 7D 5E 16")
 
 
-def drive(seq, *speeds, enable=0b1111):
+def drive(seq, *speeds, enable=0b1111, arena=ARENA_ID):
     """A drive packet, assembled by hand."""
-    packet = bytes([0xD0, seq, enable, *speeds])
-    return packet + bytes([check(packet)])
+    packet = bytes([0xD1, arena % 128, arena // 128, seq, enable, *speeds])
+    return packet + check(packet)
 
 
 def broadcast(packet, escaped=True, number=1):
@@ -86,9 +86,11 @@ def test_telemetry_comes_five_times_a_second_from_each():
     arena.advance(1.0)
     reports = [frame for frame in received(arena) if frame[0] == 0x81]
     assert [sum(frame[2] == address for frame in reports) for address in (1, 2, 3, 4)] == [5] * 4
-    battery = reports[0][9] | reports[0][10] << 7
-    assert 5000 <= battery <= 5300
-    assert reports[0][8] == 1, "it says that its deadman stopped it"
+    report = reports[0][5:]
+    assert report[:5] == bytes([0xD5, ARENA_ID % 128, ARENA_ID // 128, 1, 2])
+    assert 5000 <= report[7] + 128 * report[8] <= 5300
+    assert report[6] == 1, "it says that its deadman stopped it"
+    assert report[9:] == check(report[:9])
 
 
 def test_status_of_what_was_sent_and_settings_that_were_asked_for():

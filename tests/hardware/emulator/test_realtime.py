@@ -24,8 +24,9 @@ DRIVER = """
 import sys, time
 from pigaming_app.hardware.radio.serial_line import serial_port
 from pigaming_app.hardware.radio.link import Link
+from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
 from pigaming_app.hardware.signals import WheelCommand
-link = Link(serial_port(sys.argv[1]), time.monotonic).start()
+link = Link(serial_port(sys.argv[1]), time.monotonic, XBeeProtocol(int(sys.argv[2]))).start()
 while True:
     link.send([WheelCommand(0.5, 0.4)] * 4)
     time.sleep(0.02)
@@ -44,7 +45,7 @@ def until(true, seconds=20.0):
 def test_robots_stop_when_the_program_that_drives_them_is_killed():
     arena = EmulatedArena(1, refresh=1000, begin=time.monotonic())
     with RealtimeArena(arena, PseudoTerminal()) as live:
-        driver = subprocess.Popen([sys.executable, "-c", DRIVER, live.terminal.name], cwd=ROOT)
+        driver = subprocess.Popen([sys.executable, "-c", DRIVER, live.terminal.name, str(arena.arena_id)], cwd=ROOT)
         try:
             until(lambda: all(robot.left_speed > 100 for robot in arena.robots))
             os.kill(driver.pid, signal.SIGKILL)

@@ -1,10 +1,11 @@
-/* Simulated 3pi (simavr) for test_firmware.py. Usage: board ROBOT.ELF BAUD ADDRESS
+/* Simulated 3pi (simavr) for test_firmware.py. Usage: board ROBOT.ELF BAUD ADDRESS ARENA
  *
  * It opens a pseudo-terminal, prints its name and executes commands from standard input, one per line. Simulated time
  * passes only in `run`, so measurements do not depend on the speed or load of this computer.
  *   run US        advance simulated time by US microseconds
  *   await N       wait, in real time, until N more bytes have come over the terminal; they arrive at the baud rate
  *   battery MV    set the battery voltage
+ *   rx            print `US rx 1` if the pull-up of the receiving pin is on, else `US rx 0`
  *   hang          insert an endless loop at the present instruction, outside interrupts; a reset removes it
  * Output lines begin with the simulated time in microseconds: `US motors LEFT RIGHT` when the duty of a motor changes,
  * of 256, forward positive; `US byte` when the robot sends a byte; `US reset`; `US done` when a command has finished.
@@ -164,8 +165,9 @@ static int open_terminal(void)
     return tcsetattr(near, TCSANOW, &settings);
 }
 
-static int begin(const char *elf, unsigned long baud, uint8_t address)
+static int begin(const char *elf, unsigned long baud, uint8_t address, uint16_t arena)
 {
+    uint8_t settings[3] = {address, arena & 0xFF, arena >> 8};
     elf_firmware_t firmware = {0};
     uint32_t flags = 0;
     if (elf_read_firmware(elf, &firmware) || !(avr = avr_make_mcu_by_name("atmega328p")))
@@ -175,7 +177,7 @@ static int begin(const char *elf, unsigned long baud, uint8_t address)
     avr->vcc = avr->avcc = avr->aref = 5000;
     avr->sleep = at_once;
     avr_load_firmware(avr, &firmware);
-    avr_eeprom_desc_t eeprom = {.ee = &address, .offset = 0, .size = 1};
+    avr_eeprom_desc_t eeprom = {.ee = settings, .offset = 0, .size = sizeof settings};
     avr_ioctl(avr, AVR_IOCTL_EEPROM_SET, &eeprom);
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
     uart_in = avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
@@ -191,7 +193,7 @@ int main(int count, char **words)
 {
     char line[80];
     unsigned long long number;
-    if (count != 4 || begin(words[1], atol(words[2]), atoi(words[3])))
+    if (count != 5 || begin(words[1], atol(words[2]), atoi(words[3]), atoi(words[4])))
         return 2;
     printf("%s\n", ptsname(terminal));
     fflush(stdout);
@@ -202,6 +204,8 @@ int main(int count, char **words)
             await_bytes(number);
         else if (sscanf(line, "battery %llu", &number) == 1)
             avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC6), number * 2 / 3);
+        else if (!strcmp(line, "rx\n"))
+            printf("%llu rx %d\n", now(), avr->data[PORTD] & ~avr->data[DDRD] & 1);
         else if (!strcmp(line, "hang\n"))
             hang();
         printf("%llu done\n", now());

@@ -9,11 +9,13 @@ from typing import NamedTuple
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import PacketDecoder, drive_packet
 from pigaming_app.hardware.signals import WheelCommand
+from tests.hardware.robot_packets import ARENA
 
 HERE = Path(__file__).parent
 FIRMWARE = HERE.parents[2] / "pigaming_app" / "hardware" / "firmware"
 BAUD = 57600
 BYTE = 10e6 / BAUD  # µs on the line
+DRIVE_BYTES, REPORT_BYTES = packets.LENGTHS[packets.DRIVE], packets.LENGTHS[packets.REPORT]
 AHEAD = WheelCommand(1.0, 1.0)
 
 
@@ -35,9 +37,12 @@ class Event(NamedTuple):
 class Board:
     """A simulated robot."""
 
-    def __init__(self, program, firmware, address):
+    def __init__(self, program, firmware, address, arena):
         self.process = subprocess.Popen(
-            [program, firmware, str(BAUD), str(address)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+            [program, firmware, str(BAUD), str(address), str(arena)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
         )
         lines = iter(self.process.stdout.readline, "")
         self.device = next(line for line in lines if line.startswith("/dev/")).strip()
@@ -71,8 +76,8 @@ class Board:
         self.port.write(data)
         self.do(f"await {len(data)}")
 
-    def drive(self, seq=1, wheels=(AHEAD,) * 4):
-        self.say(drive_packet(seq, wheels))
+    def drive(self, seq=1, wheels=(AHEAD,) * 4, arena=ARENA):
+        self.say(drive_packet(arena, seq, wheels))
 
     @property
     def motors(self):
@@ -85,7 +90,10 @@ class Board:
         decoder = PacketDecoder()
         said = decoder.feed(self.port.read(len(times)))
         assert decoder.garbage == 0
-        return [(at, packets.report_from(packet)) for at, packet in zip(times[6::7], said, strict=True)]
+        return [
+            (at, packets.report_from(packet))
+            for at, packet in zip(times[REPORT_BYTES - 1 :: REPORT_BYTES], said, strict=True)
+        ]
 
     def close(self):
         self.port.close()

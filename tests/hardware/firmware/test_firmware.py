@@ -12,8 +12,8 @@ from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, LOW, RESTARTED, PacketDecoder, drive_packet
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 from pigaming_app.hardware.signals import WheelCommand
-from tests.hardware.firmware.board import AHEAD, BYTE, Board, build, missing
-from tests.hardware.robot_packets import drive_from, report_packet
+from tests.hardware.firmware.board import AHEAD, BYTE, DRIVE_BYTES, REPORT_BYTES, Board, build, missing
+from tests.hardware.robot_packets import ARENA, drive_from, report_packet
 
 pytest.importorskip("serial")
 pytestmark = pytest.mark.skipif(
@@ -33,8 +33,8 @@ def built(tmp_path_factory):
 def make_board(built):
     boards = []
 
-    def make(address=1):
-        boards.append(Board(*built, address))
+    def make(address=1, arena=ARENA):
+        boards.append(Board(*built, address, arena))
         return boards[-1]
 
     yield make
@@ -61,7 +61,7 @@ def test_thirty_of_thirty_commands_reach_the_motors(board):
         board.drive(seq, [WheelCommand(left / 63, right / 63)])
         happened = [event for event in board.run(20) if event.kind == "motors"]
         assert board.motors == (duty(left), duty(right))
-        assert all(event.at - sent < 12 * BYTE + 2000 for event in happened)
+        assert all(event.at - sent < DRIVE_BYTES * BYTE + 2000 for event in happened)
 
 
 @pytest.mark.parametrize("address", [1, 2, 3, 4])
@@ -89,6 +89,48 @@ def test_a_robot_without_an_address_neither_drives_nor_speaks(make_board, addres
     assert {event.kind for event in board.events if event.at > 1000} == set()
 
 
+def test_another_arena_neither_drives_a_robot_nor_feeds_its_deadman(board):
+    """Its stop does not brake, its drive does not keep motors on; nor do such packets take part in the time slots."""
+    sent = board.at
+    board.drive(1)
+    board.run(20)
+    for seq in range(2, 20):
+        board.drive(seq, [None] * 4 if seq < 5 else [AHEAD], arena=ARENA + 1)
+        board.run(20)
+        assert seq > 5 or board.motors == FULL
+    (stop,) = [event for event in board.events if event.kind == "motors" and event.at > sent + 10_000]
+    assert stop.motors == (0, 0)
+    assert stop.at - sent < 255_000
+
+
+def test_a_repeated_packet_neither_drives_nor_feeds_the_deadman(board):
+    sent = board.at
+    for _ in range(30):
+        board.drive(7)
+        board.run(20)
+    start, stop = [event for event in board.events if event.kind == "motors" and event.at > sent]
+    assert (start.motors, stop.motors) == (FULL, (0, 0))
+    assert stop.at - sent < 256_000
+    board.drive(8)
+    board.run(20)
+    assert board.motors == FULL
+
+
+@pytest.mark.parametrize("arena", [0, 16384, 0xFFFF])
+def test_a_robot_without_an_arena_does_not_drive_but_says_so(make_board, arena):
+    board = make_board(2, arena)
+    for seq in range(30):
+        board.drive(seq, arena=max(1, arena & 0x3FFF))
+        board.run(20)
+    assert board.motors == (0, 0)
+    reports = [report for _, report in board.reports()]
+    assert {(report.arena, report.address, report.version) for report in reports} == {(0, 2, 2)}
+
+
+def test_the_receiving_line_is_pulled_up(board):
+    assert board.do("rx")[-1].motors == (1,)
+
+
 def test_the_motors_stop_250_ms_after_the_last_packet(board):
     for seq in range(1, 10):
         sent = board.at
@@ -96,7 +138,7 @@ def test_the_motors_stop_250_ms_after_the_last_packet(board):
         board.run(20)
     (stop,) = [event for event in board.run(400) if event.kind == "motors"]
     assert stop.motors == (0, 0)
-    assert stop.at - (sent + 12 * BYTE) == pytest.approx(250_000, abs=1500)
+    assert stop.at - (sent + DRIVE_BYTES * BYTE) == pytest.approx(250_000, abs=1500)
 
 
 def test_noise_and_broken_packets_do_not_keep_it_going(board):
@@ -104,8 +146,8 @@ def test_noise_and_broken_packets_do_not_keep_it_going(board):
     sent = board.at
     board.drive(1)
     board.run(20)
-    broken = bytearray(drive_packet(2, [AHEAD]))
-    broken[4] ^= 1
+    broken = bytearray(drive_packet(ARENA, 2, [AHEAD]))
+    broken[6] ^= 1
     for _ in range(20):
         board.say(bytes(broken) + chance.randbytes(20))
         board.run(20)
@@ -116,7 +158,7 @@ def test_noise_and_broken_packets_do_not_keep_it_going(board):
 
 @pytest.mark.parametrize("seed", range(8))
 def test_after_noise_the_next_packet_is_understood(board, seed):
-    noise = random.Random(seed).randbytes(50) + drive_packet(3, [AHEAD])[: 1 + seed]
+    noise = random.Random(seed).randbytes(50) + drive_packet(ARENA, 3, [AHEAD])[: 1 + seed]
     board.say(noise)
     board.drive(4)
     board.run(20)
@@ -125,11 +167,11 @@ def test_after_noise_the_next_packet_is_understood(board, seed):
 
 def scraps(chance):
     """Bytes between packets: noise, a truncated packet, a packet with a bit error, a report, or nothing."""
-    packet = bytearray(drive_packet(chance.randrange(128), [AHEAD]))
+    packet = bytearray(drive_packet(ARENA, chance.randrange(128), [AHEAD]))
     wrong = bytearray(packet)
-    wrong[chance.randrange(12)] ^= 1 << chance.randrange(8)
-    report = report_packet(packets.RobotReport(2, 1, 0, 5000))
-    return chance.choice((chance.randbytes(9), packet[: chance.randrange(12)], wrong, report, b""))
+    wrong[chance.randrange(DRIVE_BYTES)] ^= 1 << chance.randrange(8)
+    report = report_packet(packets.RobotReport(ARENA, 2, packets.VERSION, 1, 0, 5000))
+    return chance.choice((chance.randbytes(9), packet[: chance.randrange(DRIVE_BYTES)], wrong, report, b""))
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -138,7 +180,7 @@ def test_of_a_torn_stream_robot_and_computer_understand_the_same(board, seed):
     expected = (0, 0)
     for seq in range(50):
         wheels = WheelCommand(chance.randint(-63, 63) / 63, chance.randint(-63, 63) / 63)
-        stream = scraps(chance) + drive_packet(seq, [wheels]) + scraps(chance)
+        stream = scraps(chance) + drive_packet(ARENA, seq, [wheels]) + scraps(chance)
         board.say(stream)
         board.run(len(stream) * BYTE / 1000 + 3)
         for packet in decoder.feed(stream):
@@ -149,8 +191,8 @@ def test_of_a_torn_stream_robot_and_computer_understand_the_same(board, seed):
 
 
 def test_the_speed_that_nobody_sends_is_a_stop(board):
-    packet = b"\xd0\x01\x01\x7f\x7e" + b"\x3f" * 6
-    board.say(packet + bytes((packets.crc8(packet) & 0x7F,)))
+    packet = bytes((packets.DRIVE, *packets.in_7_bits(ARENA, 2), 1, 1, 0x7F, 0x7E)) + b"\x3f" * 6
+    board.say(packets.with_crc(packet))
     board.run(20)
     assert board.motors == (0, 256)
 
@@ -161,8 +203,8 @@ def test_when_the_program_hangs_the_watchdog_stops_the_motors(board):
     board.run(20)
     hung = board.at
     board.do("hang")
-    for _ in range(15):
-        board.drive(2)
+    for seq in range(15):
+        board.drive(2 + seq)
         board.run(20)
     (reset,) = [event for event in board.events if event.kind == "reset" and event.at]
     assert reset.at - hung < 140_000
@@ -187,14 +229,14 @@ def test_reports_come_five_times_a_second_each_robot_in_its_slot(make_board, add
     board.run(33)
     board.reports()
     for seq in range(100):
-        begun[seq] = board.at + 12 * BYTE
+        begun[seq] = board.at + DRIVE_BYTES * BYTE
         if seq % 10 or seq in (0, 30, 50, 80, 90):
             board.drive(seq)
         board.run(20)
     reports = [(at, report) for at, report in board.reports() if at > begun[10]]
     assert len(reports) == 9
     for at, report in reports:
-        slot = min(abs(at - begun[seq] - 7 * BYTE - 10_000 * (address - 1)) for seq in range(0, 100, 10))
+        slot = min(abs(at - begun[seq] - REPORT_BYTES * BYTE - 10_000 * (address - 1)) for seq in range(0, 100, 10))
         assert slot < 2500
         assert report.address == address
         assert report.flags == 0
@@ -267,7 +309,7 @@ def test_the_whole_way_from_the_link_to_the_motors(make_board, end):
     """Closed: the link sends stop. Silent: no more commands. Killed: the link ends at once, as with kill -9, and only
     the robot's deadman is left."""
     board = make_board(3)
-    link = Link(lambda: Terminal(board), lambda: board.at / 1e6, XBeeProtocol(XBeeMode.TRANSPARENT))
+    link = Link(lambda: Terminal(board), lambda: board.at / 1e6, XBeeProtocol(ARENA, XBeeMode.TRANSPARENT))
     for _ in range(50):
         link.send([None, AHEAD, WheelCommand(0.5, -1.0)])
         link.pump()
