@@ -8,7 +8,7 @@ from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.wifi.air import Air, WifiChannel
 from pigaming_app.hardware.emulator.wifi.boards import BoardConfig, Boards
 
-CELLS_EVERY = 0.1  # s between two looks at the batteries
+CELLS_EVERY = 0.02  # s between two looks at the batteries
 BOARDS = ("board_esp32", "board_pico_w")  # in turn
 
 
@@ -22,6 +22,7 @@ class WifiRadio(EmulatedRadio):
         super().__init__(arena.firmwares, RadioChannel(), arena.clock, number)
         self._arena = arena
         self._powered = [True] * len(arena.robots)
+        self._cells = [0] * len(arena.robots)  # mV
         self._cells_at = float("-inf")
         self.air = Air(len(arena.robots), arcade, channel, number)
         configs = [
@@ -55,5 +56,7 @@ class WifiRadio(EmulatedRadio):
             if body.alive != self._powered[robot]:
                 self._powered[robot] = body.alive
                 self.boards.disturb(robot, do="reboot" if body.alive else "off")
-            self.boards.disturb(robot, battery=round(1000 * body.battery))
+            if (millivolts := round(1000 * body.battery)) != self._cells[robot]:
+                self._cells[robot] = millivolts
+                self.boards.disturb(robot, battery=millivolts)
 

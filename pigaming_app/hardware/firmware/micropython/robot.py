@@ -79,7 +79,7 @@ class Robot:
             return
         self.measured = now
         if self.sensor is not None:
-            self.millivolts += (self.read_battery() - self.millivolts) // 8
+            self.millivolts += (self.read_battery() - self.millivolts) // 4
             self.empty = self.millivolts < (self.board.LOW_MV if self.empty else self.board.EMPTY_MV)
         if self.empty:
             self.brake()

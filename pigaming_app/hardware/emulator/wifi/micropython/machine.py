@@ -3,7 +3,7 @@
 import js
 
 PWRON_RESET, WDT_RESET = 1, 3
-FULL_MV = 9300  # of the boards' dividers
+FULL_MV = {"34": 9300, "26": 9900}  # of the battery at the end of the ADC: divider by 3 on an ESP32, a Pico W
 timers = []
 
 
@@ -30,10 +30,10 @@ class PWM:
 
 class ADC:
     def __init__(self, pin):
-        pass
+        self.full = FULL_MV[pin.name]
 
     def read_u16(self):
-        return min(65535, js.bridge.battery() * 65536 // FULL_MV)
+        return min(65535, js.bridge.battery() * 65536 // self.full)
 
 
 class WDT:
