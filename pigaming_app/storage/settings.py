@@ -103,6 +103,14 @@ class SeatNumbers:
         return "not all of 1, 2, 3, 4" if self.all_of_them and len(value) != 4 else None  # type: ignore[arg-type]
 
 
+class RobotKinds:
+    """A list of four names, each empty or of a kind that may no longer exist."""
+
+    def error(self, value: object) -> str | None:
+        short = isinstance(value, list) and len(value) == 4 and not any(ShortText().error(name) for name in value)
+        return None if short else "not a list of four short texts"
+
+
 class Corners:
     """An empty list, or eight whole numbers: the corners of the picture, px of the canvas."""
 
@@ -165,6 +173,9 @@ class Settings:
     radios: list[int] = field(
         default_factory=lambda: [1, 2, 3, 4], metadata={"validator": SeatNumbers(True)}
     )  # of each marker
+    kinds: list[str] = field(
+        default_factory=lambda: [""] * 4, metadata={"validator": RobotKinds()}
+    )  # of the robot on each radio; empty: as it announces
     pad_driving: str = _setting("", ShortText())  # driving style last chosen on a pad; empty: never
     keys_driving: str = _setting("", ShortText())  # the same on the keyboard
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file

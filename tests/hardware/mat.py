@@ -45,6 +45,9 @@ class Robot:
         self.angular += (goal[1] - self.angular) * share
 
 
+NOMINAL_MM = 1.32  # per px, of an arena of 2112 mm
+
+
 class Mat:
     """Camera, tracker and link in one; `rig` combines them."""
 
@@ -58,7 +61,9 @@ class Mat:
         self.radio = [0, 1, 2, 3]  # channel of each robot
         self.past = deque()  # (s, poses) in transit through the camera
         self.pictures = 0
-        self.rig = Rig(self, self, self, self.clock, (UNMEASURED,) * 4)
+        self.boards = {}
+        self.misfits = {}
+        self.rig = Rig(self, self, self, self.clock, (UNMEASURED,) * 4, mm=NOMINAL_MM)
 
     def clock(self):
         return self.now
@@ -124,6 +129,9 @@ class Mat:
     @property
     def telemetry(self):
         return {i: Telemetry(i, robot.battery, 0, robot.received) for i, robot in enumerate(self.robots)}
+
+    def misfit(self, robot):
+        return self.misfits.get(robot)
 
     def send(self, wheels):
         self.coming.append((self.now + TRUE.dead_time, tuple(wheels)))

@@ -4,7 +4,7 @@ A robot that sets out reserves its path; another sets out only if its own path i
 standing robots. When no robot can move, a blocking one makes room first. All others stand still.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import atan2, cos, pi, sqrt
 from typing import Any, NamedTuple
 
@@ -49,13 +49,19 @@ class HomingProgress(NamedTuple):
 
 
 class Homing:
-    """Drives the robots of `goals` (pose by robot) through the walls of the world."""
+    """Drives the robots of `goals` (pose by robot) through the walls of the world.
 
-    def __init__(self, world: World, goals: Mapping[int, Pose]) -> None:
+    `margins`: length by which each robot's body is wider than a simulated one, px.
+    """
+
+    def __init__(self, world: World, goals: Mapping[int, Pose], margins: Sequence[float] = (0.0,) * ROBOTS) -> None:
         self.world: Any = world
+        self._margins = [*margins, *[0.0] * ROBOTS]  # of the real robots, then of the simulated ones
         self.goals = dict(goals)
         self.places: list[HomingProgress] = []
-        self._floors = [inflated_floor(world, berth) for berth in BERTHS]
+        self._floors = {
+            margin: [inflated_floor(world, berth, margin) for berth in BERTHS] for margin in set(self._margins)
+        }
         self._paths: dict[int, list[Point]] = {}
         self._yielded: set[int] = set()  # robots that have made room
         self._arrived: set[int] = set()  # at the goal's position; only the turn is left
@@ -109,7 +115,7 @@ class Homing:
     def _set_out(self, robot: int, poses: Mapping[int, Pose]) -> None:
         """Find a path to its target: its goal, or the spot where it makes room."""
         target = self._paths[robot][-1] if robot in self._paths else self.goals[robot][:2]
-        for floor in self._floors:
+        for floor in self._floors[self._margins[robot]]:
             path = find_path(self._among(floor, robot, poses), poses[robot][:2], target)
             if path:
                 self._paths[robot] = path
@@ -125,18 +131,24 @@ class Homing:
             return
         for robot in sorted(under_way, key=lambda robot: (robot in self._yielded, robot)):
             self._yielded.add(robot)
-            floor = self._among(self._floors[0], robot, poses)
+            floor = self._among(self._floors[self._margins[robot]][0], robot, poses)
             taken = [pose[:2] for other, pose in poses.items() if other != robot]
             taken += [goal[:2] for goal in self.goals.values()]
             for spot in reachable_nodes(floor, poses[robot][:2]):
-                if all(distance(spot, point) > 2.0 * (RADIUS + MARGIN) for point in taken):
+                wide = 2.0 * (RADIUS + MARGIN + max(self._margins))
+                if all(distance(spot, point) > wide for point in taken):
                     self._paths[robot] = find_path(floor, poses[robot][:2], spot) or [spot]
                     return
 
     def _among(self, floor: Any, robot: int, poses: Mapping[int, Pose]) -> Any:
         """The floor with all other robots and their paths as obstacles."""
-        lines = [[pose[:2], *self._paths.get(other, ())] for other, pose in poses.items() if other != robot]
-        return with_obstacles(floor, lines, RADIUS + MARGIN)
+        half = RADIUS + MARGIN + self._margins[robot]
+        lines = [
+            ([pose[:2], *self._paths.get(other, ())], half + self._margins[other])
+            for other, pose in poses.items()
+            if other != robot
+        ]
+        return with_obstacles(floor, lines)
 
     def _follow(self, robot: int, pose: Pose) -> Twist:
         """The twist along its path; at the end, the turn to the goal's heading."""
@@ -153,7 +165,7 @@ class Homing:
             return 0.0, _on_the_spot(turn_to(goal[2] - heading), push)
         self._arrived.discard(robot)
         dx, dy = path[0][0] - x, path[0][1] - y
-        direction = _slide(self.world, (x, y), (dx, dy))
+        direction = _slide(self.world, (x, y), (dx, dy), self._margins[robot])
         held = direction != (dx, dy)
         bearing = turn_to(atan2(direction[1], direction[0]) - heading)
         back = remaining < 2.0 * RADIUS and abs(bearing) > 0.5 * pi
@@ -180,12 +192,12 @@ def _on_the_spot(angle: float, push: float) -> float:
     return rate if angle > 0.0 else -rate
 
 
-def _slide(world: Any, at: Point, aim: Point) -> Point:
+def _slide(world: Any, at: Point, aim: Point, margin: float) -> Point:
     """The direction of `aim`, deflected along a wall that limits the robot, and away from it the nearer it is.
 
     Straight away from the wall would oscillate: at the end of a wall a robot would move out and back without progress.
     """
-    held = [limit for limit in speed_limits(world, *at) if limit.speed < HELD]
+    held = [limit for limit in speed_limits(world, *at, margin=margin) if limit.speed < HELD]
     out_x, out_y = -sum(limit.nx for limit in held), -sum(limit.ny for limit in held)
     length = sqrt(out_x * out_x + out_y * out_y)
     inward = -(aim[0] * out_x + aim[1] * out_y)

@@ -23,23 +23,27 @@ def distance(one: Point, other: Point) -> float:
     return sqrt((one[0] - other[0]) ** 2 + (one[1] - other[1]) ** 2)
 
 
-def inflated_floor(world: Any, berth: float) -> Any:
-    """A floor with the standing walls of the world, each `berth` px thicker."""
+def inflated_floor(world: Any, berth: float, margin: float = 0.0) -> Any:
+    """A floor with the standing walls of the world, each `berth` + `margin` px thicker, for a robot of that margin."""
     floor: Any = World()
     floor.walls = []
     block_rim(floor)
     for i in range(world.wall_count):
         wall = world.walls[i]
         if wall.health:
-            _add(floor, (wall.ax, wall.ay), (wall.bx, wall.by), wall.half + berth)
+            _add(floor, (wall.ax, wall.ay), (wall.bx, wall.by), wall.half + berth + margin)
+    corners = ((0.0, 0.0), (WIDTH, 0.0), (WIDTH, HEIGHT), (0.0, HEIGHT))
+    for one, other in zip(corners, corners[1:] + corners[:1], strict=True):
+        if margin:
+            _add(floor, one, other, margin)
     return floor
 
 
-def with_obstacles(floor: Any, lines: Iterable[Sequence[Point]], half: float) -> Any:
-    """A copy of the floor with lines or single points as additional walls, `half` px to either side."""
+def with_obstacles(floor: Any, lines: Iterable[tuple[Sequence[Point], float]]) -> Any:
+    """A copy of the floor with lines or single points as additional walls, each with its half width, px."""
     copy: Any = World()
     copy.wall_count, copy.walls, copy.grid = floor.wall_count, list(floor.walls), list(floor.grid)
-    for points in lines:
+    for points, half in lines:
         for one, other in zip(points, points[1:] or points, strict=False):
             _add(copy, one, other, half)
     return copy

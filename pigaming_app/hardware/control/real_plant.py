@@ -79,7 +79,8 @@ class RealPlant:
 
     def summon(self, goals: dict[int, Pose]) -> None:
         """Start homing these robots, real or about to be."""
-        self._homing = Homing(self.world, goals) if goals else None
+        margins = [self.rig.margin(robot) for robot in range(ROBOTS)]
+        self._homing = Homing(self.world, goals, margins) if goals else None
 
     def take_places(self) -> bool:
         """One tick of homing; true if all have arrived. Faults apply as in a match."""
@@ -164,6 +165,10 @@ class RealPlant:
         simulated = self.world.robots[robot].present and robot not in self.real
         return bool(simulated) or seen.age < FORGOTTEN
 
+    def _margin(self, robot: int) -> float:
+        """Margin of an obstacle, px: 0 for a simulated robot."""
+        return 0.0 if self.world.robots[robot].present and robot not in self.real else self.rig.margin(robot)
+
     def _wheels(
         self, robot: int, desired: Twist, held: Response, ahead: Sequence[Pose], solid: Sequence[int]
     ) -> WheelCommand | None:
@@ -177,9 +182,10 @@ class RealPlant:
         if held == Response.HALF:
             desired = (0.5 * desired[0], 0.5 * desired[1])
         x, y, _ = ahead[robot]
-        others = [(ahead[i][0], ahead[i][1]) for i in solid if i != robot]
+        others = [(ahead[i][0], ahead[i][1], self._margin(i)) for i in solid if i != robot]
         desired = limit_acceleration(desired[0], self._speeds[robot]), desired[1]
-        allowed = clip_twist(ahead[robot], desired, speed_limits(self.world, x, y, others), kinematics.drivetrain.lag)
+        limits = speed_limits(self.world, x, y, others, self.rig.margin(robot))
+        allowed = clip_twist(ahead[robot], desired, limits, kinematics.drivetrain.lag)
         self._speeds[robot] = allowed[0]
         return kinematics.wheels(allowed)
 

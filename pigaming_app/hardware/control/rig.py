@@ -18,9 +18,12 @@ from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY
+from pigaming_app.hardware.radio.protocol import Misfit
+from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Fix, Image, Telemetry, WheelCommand
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
+from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS
 
 # A 3pi that was not measured: a typical deadband, and dead time (s) of tick, serial line and air.
@@ -28,6 +31,7 @@ UNMEASURED = replace(
     NOMINAL, left=replace(NOMINAL.left, deadband=0.03), right=replace(NOMINAL.right, deadband=0.03), dead_time=0.03
 )
 SPARSE = 24  # px between the samples of the quick comparison of two pictures
+ROUNDING = 1.0  # px of a body's radius that the virtual walls' own margin covers
 RETRY = 0.5  # s until the next try after an error
 PERIOD = 0.005  # s between two polls of the camera
 MUTE = 0.35  # s without a report after which commands may be lost, too
@@ -68,6 +72,11 @@ class LinkPort(Protocol):
     @property
     def fault(self) -> OperatorMessage | None: ...
 
+    @property
+    def boards(self) -> Mapping[int, int]: ...
+
+    def misfit(self, robot: int) -> Misfit | None: ...
+
     def send(self, wheels: Sequence[WheelCommand | None]) -> None: ...
 
     def pump(self) -> None: ...
@@ -97,7 +106,11 @@ class Recorder(Protocol):
 
 
 class Rig:
-    """Robot i wears marker i; `channels[i]` is the index of its radio in the packets of the link (see pairing)."""
+    """Robot i wears marker i; `channels[i]` is the index of its radio in the packets of the link (see pairing).
+
+    `mm`: mm of the mat per arena px; None: a 3pi has the radius of a simulated robot. `kinds[i]` is the key of the kind
+    of the robot on radio i; empty: as its board announces.
+    """
 
     def __init__(
         self,
@@ -107,7 +120,10 @@ class Rig:
         clock: Clock,
         drivetrains: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS,
         drift: Callable[[], float] = lambda: 0.0,
+        mm: float | None = None,
+        kinds: Sequence[str] = ("",) * ROBOTS,
     ) -> None:
+        self._mm, self._kinds = mm, kinds
         self.camera, self.tracker, self.link, self.clock = camera, tracker, link, clock
         self.kinematics = [Kinematics(drivetrain) for drivetrain in drivetrains]
         self.motion_check = MotionCheck(drivetrains)
@@ -181,6 +197,15 @@ class Rig:
         with self._lock:
             self.motion_check.forget(robot)
 
+    def kind(self, robot: int) -> RobotKind:
+        """The kind of a robot."""
+        channel = self.channels[robot]
+        return robot_kind(self._kinds[channel], self.link.boards.get(channel))
+
+    def margin(self, robot: int) -> float:
+        """Length by which the body of a robot is wider than a simulated one to each side, px; 0 if it is not."""
+        return max(0.0, self.kind(robot).radius_mm / self._mm - RADIUS - ROUNDING) if self._mm else 0.0
+
     def telemetry(self, robot: int) -> Telemetry | None:
         """The latest report of a robot, or None."""
         return self.link.telemetry.get(self.channels[robot])
@@ -201,7 +226,8 @@ class Rig:
             contradictions = [self.motion_check.contradiction(robot) for robot in range(ROBOTS)]
         health = {}
         for robot, seconds in outside.items():
-            report, age = self.telemetry(robot), seen.now[robot].age
+            report, age, kind = self.telemetry(robot), seen.now[robot].age, self.kind(robot)
+            misfit = self.link.misfit(self.channels[robot])
             health[robot] = Health(
                 picture_age=now - max(last_captured, self._begun) + DT,
                 unseen=age + DT if seen.last_captured > seen.time - age + 1e-6 else 0.0,
@@ -209,7 +235,10 @@ class Rig:
                 duplicate=robot in duplicates,
                 outside=seconds,
                 silence=self._silence(report, now),
-                battery=report.battery if report else Health().battery,
+                misfit=misfit.reason if misfit else "",
+                battery=(report.battery if report else 0.0) or Health().battery,  # 0: it is not measured
+                battery_low=kind.warn_mv / 1000,
+                battery_empty=kind.stop_mv / 1000,
                 undervoltage=report is not None and bool(report.flags & EMPTY),
                 deadman_seconds=self._deaf(robot, report),
                 astray=contradictions[robot].astray,

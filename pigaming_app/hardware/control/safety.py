@@ -37,7 +37,10 @@ class Health(NamedTuple):
     stuck: float = 0.0  # s at rest despite a command to move
     leaving: bool = False  # astray and about to leave the arena
     silence: float = 0.0  # s since its last report
+    misfit: str = ""  # why it reports but cannot be driven: see radio.protocol.Misfit
     battery: float = 9.9  # V
+    battery_low: float = 4.4  # V, limits of its kind: see robot_kinds
+    battery_empty: float = 4.0
     undervoltage: bool = False  # its battery was empty; it keeps its motors off until the battery has recovered
     deadman_seconds: float = 0.0  # s of reports that its deadman stopped it
     unlinked: bool = False  # no radio
@@ -75,14 +78,17 @@ RULES = (
     SafetyRule("disobeys", _disobeys, Response.STOP, pauses=True, latched=True),
     SafetyRule("unseen", lambda s: s.unseen > 0.250, Response.STOP),
     SafetyRule("unseen", lambda s: s.unseen > 0.100, Response.HALF),
-    SafetyRule("empty", lambda s: s.battery < 4.0 or s.undervoltage, Response.OFF, pauses=True),
-    SafetyRule("silent", lambda s: s.silence > 1.0, Response.OFF, pauses=True),
+    SafetyRule("empty", lambda s: s.battery < s.battery_empty or s.undervoltage, Response.OFF, pauses=True),
+    SafetyRule("old", lambda s: s.misfit == "old", Response.OFF, pauses=True),
+    SafetyRule("no_arena", lambda s: s.misfit == "no_arena", Response.OFF, pauses=True),
+    SafetyRule("foreign", lambda s: s.misfit == "foreign" and s.silence > 1.0, Response.OFF, pauses=True),
+    SafetyRule("silent", lambda s: s.silence > 1.0 and not s.misfit, Response.OFF, pauses=True),
     SafetyRule("deadman", lambda s: s.deadman_seconds > 0.5, Response.STOP, pauses=True),
     SafetyRule("deadman", lambda s: s.deadman_seconds > 0.0, Response.WARN),
     SafetyRule("outside", lambda s: s.unseen > 1.000 and s.rejection == BEYOND, Response.STOP, pauses=True),
     SafetyRule("outside", lambda s: s.outside > 3.0, Response.INWARD, pauses=True),
     SafetyRule("outside", lambda s: s.outside > 0.0, Response.INWARD),
-    SafetyRule("low", lambda s: s.battery < 4.4, Response.WARN),
+    SafetyRule("low", lambda s: s.battery < s.battery_low, Response.WARN),
     SafetyRule("drifts", lambda s: s.drift > 5.0, Response.WARN, everyone=True),
 )
 

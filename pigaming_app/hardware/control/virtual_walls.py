@@ -39,13 +39,19 @@ def stopping_pose(pose: Pose, motion: Twist, lag: float) -> Pose:
     return x + way * cos(middle), y + way * sin(middle), heading + turn
 
 
-def speed_limits(world: Any, x: float, y: float, others: Sequence[tuple[float, float]] = ()) -> list[SpeedLimit]:
-    """Speed limits at (x, y): the arena's edges, the standing walls, and other robots by their centres (px)."""
+def speed_limits(
+    world: Any, x: float, y: float, others: Sequence[tuple[float, float, float]] = (), margin: float = 0.0
+) -> list[SpeedLimit]:
+    """Speed limits at (x, y): the arena's edges, the standing walls, and other robots by their centres and margins.
+
+    `margin`: length by which a robot's body is wider than a simulated one, px (see Rig.margin).
+    """
+    radius = RADIUS + margin
     limits = [
-        _limit(-1.0, 0.0, x - RADIUS),
-        _limit(1.0, 0.0, WIDTH - RADIUS - x),
-        _limit(0.0, -1.0, y - RADIUS),
-        _limit(0.0, 1.0, HEIGHT - RADIUS - y),
+        _limit(-1.0, 0.0, x - radius),
+        _limit(1.0, 0.0, WIDTH - radius - x),
+        _limit(0.0, -1.0, y - radius),
+        _limit(0.0, 1.0, HEIGHT - radius - y),
     ]
     for i in range(world.wall_count):
         wall = world.walls[i]
@@ -55,12 +61,12 @@ def speed_limits(world: Any, x: float, y: float, others: Sequence[tuple[float, f
         gap = sqrt(dx * dx + dy * dy)
         if gap < 1e-6:  # on the centre line of a wall: the way out is across, to either side
             continue
-        limits.append(_limit(-dx / gap, -dy / gap, gap - wall.half - RADIUS))
-    for other_x, other_y in others:
+        limits.append(_limit(-dx / gap, -dy / gap, gap - wall.half - radius))
+    for other_x, other_y, other_margin in others:
         dx, dy = other_x - x, other_y - y
         gap = sqrt(dx * dx + dy * dy)
         if gap > 1e-6:
-            limits.append(_limit(dx / gap, dy / gap, gap - 2.0 * RADIUS, SHARED))
+            limits.append(_limit(dx / gap, dy / gap, gap - radius - RADIUS - other_margin, SHARED))
     return limits
 
 

@@ -58,7 +58,9 @@ class RealSession:
                 drivetrains = store.load_robots(store.robots_file(emulated=False))
                 camera = SizedCamera(Camera(self.settings.camera), ground)
                 try:
-                    rig = new_rig(camera, self._new_link(), ground, time.monotonic, drivetrains)
+                    rig = new_rig(
+                        camera, self._new_link(), ground, time.monotonic, drivetrains, kinds=self.settings.kinds
+                    )
                 except BaseException:
                     camera.close()
                     raise

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
+from pigaming_app.sim.world import ROBOTS
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
@@ -69,15 +70,16 @@ def new_rig(
     clock: "Clock",
     drivetrains: "Sequence[Drivetrain]",
     tracker: "type[Tracker] | None" = None,
+    kinds: "Sequence[str]" = ("",) * ROBOTS,
 ) -> "Rig":
-    """A rig whose tracker also measures camera drift. Raises OpenCVMissing."""
+    """A rig whose tracker also measures camera drift. `kinds`: see Rig. Raises OpenCVMissing."""
     from pigaming_app.hardware.calibration.drift import DriftMonitor
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.tracking.tracker import Tracker
 
     drift = DriftMonitor(ground)
     follower = (tracker or Tracker)(ground, clock, drivetrains, drift)
-    return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm)
+    return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm, ground.mm, kinds)
 
 
 def settings_problem(settings: "Settings") -> OperatorMessage | None:

@@ -50,6 +50,18 @@ def test_four_robots_change_places_all_round():
     assert all(at(mat, robot, goal) for robot, goal in goals.items())
 
 
+def test_a_wider_robot_takes_the_way_that_its_body_fits():
+    """60 mm at 1.32 mm/px are 91 px across: the gap of 85 px at the top is too narrow, that of 150 px is not."""
+    walls = ((600.0, 115.0, 600.0, 590.0), (600.0, 770.0, 600.0, 900.0))
+    mat = Mat([(300.0, 200.0, 0.0), *STARTS[1:]])
+    mat.boards = {0: 1}
+    lowest = []
+    push = mat.pass_time
+    mat.pass_time = lambda: (push(), lowest.append(mat.robots[0].y))
+    assert gathered(mat, {0: (900.0, 200.0, 0.0)}, walls) is not None
+    assert max(lowest) > 590.0
+
+
 def test_two_robots_pass_a_gate_one_after_the_other():
     mat = Mat([(300.0, 300.0, 0.0), (300.0, 600.0, 0.0), *STARTS[1:3]])
     goals = {0: (900.0, 300.0, 0.0), 1: (900.0, 600.0, 0.0)}

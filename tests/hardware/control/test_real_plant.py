@@ -51,6 +51,16 @@ def test_real_robots_drive_as_asked_within_their_gains():
     assert plant.world.robots[0].linear == pytest.approx(200.0, rel=0.03)
 
 
+@pytest.mark.parametrize(("board", "radius"), [(None, 36.0), (1, 60.0 / 1.32)])
+def test_a_robot_stops_short_of_a_wall_by_its_own_radius(board, radius):
+    """An ESP32 robot has a radius of 60 mm, at 1.32 mm/px."""
+    mat = Mat([(500.0, 450.0, 0.0), *STARTS[1:]])
+    mat.boards = {} if board is None else {0: board}
+    drive(on_floor(mat, [(800.0, 0.0, 800.0, 900.0)]), mat, AHEAD, 4.0)
+    gap = 800.0 - 15.0 - mat.robots[0].x - radius
+    assert 0.0 < gap < 8.0
+
+
 @pytest.mark.parametrize("thinking", [0.0, 0.03])
 def test_a_tick_predicts_all_robots_once_unless_the_game_thinks_for_long(monkeypatch, thinking):
     mat = Mat()

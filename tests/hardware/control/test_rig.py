@@ -136,3 +136,24 @@ def test_time_that_passes_while_signs_are_read_makes_nobody_unseen():
         assert [
             state.unseen for state in mat.rig.health(dict.fromkeys(range(4), 0.0), mat.rig.snapshot()).values()
         ] == [0.0] * 4
+
+
+def test_limits_and_margin_follow_the_kind_of_robot():
+    """On an arena of 1.32 mm/px a simulated robot has a radius of 47.5 mm. A micro:bit robot has three cells."""
+    mat = Mat([(900.0, 450.0, 0.0)] * 4)
+    mat.boards = {1: 1}
+    rig = Rig(mat, mat, mat, mat.clock, mm=1.32, kinds=("", "", "microbit", "3pi"))
+    rig.channels = (1, 2, 3, 0)
+    assert [rig.kind(robot).key for robot in range(4)] == ["esp32", "microbit", "3pi", "3pi"]
+    assert [round(rig.margin(robot), 2) for robot in range(4)] == [8.45, 8.45, 0.0, 0.0]
+    assert Rig(mat, mat, mat, mat.clock, mm=0.66).margin(0) == pytest.approx(47.5 / 0.66 - 37.0)
+    health = rig.health(dict.fromkeys(range(4), 0.0), rig.snapshot())
+    assert [(one.battery_low, one.battery_empty) for one in health.values()] == [(4.4, 4.0), (3.3, 3.0)] + [
+        (4.4, 4.0)
+    ] * 2
+
+
+def test_a_battery_that_is_not_measured_is_no_empty_one():
+    mat = Mat()
+    mat.robots[0].battery = 0.0
+    assert mat.rig.health({0: 0.0}, mat.rig.snapshot())[0].battery > 5.0

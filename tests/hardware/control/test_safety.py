@@ -42,6 +42,11 @@ def judged(sign, others=GOOD, now=1.0):
         (GOOD._replace(outside=0.02), Response.INWARD, Response.WARN, [("outside", 0, False)]),
         (GOOD._replace(outside=3.1), Response.INWARD, Response.WARN, [("outside", 0, True)]),
         (GOOD._replace(silence=1.01), Response.OFF, Response.WARN, [("silent", 0, True)]),
+        (GOOD._replace(misfit="old", silence=0.5), Response.OFF, Response.WARN, [("old", 0, True)]),
+        (GOOD._replace(misfit="no_arena", silence=2.0), Response.OFF, Response.WARN, [("no_arena", 0, True)]),
+        (GOOD._replace(misfit="foreign", silence=2.0), Response.OFF, Response.WARN, [("foreign", 0, True)]),
+        (GOOD._replace(misfit="foreign", silence=0.1), Response.WARN, Response.WARN, []),  # ours reports too
+        (GOOD._replace(battery=3.4, battery_low=3.3, battery_empty=3.0), Response.WARN, Response.WARN, []),
         (GOOD._replace(battery=4.41), Response.WARN, Response.WARN, []),
         (GOOD._replace(battery=4.39), Response.WARN, Response.WARN, [("low", 0, False)]),
         (GOOD._replace(battery=3.99), Response.OFF, Response.WARN, [("empty", 0, True), ("low", 0, False)]),
@@ -125,7 +130,7 @@ def test_a_fault_is_a_plain_sentence():
     safety.judge([GOOD, GOOD._replace(battery=3.9)], 1.0)
     texts = [Words("en")(f"faults.{fault.name}", robot=fault.robot + 1) for fault in safety.faults]
     assert texts == [
-        "The battery of robot 2 is empty: change it. Motors need 4.4 V to restart.",
+        "The battery of robot 2 is empty: change it. Its motors stay off until then.",
         "The battery of robot 2 is low: change it soon.",
     ]
 

@@ -70,8 +70,19 @@ def test_a_destroyed_wall_holds_nobody():
 def test_two_robots_share_the_gap_between_them():
     world = floor()
     pose = (600.0, 450.0, 0.0)
-    other = (600.0 + 2.0 * RADIUS + 30.0, 450.0)
+    other = (600.0 + 2.0 * RADIUS + 30.0, 450.0, 0.0)
     assert driven(world, pose, (260.0, 0.0), [other]) == pytest.approx(SHARED * (30.0 - SPARE))
+
+
+def test_a_wider_body_is_held_off_by_its_own_radius():
+    """10 px wider to each side, in front of a wall, the arena's edge, and another robot that is 5 px wider."""
+    world, other = floor([ACROSS]), (600.0 + 2.0 * RADIUS + 45.0, 450.0, 5.0)
+    at_wall = speed_limits(world, 800.0 - 15.0 - RADIUS - 30.0, 450.0, margin=10.0)[4]
+    assert at_wall.speed == pytest.approx(GAMMA * (20.0 - SPARE))
+    at_edge = speed_limits(world, RADIUS + 30.0, 450.0, margin=10.0)[0]
+    assert at_edge.speed == pytest.approx(GAMMA * (20.0 - SPARE))
+    at_other = speed_limits(floor(), 600.0, 450.0, [other], margin=10.0)[4]
+    assert at_other.speed == pytest.approx(SHARED * (30.0 - SPARE))
 
 
 def test_swinging_the_nose_into_a_wall_slows_down_in_time():
