@@ -41,7 +41,7 @@ ONLY_IN = {
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray"}
-FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
+FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.py") if "micropython" not in path.parts)]
 
 
 @cache

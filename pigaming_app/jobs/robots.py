@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.jobs.sessions import new_session
-from pigaming_app.jobs.terminal.options import mat_settings, shared
+from pigaming_app.jobs.terminal.options import integer, mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
 from pigaming_app.ui.i18n import english
 
@@ -27,16 +27,31 @@ CASES = {
     "absent": "no answer",
 }
 
+STATUS = {
+    "ours": "ready",
+    "foreign": "of another arena",
+    "no_arena": "without an arena id: see --wifi-config",
+    "key": "with another key: see --wifi-config",
+    "old": "with old firmware: copy robot.py anew",
+    "taken": "its number is taken by another robot",
+}
+
 
 def options(parser: ArgumentParser) -> None:
     parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
     parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
-    shared(parser, "--emulate", "--camera", "--port", "--json")
+    parser.add_argument(
+        "--wifi-config", type=integer(1, 4), metavar="ROBOT", help="print the config.py of a Wi-Fi robot, 1 to 4"
+    )
+    shared(parser, "--emulate", "--camera", "--port", "--radio", "--json")
 
 
 def run(arguments: Namespace) -> int:
     """Print the status. Raises Refusal."""
     mat_settings(arguments)
+    if arguments.wifi_config is not None:
+        print(_wifi_config(arguments.wifi_config), end="")
+        return 0
     if arguments.emulate is not None or arguments.pair or arguments.latency:
         require("hardware")
     status = look(arguments)
@@ -57,7 +72,7 @@ def look(arguments: Namespace) -> dict[str, Any]:
         "cameras": [camera._asdict() for camera in cameras()],
     }
     with refused(RobotsUnavailable):
-        session = new_session(arguments.emulate, arguments.camera, arguments.port)
+        session = new_session(arguments.emulate, arguments.camera, arguments.port, arguments.radio)
     try:
         return {**status, **_full_status(session, arguments)}
     except RobotsUnavailable as trouble:
@@ -72,7 +87,8 @@ def _radio_status(session: RobotSession) -> dict[str, Any]:
     """The status by radio alone."""
     link = session.open_link()
     time.sleep(LISTEN)
-    return {"radio": _sentence(session.fault), "robots": [_robot(link, i, i, None) for i in range(4)]}
+    robots = [_robot(link, i, i, None) for i in range(4)]
+    return {"radio": _sentence(session.fault), "robots": robots, "network": _network(session)}
 
 
 def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
@@ -84,6 +100,7 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
     seen = rig.sense()
     status["radio"], status["eyes"] = _sentence(rig.link.fault), _sentence(rig.camera.fault)
     status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
+    status["network"] = _network(session)
     movable = [i for i in range(4) if status["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
         raise Refusal(status["radio"] or "No robot answers: are they switched on?")
@@ -92,6 +109,33 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
     if arguments.latency:
         status["latency"] = [_latency(session, rig, i) for i in movable if status["robots"][i]["seen"]]
     return status
+
+
+def _wifi_config(robot: int) -> str:
+    """The configuration of a Wi-Fi robot of these settings."""
+    from pigaming_app.hardware.session.store import arena_id, robot_config, wifi_key
+    from pigaming_app.storage.settings import Settings, folders
+
+    settings, _ = Settings.load(folders().config)
+    return robot_config(robot, arena_id(settings), wifi_key(settings))
+
+
+def _network(session: RobotSession) -> list[dict[str, Any]]:
+    """The robots that have announced themselves by Wi-Fi, of this arena or not."""
+    from pigaming_app.hardware.robot_kinds import robot_kind
+
+    return [
+        {
+            "robot": robot.announced.address,
+            "name": robot.announced.name,
+            "kind": robot_kind("", robot.announced.board).name,
+            "battery": round(robot.announced.millivolts / 1000, 2) or None,
+            "address": robot.address,
+            "arena": robot.announced.arena,
+            "status": robot.status,
+        }
+        for robot in (session.network.robots if session.network else [])
+    ]
 
 
 def _sentence(message: OperatorMessage | None) -> str | None:
@@ -155,6 +199,10 @@ def _print(status: dict[str, Any]) -> None:
         print(f"{name:9} {devices or 'none'}")
     for name in ("radio", "eyes"):
         print(f"{name:9} {status.get(name) or 'ok'}")
+    for robot in status["network"]:
+        volts = f", {robot['battery']:.2f} V" if robot["battery"] else ""
+        about = f"{robot['name']}, {robot['kind']}, at {robot['address']}{volts}, arena {robot['arena']}"
+        print(f"Wi-Fi {robot['robot']}   {about}: {STATUS[robot['status']]}")
     for robot in status["robots"]:
         print(f"robot {robot['robot']}   {_described(robot)}")
     for pair in status.get("pairing", ()):

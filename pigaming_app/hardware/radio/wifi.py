@@ -58,6 +58,7 @@ class WifiNetwork:
 
     def __init__(self, arena: int, key: bytes, clock: Clock, port: int = PORT, host: str = "") -> None:
         self.arena, self.key, self.bound = arena, key, port
+        self.offline = False  # True if this computer has no network
         self.dropped = 0  # datagrams that were not for us, forged, repeated or out of order
         self._clock, self._host = clock, host
         self._socket: socket.socket | None = None
@@ -84,8 +85,10 @@ class WifiNetwork:
     def robots(self) -> list[WifiRobot]:
         """The robots of the network that have called lately, those of this arena first."""
         now = self._clock()
-        ours = [WifiRobot(s.announced, s.address[0], "ours") for s in self._sessions.values() if now - s.heard < GONE]
-        return sorted(ours) + [robot for robot, called in self._strangers.values() if now - called < GONE]
+        ours = [
+            WifiRobot(s.announced, s.address[0], "ours") for s in [*self._sessions.values()] if now - s.heard < GONE
+        ]
+        return sorted(ours) + [robot for robot, called in [*self._strangers.values()] if now - called < GONE]
 
     @property
     def boards(self) -> dict[int, int]:
@@ -95,11 +98,13 @@ class WifiNetwork:
     @property
     def misfits(self) -> dict[int, Misfit]:
         """Robots that cannot be driven, by robot from 0."""
-        found = {}
-        for robot, called in [*self._strangers.values()]:
-            if 1 <= robot.announced.address <= ROBOTS and robot.status != "taken":
-                found[robot.announced.address - 1] = Misfit(robot.status, robot.announced.arena, called)
-        return found
+        now = self._clock()
+        strangers = [robot for robot in self.robots if robot.status not in ("ours", "taken")]
+        return {
+            robot.announced.address - 1: Misfit(robot.status, robot.announced.arena, now)
+            for robot in strangers
+            if 1 <= robot.announced.address <= ROBOTS
+        }
 
     @property
     def in_waiting(self) -> int:
@@ -114,9 +119,9 @@ class WifiNetwork:
         return data
 
     def write(self, data: bytes) -> int:
-        """Send a drive packet to every robot of this arena. Raises OSError without a network."""
+        """Send a drive packet to every robot of this arena."""
         assert self._socket is not None
-        now, faults, reached = self._clock(), list[OSError](), False
+        now, faults, reached = self._clock(), list[int | None](), False
         for session in [*self._sessions.values()]:
             if now - session.heard >= GONE:
                 continue
@@ -128,9 +133,8 @@ class WifiNetwork:
             except BlockingIOError:
                 reached = True  # busy: this one counts as lost on the way
             except OSError as error:
-                faults.append(error)
-        if faults and not reached and all(fault.errno in NO_NETWORK for fault in faults):
-            raise faults[0]
+                faults.append(error.errno)
+        self.offline = not reached and bool(faults) and all(fault in NO_NETWORK for fault in faults)
         return len(data)
 
     def close(self) -> None:
@@ -217,6 +221,10 @@ class WifiProtocol(XBeeProtocol):
     @property
     def boards(self) -> Mapping[int, int]:  # type: ignore[override]
         return self.network.boards
+
+    def fault(self, now: float) -> tuple[str, str] | None:
+        """Only the lack of a network: what others send there is no fault."""
+        return ("offline", "") if self.network.offline else None
 
     @property
     def misfits(self) -> Mapping[int, Misfit]:

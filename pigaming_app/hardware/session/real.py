@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.signals import CameraFrame, CameraSource
 
-STOCK = "stock"  # radio setting: a single robot with factory firmware, on a cable
+STOCK, UDP = "stock", "udp"  # radio settings: a robot with factory firmware on a cable; Wi-Fi robots
 NO_PORT = "no serial port"
 
 
@@ -32,6 +33,7 @@ class RealSession:
         self.settings, self.projection = settings, projection
         self.mm = 0.0
         self._rig: Rig | None = None
+        self.network: WifiNetwork | None = None
         self._link: Link | None = None
         self._next = time.monotonic()  # s, time of the next tick
 
@@ -86,6 +88,7 @@ class RealSession:
 
     def close(self) -> None:
         rig, self._rig, link, self._link = self._rig, None, self._link, None
+        self.network = None
         if rig is not None:
             rig.close()
         if link is not None:
@@ -99,10 +102,14 @@ class RealSession:
         from pigaming_app.hardware.radio.link import Link
         from pigaming_app.hardware.radio.serial_line import ports, serial_port
         from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
+        from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
         from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
         from pigaming_app.hardware.session import store
 
         chosen = self.settings
+        if chosen.radio == UDP:
+            self.network = WifiNetwork(store.arena_id(chosen), store.wifi_key(chosen), time.monotonic)
+            return Link(self.network.open, time.monotonic, WifiProtocol(self.network), f"UDP port {self.network.bound}")
         name = chosen.port or next((port.device for port in ports()), NO_PORT)
         if chosen.radio == STOCK:
             return Link(serial_port(name, BAUD), time.monotonic, StockProtocol(0), name)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.signals import CameraSource, Clock
     from pigaming_app.hardware.tracking.tracker import Tracker
     from pigaming_app.sim.drivetrain import Drivetrain
@@ -31,6 +32,7 @@ class RobotSession(Protocol):
     """Robots on a mat with a camera, a radio and a projector."""
 
     emulated: bool
+    network: "WifiNetwork | None"  # of Wi-Fi robots, while the session is open
 
     @property
     def fault(self) -> OperatorMessage | None:

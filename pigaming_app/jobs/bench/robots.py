@@ -24,6 +24,7 @@ from pigaming_app.hardware.proof import trials as proving
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, StopResult
 from pigaming_app.hardware.proof.testbed import Testbed, one_core
 from pigaming_app.hardware.proof.trials import ButtonMasher, FigureEight, MatchResult, TrackingResult
+from pigaming_app.jobs.bench import wifi
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.i18n import english
 
@@ -43,6 +44,7 @@ TARGETS = {  # upper limits, but for frames_complete
     "calibration_max_mm": 3.0,
     "wall_entry_mm": 5.0,
     "worst_stop_ms": 300.0,
+    "wifi_worst_stop_ms": 300.0,
     "false_alarms": 0.0,
 }
 
@@ -71,12 +73,17 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         followed = {(fps, seed): pool.submit(follow_alone, seed, fps) for seed in (1, 2) for fps in RATES}
         stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
         calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]
+        on_wifi = wifi.submit(pool, note)
         played = [(job, pool.submit(on_mat, job)) for job in jobs()]
         tracks = _tracks(followed, note)
         stops = _stops(stopped, note)
         matches = [_match(job, future, note) for job, future in played]
         boards = [_result(future, "calibrating") for future in calibrated]
     stops["kill -9"] = _killed(note)
+    try:
+        wifi_figures = wifi.collect(on_wifi, note)
+    except RuntimeError as reason:
+        raise Unproven(f"Wi-Fi robots: {reason}") from reason
     return {
         "pose_rmse_mm": max(run.rmse_mm for run in tracks.values()),
         "pose_rmse_deg": max(run.rmse_deg for run in tracks.values()),
@@ -87,6 +94,7 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         "wall_entry_mm": max(run.deepest_mm for run in matches),
         "worst_stop_ms": 1e3 * max(stops.values()),
         "false_alarms": float(sum(run.alarms for run in matches)),
+        **wifi_figures,
     }
 
 

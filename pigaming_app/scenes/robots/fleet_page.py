@@ -29,7 +29,7 @@ from pigaming_app.ui.widgets.labels import blit_sprite, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
-RADIOS = ("api2", "api1", "transparent", "stock")
+RADIOS = ("api2", "api1", "transparent", "udp", "stock")
 EMULATED = ("pair", "latency")
 ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
 WEAK, LOW = 0.7, 4.4  # share of reports, V: below these a robot is marked
@@ -203,10 +203,11 @@ class FleetPage:
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.context.words, self.check.health(robot)
         late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
+        named = f"{health.name}  ·  " if health.name else ""
         seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
         if health.battery is None:
             return words("fleet.silent"), MIST, seen, MIST
-        heard = words("fleet.heard", volts=f"{health.battery:.1f}", share=round(100 * health.share))
+        heard = named + words("fleet.heard", volts=f"{health.battery:.1f}", share=round(100 * health.share))
         weak = health.battery < LOW or health.share < WEAK
         return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST
 
@@ -225,6 +226,8 @@ class FleetPage:
     def _choices(self, name: str) -> tuple[dict[object, str], object]:
         """Options of a row, by stored value, and the current value."""
         words, settings = self.context.words, self.context.settings
+        if settings.radio == "udp" and name in ("port", "baud"):
+            return {getattr(settings, name): words("fleet.no_line")}, getattr(settings, name)
         if name == "camera":
             known: dict[object, str] = {camera.number: f"{camera.number}: {camera.name}" for camera in cameras()}
             return {settings.camera: str(settings.camera), **known}, settings.camera

@@ -30,6 +30,7 @@ class RobotStatus:
     share: float
     seen: bool
     latency: float | None
+    name: str = ""  # announced by a Wi-Fi robot
 
 
 @dataclass
@@ -132,12 +133,19 @@ class FleetState:
         """Status of a robot."""
         report = self.link.telemetry.get(robot) if self.heard(robot) else None
         share = self.link.quality(robot).share if report else 0.0
-        return RobotStatus(report.battery if report else None, share, self._seen(robot), self.latencies.get(robot))
+        battery, latency = report.battery if report else None, self.latencies.get(robot)
+        return RobotStatus(battery, share, self._seen(robot), latency, self._name(robot))
 
     # ---- inside
 
     def _seen(self, robot: int) -> bool:
         return self.rig is not None and self.rig.sense()[robot].age < SEEN
+
+    def _name(self, robot: int) -> str:
+        """Name that the robot on a radio channel has announced, if it has Wi-Fi."""
+        network = self.session.network
+        ours = [found.announced for found in network.robots if found.status == "ours"] if network else []
+        return next((found.name for found in ours if found.address == robot + 1), "")
 
     def _search(self, job: Callable[[], bool]) -> bool:
         if self.rig is None or not any(self.heard(robot) for robot in range(ROBOTS)):

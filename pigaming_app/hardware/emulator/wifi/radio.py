@@ -59,4 +59,3 @@ class WifiRadio(EmulatedRadio):
             if (millivolts := round(1000 * body.battery)) != self._cells[robot]:
                 self._cells[robot] = millivolts
                 self.boards.disturb(robot, battery=millivolts)
-

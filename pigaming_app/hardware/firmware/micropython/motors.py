@@ -53,7 +53,7 @@ class Phase(Motor):
 
 
 class Regulated:
-    """A motor with an encoder on pin `pulses`, `top` pulses a second at full speed: its integral term holds the speed."""
+    """A motor with an encoder on pin `pulses`, `top` pulses a second at full speed: an integral term holds it."""
 
     def __init__(self, motor, pulses, top):
         self.motor, self.top = motor, top

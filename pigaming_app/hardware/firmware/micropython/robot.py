@@ -68,9 +68,9 @@ class Robot:
         if self.seq % 10 == 0:  # robots report one after the other
             self.report_at = time.ticks_add(now, SLOT_MS * (self.address - 1))
         enabled = packet[4] >> self.address - 1 & 1 and not self.empty
-        wheels = (self.board.left, self.board.right)
-        for wheel, code in zip(wheels, packet[3 + 2 * self.address : 5 + 2 * self.address]):
-            wheel.drive(code - MIDDLE if enabled and code <= 2 * MIDDLE else 0)
+        left, right = packet[3 + 2 * self.address], packet[4 + 2 * self.address]
+        self.board.left.drive(left - MIDDLE if enabled and left <= 2 * MIDDLE else 0)
+        self.board.right.drive(right - MIDDLE if enabled and right <= 2 * MIDDLE else 0)
         return True
 
     def work(self, now):
@@ -105,9 +105,9 @@ class Robot:
         if self.seq < 0 or since > LONELY_MS or time.ticks_diff(now, self.report_at) < 0:
             return None
         self.report_at = time.ticks_add(now, REPORT_MS)
-        arena, volts = self.arena, self.millivolts
-        values = (REPORT, arena & 127, arena >> 7, self.address, VERSION, self.seq, self.flags())
-        return checked(bytes(values + (volts & 127, volts >> 7 & 127)))
+        arena, mv = self.arena, self.millivolts
+        head = [REPORT, arena & 127, arena >> 7, self.address, VERSION, self.seq]
+        return checked(bytes(head + [self.flags(), mv & 127, mv >> 7 & 127]))
 
 
 def main():

@@ -29,6 +29,7 @@ class Radio:
         self.inner, self.outer = bytes([b ^ 0x36 for b in key]), bytes([b ^ 0x5C for b in key])
         self.nonce = os.urandom(8)
         self.received = self.sent = 0  # counters of the newest datagrams
+        self.unsent = 0
         self.owner = None  # address of the arcade whose command came last
         self.announced = self.tried = time.ticks_add(time.ticks_ms(), -RECONNECT_MS)
         self.station = network.WLAN(network.STA_IF)
@@ -81,4 +82,4 @@ class Radio:
         try:
             self.socket.sendto(data + self.code(data), address)
         except OSError:
-            pass  # no network at present; the next one will do
+            self.unsent += 1  # no network at present; the next one will do
