@@ -52,7 +52,8 @@ def announcement_from(datagram: bytes) -> Announcement | None:
         return None
     name = body[FIELDS.size :].decode("utf-8", "replace")
     shown = "".join(letter for letter in name if letter.isprintable())
-    return Announcement(*FIELDS.unpack_from(body), shown)
+    arena, address, board, version, nonce, counter, millivolts, flags = FIELDS.unpack_from(body)
+    return Announcement(arena, address, board, version, nonce, counter, millivolts, flags, shown)
 
 
 def announce(key: bytes, counter: int, robot: Announcement) -> bytes:

@@ -85,10 +85,9 @@ class WifiNetwork:
     def robots(self) -> list[WifiRobot]:
         """The robots of the network that have called lately, those of this arena first."""
         now = self._clock()
-        ours = [
-            WifiRobot(s.announced, s.address[0], "ours") for s in [*self._sessions.values()] if now - s.heard < GONE
-        ]
-        return sorted(ours) + [robot for robot, called in [*self._strangers.values()] if now - called < GONE]
+        sessions = [session for session in [*self._sessions.values()] if now - session.heard < GONE]
+        ours = sorted(WifiRobot(session.announced, session.address[0], "ours") for session in sessions)
+        return ours + [robot for robot, called in [*self._strangers.values()] if now - called < GONE]
 
     @property
     def boards(self) -> dict[int, int]:

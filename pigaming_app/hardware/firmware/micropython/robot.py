@@ -106,8 +106,9 @@ class Robot:
             return None
         self.report_at = time.ticks_add(now, REPORT_MS)
         arena, mv = self.arena, self.millivolts
-        head = [REPORT, arena & 127, arena >> 7, self.address, VERSION, self.seq]
-        return checked(bytes(head + [self.flags(), mv & 127, mv >> 7 & 127]))
+        packet = bytearray([REPORT, arena & 127, arena >> 7, self.address, VERSION, self.seq, self.flags()])
+        packet.extend([mv & 127, mv >> 7 & 127])
+        return checked(bytes(packet))
 
 
 def main():
