@@ -10,8 +10,9 @@ import shutil
 import subprocess
 import threading
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import Any, NamedTuple, Self
+from typing import IO, Any, NamedTuple, Self, cast
 
 from pigaming_app.storage.settings import folders
 
@@ -20,13 +21,35 @@ PROGRAM = Path(__file__).parents[2] / "firmware" / "micropython"
 INTERPRETER = "node_modules/@micropython/micropython-webassembly-pyscript/micropython.mjs"
 INSTALLING, ANSWER = 120.0, 20.0  # s, timeouts
 FULL = 65535  # duty of a PWM pin
-WIRING = {"board_esp32": ((25, 26), (32, 33)), "board_pico_w": ((10, 11), (12, 13))}  # DRV8833: ahead, back
 
 Shares = tuple[float, float]  # voltage of the left and the right motor, as shares of the battery's
 
 
 class NoMicroPython(Exception):
     """MicroPython cannot be run here; the text says why."""
+
+
+class Wheel(NamedTuple):
+    """Pins of a motor driver: a DRV8833 has two, a TB6612 three, Pololu's one for the direction and one for the PWM."""
+
+    ahead: int | None
+    back: int
+    pwm: int | None = None
+
+    def share(self, pins: Mapping[str, int]) -> float:
+        """Voltage at the motor, as a share of the battery's."""
+        back = pins.get(str(self.back), 0)
+        if self.pwm is None:
+            return (pins.get(str(self.ahead), 0) - back) / FULL
+        way = 1 - 2 * back if self.ahead is None else pins.get(str(self.ahead), 0) - back
+        return way * pins.get(str(self.pwm), 0) / FULL
+
+
+WIRING: Mapping[str, tuple[Wheel, Wheel]] = {  # of the board files
+    "board_esp32": (Wheel(25, 26), Wheel(32, 33)),
+    "board_pico_w": (Wheel(10, 11), Wheel(12, 13)),
+    "board_pololu_2040": (Wheel(None, 11, 15), Wheel(None, 10, 14)),
+}
 
 
 class BoardConfig(NamedTuple):
@@ -38,11 +61,12 @@ class BoardConfig(NamedTuple):
     port: int  # UDP port of the arcade
     name: str = ""
     board: str = "board_esp32"
+    radio: str = "wifi"
 
     def text(self) -> str:
         return (
             f'NETWORK, PASSWORD = "emulated", ""\nROBOT, NAME, ARENA = {self.robot}, {self.name!r}, {self.arena}\n'
-            f'KEY, BOARD, RADIO = "{self.key.hex()}", "{self.board}", "wifi"\n'
+            f'KEY, BOARD, RADIO = "{self.key.hex()}", "{self.board}", "{self.radio}"\n'
             f'HOST, PORT = "127.0.0.1", {self.port}\n'
         )
 
@@ -75,17 +99,23 @@ def interpreter() -> Path:
 class Boards:
     """Running boards; a context manager. `paced`: their time passes in `advance` only, else it is the system's.
 
-    `pins` are the values at every board's pins, 0 to 65535; `changed` the times of their last change, in s of
-    `advance`'s clock, or of `time.monotonic`.
+    `boards` are further board files by name, `wiring` the motors of all of them. `pins` holds the values at the pins of
+    every robot, 0 to 65535; times are s of `advance`, or of `time.monotonic`. Raises NoMicroPython.
     """
 
-    def __init__(self, configs: Sequence[BoardConfig], paced: bool = False) -> None:
+    def __init__(
+        self,
+        configs: Sequence[BoardConfig],
+        paced: bool = False,
+        boards: Mapping[str, str] = {},
+        wiring: Mapping[str, tuple[Wheel, Wheel]] = WIRING,
+    ) -> None:
         self.pins: list[Mapping[str, int]] = [{} for _ in configs]
         self.powered_until = [float("-inf")] * len(configs)  # s, when the motors were last switched off
         self.resets: list[tuple[int, int]] = []  # robot and cause (1 power, 3 watchdog), in order
-        self._wiring = [WIRING[config.board] for config in configs]
-        self._paced, self._now = paced, 0.0
+        self._wiring = [wiring[config.board] for config in configs]
         files = {file.name: file.read_text("utf-8") for file in [*PROGRAM.glob("*.py"), *HERE.glob("*.py")]}
+        files |= {f"{name}.py": text for name, text in boards.items()}
         files["main.py"] = files.pop("robot.py")
         first = {
             "robots": [{**files, "config.py": config.text()} for config in configs],
@@ -103,7 +133,6 @@ class Boards:
 
     def advance(self, now: float, received: Sequence[int] = ()) -> None:
         """Let the boards run until `now`, s, once each has received so many datagrams. Only if `paced`."""
-        self._now = now
         self._tell({"now": round(1000 * now), "received": list(received)})
         self._await("now")
 
@@ -126,9 +155,10 @@ class Boards:
         if self._process.poll() is None:
             self._process.kill()
         self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout):
-            assert pipe is not None
         self._reader.join(1.0)
+        for pipe in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):
+                cast(IO[str], pipe).close()
 
     def __enter__(self) -> Self:
         return self
@@ -137,10 +167,8 @@ class Boards:
         self.close()
 
     def _shares(self, robot: int) -> Shares:
-        pins = self.pins[robot]
-        (one, two), (three, four) = self._wiring[robot]
-        left = (pins.get(str(one), 0) - pins.get(str(two), 0)) / FULL
-        return left, (pins.get(str(three), 0) - pins.get(str(four), 0)) / FULL
+        left, right = self._wiring[robot]
+        return left.share(self.pins[robot]), right.share(self.pins[robot])
 
     def _tell(self, order: Mapping[str, Any]) -> None:
         assert self._process.stdin is not None

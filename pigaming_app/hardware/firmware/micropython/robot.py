@@ -106,9 +106,8 @@ class Robot:
             return None
         self.report_at = time.ticks_add(now, REPORT_MS)
         arena, mv = self.arena, self.millivolts
-        packet = bytearray([REPORT, arena & 127, arena >> 7, self.address, VERSION, self.seq, self.flags()])
-        packet.extend([mv & 127, mv >> 7 & 127])
-        return checked(bytes(packet))
+        head = bytes([REPORT, arena & 127, arena >> 7, self.address, VERSION, self.seq, self.flags()])
+        return checked(head + bytes([mv & 127, mv >> 7 & 127]))
 
 
 def main():

@@ -36,6 +36,27 @@ class ADC:
         return min(65535, js.bridge.battery() * 65536 // self.full)
 
 
+class UART:
+    """A line to whoever wrote last, a datagram a packet."""
+
+    def __init__(self, number, baudrate, tx, rx, rxbuf):
+        self.buffer, self.other = b"", None
+
+    def any(self):
+        while found := js.bridge.receive():
+            data, host, port = found.split(" ")
+            self.buffer, self.other = self.buffer + bytes.fromhex(data), (host, int(port))
+        return len(self.buffer)
+
+    def read(self, size):
+        data, self.buffer = self.buffer[:size], self.buffer[size:]
+        return data
+
+    def write(self, data):
+        if self.other:
+            js.bridge.send(data.hex(), *self.other)
+
+
 class WDT:
     def __init__(self, timeout):
         js.bridge.watch(timeout)
