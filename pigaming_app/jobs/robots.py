@@ -1,4 +1,4 @@
-"""Status of robots, radios and cameras; on request pairing (each robot spins in turn) and latency."""
+"""Status of robots, radios and cameras; on request pairing (each robot spins in turn), latency, set-up of radios."""
 
 import json
 import time
@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
+from pigaming_app.jobs import radio_setup
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import integer, mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
+from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import english
 
 if TYPE_CHECKING:
@@ -26,15 +28,13 @@ CASES = {
     "twice": "two robots wear the same marker",
     "absent": "no answer",
 }
-
-STATUS = {
-    "ours": "ready",
+MISFITS = {
+    "old": "old firmware",
+    "no_arena": "no arena number",
     "foreign": "of another arena",
-    "no_arena": "without an arena id: see --wifi-config",
-    "key": "with another key: see --wifi-config",
-    "old": "with old firmware: copy robot.py anew",
-    "taken": "its number is taken by another robot",
+    "key": "another key, see --wifi-config",
 }
+STATUS = {"ours": "ready", "taken": "another robot has its number", **MISFITS}
 
 
 def options(parser: ArgumentParser) -> None:
@@ -44,14 +44,18 @@ def options(parser: ArgumentParser) -> None:
         "--wifi-config", type=integer(1, 4), metavar="ROBOT", help="print the config.py of a Wi-Fi robot, 1 to 4"
     )
     shared(parser, "--emulate", "--camera", "--port", "--radio", "--json")
+    radio_setup.options(parser)
 
 
 def run(arguments: Namespace) -> int:
     """Print the status. Raises Refusal."""
     mat_settings(arguments)
+    settings = radio_setup.save_arena(arguments)
     if arguments.wifi_config is not None:
-        print(_wifi_config(arguments.wifi_config), end="")
+        print(_wifi_config(arguments.wifi_config, settings), end="")
         return 0
+    if arguments.radio_setup is not None:
+        return radio_setup.set_up(arguments, settings)
     if arguments.emulate is not None or arguments.pair or arguments.latency:
         require("hardware")
     status = look(arguments)
@@ -74,6 +78,7 @@ def look(arguments: Namespace) -> dict[str, Any]:
     with refused(RobotsUnavailable):
         session = new_session(arguments.emulate, arguments.camera, arguments.port, arguments.radio)
     try:
+        status["arena"] = session.arena_id
         return {**status, **_full_status(session, arguments)}
     except RobotsUnavailable as trouble:
         if arguments.pair or arguments.latency:
@@ -111,12 +116,10 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
     return status
 
 
-def _wifi_config(robot: int) -> str:
+def _wifi_config(robot: int, settings: Settings) -> str:
     """The configuration of a Wi-Fi robot of these settings."""
     from pigaming_app.hardware.session.store import arena_id, robot_config, wifi_key
-    from pigaming_app.storage.settings import Settings, folders
 
-    settings, _ = Settings.load(folders().config)
     return robot_config(robot, arena_id(settings), wifi_key(settings))
 
 
@@ -144,12 +147,13 @@ def _sentence(message: OperatorMessage | None) -> str | None:
 
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
     """One robot: its radio, battery (V), share of reports received, and pose (px, px, rad) if it is seen."""
-    report, quality = link.telemetry.get(channel), link.quality(channel)
+    report, quality, misfit = link.telemetry.get(channel), link.quality(channel), link.misfit(channel)
     visible = seen is not None and seen.age < 1.0
     return {
         "robot": robot + 1,
         "radio": channel + 1,
         "heard": report is not None and quality.share > 0.0,
+        "misfit": misfit.reason if misfit else None,
         "battery": round(report.battery, 2) if report else None,
         "share": round(quality.share, 2),
         "strength": quality.strength,
@@ -197,6 +201,7 @@ def _print(status: dict[str, Any]) -> None:
     for name in ("ports", "cameras"):
         devices = ", ".join(" ".join(str(part) for part in device.values()) for device in status[name])
         print(f"{name:9} {devices or 'none'}")
+    print(f"arena     {status['arena']} ({radio_setup.flash_command(1, status['arena'])})")
     for name in ("radio", "eyes"):
         print(f"{name:9} {status.get(name) or 'ok'}")
     for robot in status["network"]:
@@ -204,7 +209,7 @@ def _print(status: dict[str, Any]) -> None:
         about = f"{robot['name']}, {robot['kind']}, at {robot['address']}{volts}, arena {robot['arena']}"
         print(f"Wi-Fi {robot['robot']}   {about}: {STATUS[robot['status']]}")
     for robot in status["robots"]:
-        print(f"robot {robot['robot']}   {_described(robot)}")
+        print(f"robot {robot['robot']}   {_described(robot, status['arena'])}")
     for pair in status.get("pairing", ()):
         print(f"radio {pair['radio']}   {CASES[pair['case']].format(marker=pair['marker'])}")
     for entry in status.get("latency", ()):
@@ -214,7 +219,9 @@ def _print(status: dict[str, Any]) -> None:
         print(f"latency {entry['robot']} {text}")
 
 
-def _described(robot: dict[str, Any]) -> str:
+def _described(robot: dict[str, Any], arena: int) -> str:
+    if robot["misfit"]:
+        return f"{MISFITS[robot['misfit']]}: {radio_setup.flash_command(robot['radio'], arena)}"
     if not robot["heard"]:
         return "no reports" + (", seen" if robot["seen"] else "")
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"

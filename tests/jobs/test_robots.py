@@ -7,11 +7,15 @@ from math import cos, sin
 import pytest
 
 from pigaming_app.cli import main
+from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
+from pigaming_app.hardware.emulator.xbee import Module
+from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session.store import save_radios
-from pigaming_app.jobs import fidelity, robots
+from pigaming_app.jobs import fidelity, radio_setup, robots
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from pigaming_app.storage.settings import Settings, folders
 from tests.hardware.mat import TRUE, Mat
+from tests.hardware.wire import Time
 
 
 @pytest.fixture(autouse=True)
@@ -33,6 +37,45 @@ def test_without_hardware_everything_that_is_missing_is_said(capsys):
     assert [one["heard"] for one in found["robots"]] == [False] * 4
     assert main(["robots", "--port", "/dev/nowhere"]) == 0
     assert "robot 1   no reports" in capsys.readouterr().out
+
+
+def test_the_arena_number_is_drawn_once_and_changed_on_request(capsys):
+    drawn = output(capsys, "robots", "--port", "/dev/nowhere")["arena"]
+    assert 1 <= drawn <= 16383
+    assert Settings.load(folders().config)[0].arena_id == drawn
+    assert main(["robots", "--port", "/dev/nowhere", "--arena", "4711", "--channel", "C"]) == 0
+    assert "arena     4711 (make flash ADDRESS=1 ARENA=4711)" in capsys.readouterr().out
+    assert Settings.load(folders().config)[0].radio_channel == 0x0C
+
+
+class Radios:
+    """A session with the emulated XBee of robot 3 in the carrier."""
+
+    arena_id = 4711
+
+    def __init__(self):
+        self.time, self.module = Time(), Module(0, 0, 9600, top_channel=0x17)
+
+    def carrier(self, number):
+        return Carrier(EmulatedCarrier(self.module, self.time).open, self.time, "COM3")
+
+    def tick(self):
+        self.time.now += 0.02
+
+    def end(self):
+        pass
+
+
+def test_a_radio_is_written_and_refusals_are_one_line(capsys, monkeypatch):
+    session = Radios()
+    monkeypatch.setattr(radio_setup, "new_session", lambda *_: session)
+    written = output(capsys, "robots", "--radio-setup", "3", "--channel", "D", "--pan", "ABC")
+    assert written == {"radio": 3, "arena": 4711, "CH": 13, "ID": 0xABC, "MY": 3, "DH": 0, "DL": 0, "BD": 6, "AP": 0}
+    assert session.module.saved[b"ID"] == 0xABC
+    assert main(["robots", "--radio-setup", "0", "--channel", "1A"]) == 2
+    text = capsys.readouterr().err
+    assert text.count("\n") == 1
+    assert "refuses CH 1A" in text
 
 
 @pytest.mark.parametrize("wish", ["--pair", "--latency"])
@@ -139,6 +182,12 @@ def test_drivetrains_of_emulated_robots_are_kept_apart_from_real_ones(tmp_path, 
         ["calibrate", "--emulate", "-1", "--json"],
         ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "-3"],
         ["robots", "--camera", "-5"],
+        ["robots", "--arena", "16384"],
+        ["robots", "--channel", "1B"],
+        ["robots", "--pan", "x"],
+        ["robots", "--radio-setup", "5"],
+        ["robots", "--radio-setup", "1", "--port", "/dev/nowhere"],
+        ["robots", "--arena", "3", "--emulate"],
         ["calibrate", "--camera", "99", "--json"],
         ["fidelity", "record", "run.jsonl", "--emulate", "--seconds", "nan"],
     ],

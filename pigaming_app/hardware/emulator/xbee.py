@@ -146,6 +146,7 @@ class Carrier:
         """Bytes to read."""
         if self._plus and self.clock() - self._last >= GUARD:
             self._plus, self._commanding = False, self.clock()
+            self._text.clear()
             self._out += b"OK\r"
         return len(self._out)
 

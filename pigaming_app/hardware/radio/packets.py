@@ -52,7 +52,8 @@ def drive_packet(arena: int, seq: int, wheels: Sequence[WheelCommand | None]) ->
 
 def report_from(packet: bytes) -> RobotReport:
     """Parse a REPORT packet that a PacketDecoder has validated."""
-    return RobotReport(from_7_bits(packet[1:3]), *packet[3:7], millivolts=from_7_bits(packet[7:9]))
+    address, version, seq, flags = packet[3:7]
+    return RobotReport(from_7_bits(packet[1:3]), address, version, seq, flags, from_7_bits(packet[7:9]))
 
 
 def in_7_bits(number: int, count: int) -> bytes:

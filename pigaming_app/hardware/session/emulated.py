@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.emulator.wifi.air import WifiChannel
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.session.lighting import Lighting
     from pigaming_app.hardware.signals import CameraFrame
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -90,6 +91,10 @@ class EmulatedSession:
         return self._arena
 
     @property
+    def arena_id(self) -> int:
+        return self.arena.arena_id
+
+    @property
     def ground(self) -> "GroundPlane":
         """The calibration saved by the wizard, or else the one made with the arena. Raises RobotsUnavailable."""
         from pigaming_app.hardware.calibration.ground_plane import CalibrationError
@@ -156,6 +161,14 @@ class EmulatedSession:
     def open_link(self) -> "Link | None":
         """Always None: without an arena there is no radio either."""
         return None
+
+    def carrier(self, number: int) -> "Carrier":
+        from pigaming_app.hardware.emulator import xbee
+        from pigaming_app.hardware.radio.xbee_setup import Carrier
+
+        radio = self.arena.radio
+        module = radio.modules[number - 1] if number else radio.module
+        return Carrier(xbee.Carrier(module, self.arena.clock).open, self.arena.clock, "EMU0")
 
     def tick(self) -> None:
         self.advance(DT)

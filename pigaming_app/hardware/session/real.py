@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.signals import CameraFrame, CameraSource
 
 STOCK, UDP = "stock", "udp"  # radio settings: a robot with factory firmware on a cable; Wi-Fi robots
@@ -42,6 +43,12 @@ class RealSession:
         if self._rig is not None:
             return fault_of(self._rig)
         return self._link.fault if self._link else None
+
+    @property
+    def arena_id(self) -> int:
+        from pigaming_app.hardware.session import store
+
+        return store.arena_id(self.settings)
 
     @property
     def site(self) -> "CalibrationSite":
@@ -97,23 +104,36 @@ class RealSession:
     def end(self) -> None:
         self.close()
 
+    def carrier(self, number: int) -> "Carrier":
+        """The radio on the port of the settings, whichever it is: they are plugged in one after another."""
+        from pigaming_app.hardware.radio.serial_line import serial_port
+        from pigaming_app.hardware.radio.xbee_setup import Carrier
+
+        name = self._port_name()
+        return Carrier(lambda baud: serial_port(name, baud)(), time.monotonic, name)
+
+    def _port_name(self) -> str:
+        from pigaming_app.hardware.radio.serial_line import ports
+
+        return self.settings.port or next((port.device for port in ports()), NO_PORT)
+
     def _new_link(self) -> "Link":
         """The link of the settings, not started. A port that does not open is reported as its `fault`."""
         from pigaming_app.hardware.radio.link import Link
-        from pigaming_app.hardware.radio.serial_line import ports, serial_port
+        from pigaming_app.hardware.radio.serial_line import serial_port
         from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
         from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
         from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
-        from pigaming_app.hardware.session import store
+        from pigaming_app.hardware.session.store import wifi_key
 
         chosen = self.settings
         if chosen.radio == UDP:
-            self.network = WifiNetwork(store.arena_id(chosen), store.wifi_key(chosen), time.monotonic)
+            self.network = WifiNetwork(self.arena_id, wifi_key(chosen), time.monotonic)
             return Link(self.network.open, time.monotonic, WifiProtocol(self.network), f"UDP port {self.network.bound}")
-        name = chosen.port or next((port.device for port in ports()), NO_PORT)
+        name = self._port_name()
         if chosen.radio == STOCK:
             return Link(serial_port(name, BAUD), time.monotonic, StockProtocol(0), name)
-        protocol = XBeeProtocol(store.arena_id(chosen), XBeeMode(chosen.radio))
+        protocol = XBeeProtocol(self.arena_id, XBeeMode(chosen.radio))
         return Link(serial_port(name, chosen.baud), time.monotonic, protocol, name)
 
 

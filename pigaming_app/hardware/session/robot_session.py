@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
+    from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.signals import CameraSource, Clock
     from pigaming_app.hardware.tracking.tracker import Tracker
     from pigaming_app.sim.drivetrain import Drivetrain
@@ -43,6 +44,10 @@ class RobotSession(Protocol):
         """Interface to this mat for calibration. Raises RobotsUnavailable."""
 
     @property
+    def arena_id(self) -> int:
+        """Id of this computer's arena; robots with another one are not driven. Raises RobotsUnavailable."""
+
+    @property
     def mm(self) -> float:
         """mm of the mat per arena px, valid while the session is open."""
 
@@ -51,6 +56,12 @@ class RobotSession(Protocol):
 
     def open_link(self) -> "Link | None":
         """The radio alone, for use when `open` raises; None if there is none either."""
+
+    def carrier(self, number: int) -> "Carrier":
+        """The USB carrier with the radio of the computer (0) or of a robot (1 to 4), for XBeeSetup.
+
+        Raises RobotsUnavailable.
+        """
 
     def tick(self) -> None:
         """Sleep until 1/50 s after the last call, or advance simulated time by 1/50 s."""

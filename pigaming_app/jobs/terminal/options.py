@@ -50,6 +50,21 @@ def decimal(low: float, high: float) -> Callable[[str], float]:
     return parse
 
 
+def hexadecimal(low: int, high: int) -> Callable[[str], int]:
+    """Whole numbers from `low` to `high` in hexadecimal digits, as an XBee takes them."""
+
+    def parse(text: str) -> int:
+        try:
+            number = int(text, 16)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{quote(text)} is not a hexadecimal number") from None
+        if not low <= number <= high:
+            raise argparse.ArgumentTypeError(f"{quote(text)} is not between {low:X} and {high:X} (hexadecimal)")
+        return number
+
+    return parse
+
+
 def path(text: str) -> Path:
     """A path that the system accepts."""
     if not text or "\0" in text:

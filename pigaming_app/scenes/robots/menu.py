@@ -21,7 +21,7 @@ from pigaming_app.ui.widgets.focus import Focus
 from pigaming_app.ui.widgets.labels import black_out, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("robots", "calibrate", "check", "pin", "sheet")
+ROWS = ("robots", "radio", "calibrate", "check", "pin", "sheet")
 SHEET = "markers.pdf"
 MESSAGE_SECONDS = 8.0  # s, display time of a message
 IDLE = 300.0  # s without input before the return to the title
@@ -80,6 +80,10 @@ class RobotsMenu:
                 from pigaming_app.scenes.robots.fleet_page import FleetPage
 
                 return Push(FleetPage(self.context))
+            case "radio":
+                from pigaming_app.scenes.radio.page import RadioPage
+
+                return Push(RadioPage(self.context))
             case "calibrate":
                 return Push(CalibrationPage(self.context))
             case "check":
@@ -113,6 +117,10 @@ def sketch(name: str) -> LitImage:
         for x, y, player in ((-120, -70, 0), (120, -70, 1), (-120, 80, 2), (120, 80, 3)):
             ink.ring(x, y, 46, PLAYERS[player], LINE).disc(x, y, 34, GREY)
             ink.arc(x, y, 68, -0.5, 1.1, FOCUS, THIN).arc(x, y, 68, 2.6, 4.2, FOCUS, THIN)
+    elif name == "radio":
+        ink.line([(0, -10), (-50, 140), (50, 140)], ICE, LINE, True).disc(0, -34, 16, FOCUS)
+        for radius in (60, 104, 148):
+            ink.arc(0, -34, radius, -0.7, 0.7, FOCUS, THIN).arc(0, -34, radius, 2.44, 3.84, FOCUS, THIN)
     elif name == "calibrate":
         ink.line(cut_box(-46, -146, 92, 60, 12), ICE, LINE, True).ring(0, -84, 16, ICE, LINE)
         for x in (-150, 150):

@@ -1,0 +1,1 @@
+"""Arena number, radios and kinds of the real robots."""
