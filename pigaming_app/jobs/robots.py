@@ -6,12 +6,12 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
-from pigaming_app.jobs import radio_setup
+from pigaming_app.jobs import radio_setup, wifi_setup
 from pigaming_app.jobs.sessions import new_session
-from pigaming_app.jobs.terminal.options import integer, mat_settings, shared
+from pigaming_app.jobs.terminal.options import mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
-from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import english
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ MISFITS = {
     "old": "old firmware",
     "no_arena": "no arena number",
     "foreign": "of another arena",
-    "key": "another key, see --wifi-config",
+    "key": "another key",
 }
 STATUS = {"ours": "ready", "taken": "another robot has its number", **MISFITS}
 
@@ -40,9 +40,7 @@ STATUS = {"ours": "ready", "taken": "another robot has its number", **MISFITS}
 def options(parser: ArgumentParser) -> None:
     parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
     parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
-    parser.add_argument(
-        "--wifi-config", type=integer(1, 4), metavar="ROBOT", help="print the config.py of a Wi-Fi robot, 1 to 4"
-    )
+    wifi_setup.options(parser)
     shared(parser, "--emulate", "--camera", "--port", "--radio", "--json")
     radio_setup.options(parser)
 
@@ -52,8 +50,10 @@ def run(arguments: Namespace) -> int:
     mat_settings(arguments)
     settings = radio_setup.save_arena(arguments)
     if arguments.wifi_config is not None:
-        print(_wifi_config(arguments.wifi_config, settings), end="")
+        print(wifi_setup.config(arguments.wifi_config, settings), end="")
         return 0
+    if arguments.wheels is not None:
+        return _turn_wheels(arguments)
     if arguments.radio_setup is not None:
         return radio_setup.set_up(arguments, settings)
     if arguments.emulate is not None or arguments.pair or arguments.latency:
@@ -63,6 +63,17 @@ def run(arguments: Namespace) -> int:
         print(json.dumps(status))
     else:
         _print(status)
+    return 0
+
+
+def _turn_wheels(arguments: Namespace) -> int:
+    """Turn the wheels of one robot, without a camera. Raises Refusal."""
+    with refused(RobotsUnavailable):
+        session = new_session(arguments.emulate, arguments.camera, arguments.port, arguments.radio)
+    try:
+        wifi_setup.turn_wheels(session, arguments.wheels)
+    finally:
+        session.end()
     return 0
 
 
@@ -93,7 +104,7 @@ def _radio_status(session: RobotSession) -> dict[str, Any]:
     link = session.open_link()
     time.sleep(LISTEN)
     robots = [_robot(link, i, i, None) for i in range(4)]
-    return {"radio": _sentence(session.fault), "robots": robots, "network": _network(session)}
+    return {"radio": _sentence(session.fault), "robots": robots, "network": wifi_setup.network(session)}
 
 
 def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
@@ -105,7 +116,7 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
     seen = rig.sense()
     status["radio"], status["eyes"] = _sentence(rig.link.fault), _sentence(rig.camera.fault)
     status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
-    status["network"] = _network(session)
+    status["network"] = wifi_setup.network(session)
     movable = [i for i in range(4) if status["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
         raise Refusal(status["radio"] or "No robot answers: are they switched on?")
@@ -114,31 +125,6 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
     if arguments.latency:
         status["latency"] = [_latency(session, rig, i) for i in movable if status["robots"][i]["seen"]]
     return status
-
-
-def _wifi_config(robot: int, settings: Settings) -> str:
-    """The configuration of a Wi-Fi robot of these settings."""
-    from pigaming_app.hardware.session.store import arena_id, robot_config, wifi_key
-
-    return robot_config(robot, arena_id(settings), wifi_key(settings))
-
-
-def _network(session: RobotSession) -> list[dict[str, Any]]:
-    """The robots that have announced themselves by Wi-Fi, of this arena or not."""
-    from pigaming_app.hardware.robot_kinds import robot_kind
-
-    return [
-        {
-            "robot": robot.announced.address,
-            "name": robot.announced.name,
-            "kind": robot_kind("", robot.announced.board).name,
-            "battery": round(robot.announced.millivolts / 1000, 2) or None,
-            "address": robot.address,
-            "arena": robot.announced.arena,
-            "status": robot.status,
-        }
-        for robot in (session.network.robots if session.network else [])
-    ]
 
 
 def _sentence(message: OperatorMessage | None) -> str | None:
@@ -154,6 +140,7 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
         "radio": channel + 1,
         "heard": report is not None and quality.share > 0.0,
         "misfit": misfit.reason if misfit else None,
+        "deaf": report is not None and bool(report.flags & DEADMAN),
         "battery": round(report.battery, 2) if report else None,
         "share": round(quality.share, 2),
         "strength": quality.strength,
@@ -201,15 +188,15 @@ def _print(status: dict[str, Any]) -> None:
     for name in ("ports", "cameras"):
         devices = ", ".join(" ".join(str(part) for part in device.values()) for device in status[name])
         print(f"{name:9} {devices or 'none'}")
-    print(f"arena     {status['arena']} ({radio_setup.flash_command(1, status['arena'])})")
+    print(f"arena     {status['arena']} ({_set_up(1, status)})")
     for name in ("radio", "eyes"):
         print(f"{name:9} {status.get(name) or 'ok'}")
-    for robot in status["network"]:
+    for robot in status["network"] or ():
         volts = f", {robot['battery']:.2f} V" if robot["battery"] else ""
         about = f"{robot['name']}, {robot['kind']}, at {robot['address']}{volts}, arena {robot['arena']}"
         print(f"Wi-Fi {robot['robot']}   {about}: {STATUS[robot['status']]}")
     for robot in status["robots"]:
-        print(f"robot {robot['robot']}   {_described(robot, status['arena'])}")
+        print(f"robot {robot['robot']}   {_described(robot, status)}")
     for pair in status.get("pairing", ()):
         print(f"radio {pair['radio']}   {CASES[pair['case']].format(marker=pair['marker'])}")
     for entry in status.get("latency", ()):
@@ -219,12 +206,20 @@ def _print(status: dict[str, Any]) -> None:
         print(f"latency {entry['robot']} {text}")
 
 
-def _described(robot: dict[str, Any], arena: int) -> str:
+def _set_up(robot: int, status: dict[str, Any]) -> str:
+    """The command that sets up a robot."""
+    if status["network"] is not None:
+        return wifi_setup.config_command(robot)
+    return radio_setup.flash_command(robot, status["arena"])
+
+
+def _described(robot: dict[str, Any], status: dict[str, Any]) -> str:
     if robot["misfit"]:
-        return f"{MISFITS[robot['misfit']]}: {radio_setup.flash_command(robot['radio'], arena)}"
+        return f"{MISFITS[robot['misfit']]}: {_set_up(robot['radio'], status)}"
     if not robot["heard"]:
         return "no reports" + (", seen" if robot["seen"] else "")
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"
     echo = "" if robot["echo_ms"] is None else f", answers in {robot['echo_ms']} ms"
     where = f", seen at {robot['at'][0]:.0f}, {robot['at'][1]:.0f}" if robot["seen"] else ", not seen"
-    return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}"
+    deaf = ", receives no commands" if robot["deaf"] else ""
+    return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}{deaf}"

@@ -29,10 +29,10 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 XBEE_MODES = ("api2", "api1", "transparent")
 RADIO_ROWS = ("channel", "module", "write")
-KIND_ROWS = tuple(f"kind_{robot}" for robot in range(1, ROBOTS + 1))
+KIND_ROWS = ("robot", "kind")
 IDLE = 600.0  # s without input before the return to the title
 MESSAGE_SECONDS = 12.0  # s, display time of a message
-FACT_Y = dials.PANEL.bottom - 64  # middle of the line with the command or the network
+FACT_X, FACT_Y = dials.spots(("",))[0].rect.x + 40, 830  # px, start of the line with the command or the network
 
 log = logging.getLogger("pigaming")
 
@@ -47,7 +47,7 @@ class RadioPage:
         xbees = RADIO_ROWS if context.settings.radio in XBEE_MODES else ()
         self.focus = Focus(dials.spots((*own, *xbees, *KIND_ROWS)))
         self.module = 0  # radio to be written: of the computer, or of robot 1 to 4
-        self.arena = 0
+        self.arena, self.robot = 0, 1  # robot whose kind is shown
         self._steps: Steps[None] | None = None  # of the writing in progress
         hints = [
             (Button.RIGHT, "calibrate.hint_change"),
@@ -111,14 +111,12 @@ class RadioPage:
         values = {spot.name: self._value(spot.name) for spot in self.focus.spots}
         dials.draw(screen, words, self.focus, "arena_radio", values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
-        robot = int(name[-1]) - 1 if name in KIND_ROWS else self.module - 1
-        sketch("kind" if name in KIND_ROWS else name, robot).draw(screen, *dials.CENTRE)
-        row = "kind" if name in KIND_ROWS else name
-        dials.describe(screen, words(f"arena_radio.{name}"), words(f"arena_radio.{row}_line"))
-        text(self._fact(), LABEL, ICE, "body", "l", dials.PANEL.w - 80).draw(screen, dials.PANEL.x + 40, FACT_Y)
+        sketch(name, (self.robot if name in KIND_ROWS else self.module) - 1).draw(screen, *dials.CENTRE)
+        dials.describe(screen, words(f"arena_radio.{name}"), words(f"arena_radio.{name}_line"))
+        text(self._fact(), LABEL, ICE, "body", "l", dials.W - 80).draw(screen, FACT_X, FACT_Y)
         sentence = words("arena_radio.writing") if self._steps is not None else self.navigation.sentence
         for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
-            line.draw(screen, 960, 932 + 44 * i)
+            line.draw(screen, 960, 904 + 44 * i)
         self.navigation.prompts.draw(screen)
 
     # ---- inside
@@ -130,9 +128,9 @@ class RadioPage:
         if name == "module" and self.module:
             return f"make flash ADDRESS={self.module} ARENA={self.arena}"
         if name in KIND_ROWS:
-            chosen = self.context.settings.kinds[int(name[-1]) - 1]
+            chosen = self.context.settings.kinds[self.robot - 1]
             kind = next((kind for kind in KINDS if kind.key == chosen), None)
-            return f"Ø {2 * kind.radius_mm:g} mm  ·  {kind.warn_mv / 1000:g} V" if kind else ""
+            return f"{kind.name}:  Ø {2 * kind.radius_mm:g} mm,  {kind.warn_mv / 1000:g} V" if kind else ""
         return str(self.network)
 
     def _say(self, key: str) -> None:
@@ -149,7 +147,7 @@ class RadioPage:
     def _value(self, name: str) -> SettingValue:
         words = self.context.words
         if name == "write":
-            return SettingValue("deed", (words("robots.write"),))
+            return SettingValue("deed", (words("arena_radio.begin"),))
         if name == "arena":
             return SettingValue("arrows", (str(self.arena),))
         values, now = self._choices(name)
@@ -162,11 +160,13 @@ class RadioPage:
             channels: dict[object, str] = {channel: f"{channel:X}" for channel in CHANNELS}
             auto = words("arena_radio.auto", value=f"{network_of(self.arena).channel:X}")
             return {0: auto, **channels}, settings.radio_channel
+        robots: dict[object, str] = {robot: words("mat.robot", robot=robot) for robot in range(1, ROBOTS + 1)}
         if name == "module":
-            robots: dict[object, str] = {robot: words("mat.robot", robot=robot) for robot in range(1, ROBOTS + 1)}
             return {0: words("arena_radio.own"), **robots}, self.module
+        if name == "robot":
+            return robots, self.robot
         kinds: dict[object, str] = {"": words("arena_radio.announced"), **{kind.key: kind.name for kind in KINDS}}
-        chosen = settings.kinds[int(name[-1]) - 1]
+        chosen = settings.kinds[self.robot - 1]
         return kinds, chosen if chosen in kinds else ""
 
     def _change(self, name: str, delta: int) -> None:
@@ -180,13 +180,13 @@ class RadioPage:
             values, now = self._choices(name)
             keys = list(values)
             new = keys[max(0, min(len(keys) - 1, keys.index(now) + delta))]
-            if name == "module":
-                self.module = int(str(new))
+            if name in ("module", "robot"):
+                setattr(self, name, new)
             elif name == "channel":
                 settings.choose("radio_channel", new)
             else:
                 settings.kinds = [*settings.kinds]
-                settings.kinds[int(name[-1]) - 1] = str(new)
+                settings.kinds[self.robot - 1] = str(new)
         self._save()
 
     def _renumber(self, number: int) -> None:

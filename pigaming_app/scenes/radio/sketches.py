@@ -4,8 +4,6 @@ from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, G
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 
-ROBOT_AT = ((-120, -66), (120, -66), (-120, 76), (120, 76))
-
 
 @cached
 def sketch(name: str, robot: int) -> LitImage:
@@ -15,7 +13,7 @@ def sketch(name: str, robot: int) -> LitImage:
         _arena(ink)
     elif name == "channel":
         _channels(ink)
-    elif name == "kind":
+    elif name in ("robot", "kind"):
         _kind(ink, robot)
     else:
         _module(ink, robot, writing=name == "write")
@@ -60,6 +58,7 @@ def _module(ink: GlowCanvas, robot: int, writing: bool) -> None:
 
 def _kind(ink: GlowCanvas, robot: int) -> None:
     """A robot from above with its wheels, its circle, and the measure of its diameter."""
+    assert robot >= 0
     ink.ring(0, -20, 104, PLAYERS[robot], LINE)
     for x in (-84, 64):
         ink.line(cut_box(x, -54, 20, 68, 4), ICE, THIN, True)

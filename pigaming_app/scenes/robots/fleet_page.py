@@ -32,7 +32,7 @@ BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "udp", "stock")
 EMULATED = ("pair", "latency")
 ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
-WEAK, LOW = 0.7, 4.4  # share of reports, V: below these a robot is marked
+WEAK = 0.7  # share of reports below which a robot is marked
 IDLE = 600.0  # s without input before the return to the title
 MESSAGE_SECONDS = 8.0  # s, display time of a message
 REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
@@ -205,10 +205,19 @@ class FleetPage:
         late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
         named = f"{health.name}  ·  " if health.name else ""
         seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
+        if health.misfit is not None:
+            return words(f"fleet.{health.misfit.reason}", arena=health.misfit.arena), ALARM, seen, MIST
         if health.battery is None:
             return words("fleet.silent"), MIST, seen, MIST
-        heard = named + words("fleet.heard", volts=f"{health.battery:.1f}", share=round(100 * health.share))
-        weak = health.battery < LOW or health.share < WEAK
+        heard = named + words(
+            "fleet.heard" if health.battery else "fleet.heard_only",
+            volts=f"{health.battery:.1f}",
+            share=round(100 * health.share),
+        )
+        if health.deaf:
+            return words("fleet.deaf"), ALARM, seen, MIST
+        weak = 0.0 < health.battery < health.kind.warn_mv / 1000 or health.share < WEAK
+        seen += f"  ·  {health.kind.name}"
         return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST
 
     # ---- rows

@@ -9,6 +9,9 @@ from pigaming_app.hardware.commissioning.latency import LatencyTest
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, PairingFinding
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.packets import DEADMAN
+from pigaming_app.hardware.radio.protocol import Misfit
+from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.sim.world import ROBOTS
@@ -24,13 +27,18 @@ log = logging.getLogger("pigaming")
 
 @dataclass(frozen=True)
 class RobotStatus:
-    """Status of one robot: battery in V, share of reports received (0..1), visible, latency in s if measured."""
+    """Status of one robot: battery in V (0: not measured), share of reports received (0..1), visible, latency in s if
+    measured; its kind, why it cannot be driven, and whether it reports that no commands arrive.
+    """
 
     battery: float | None
     share: float
     seen: bool
     latency: float | None
-    name: str = ""  # announced by a Wi-Fi robot
+    kind: RobotKind
+    misfit: Misfit | None
+    deaf: bool
+    name: str  # announced by a Wi-Fi robot, or empty
 
 
 @dataclass
@@ -133,8 +141,11 @@ class FleetState:
         """Status of a robot."""
         report = self.link.telemetry.get(robot) if self.heard(robot) else None
         share = self.link.quality(robot).share if report else 0.0
+        kind = robot_kind(self.settings.kinds[robot], self.link.boards.get(robot) if self.link is not None else None)
+        misfit = self.link.misfit(robot) if self.link is not None else None
         battery, latency = report.battery if report else None, self.latencies.get(robot)
-        return RobotStatus(battery, share, self._seen(robot), latency, self._name(robot))
+        deaf = report is not None and bool(report.flags & DEADMAN)
+        return RobotStatus(battery, share, self._seen(robot), latency, kind, misfit, deaf, self._name(robot))
 
     # ---- inside
 

@@ -9,6 +9,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.sim.robot import RADIUS
 from tests.cases import one_in
 from tests.floor import floor
@@ -49,6 +50,17 @@ def test_real_robots_drive_as_asked_within_their_gains():
         assert robot.x == pytest.approx(300.0 + 200.0 * (2.0 - 0.09 - 0.03), rel=0.05)
     assert plant.faults == []
     assert plant.world.robots[0].linear == pytest.approx(200.0, rel=0.03)
+
+
+@pytest.mark.parametrize("reason", ["old", "no_arena", "foreign"])
+def test_a_robot_that_cannot_be_driven_is_off_and_named_while_the_others_wait(reason):
+    mat = Mat()
+    mat.misfits, mat.robots[1].silent = {1: Misfit(reason, 0, 0.0)}, True
+    plant = on_floor(mat)
+    drive(plant, mat, AHEAD, 1.5)
+    assert [(fault.name, fault.robot) for fault in plant.faults if fault.pauses] == [(reason, 1)]
+    assert mat.robots[1].command is None
+    assert plant.safety.pauses
 
 
 @pytest.mark.parametrize(("board", "radius"), [(None, 36.0), (1, 60.0 / 1.32)])

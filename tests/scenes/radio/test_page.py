@@ -55,10 +55,12 @@ def test_number_channel_and_kinds_change_and_are_kept(arcade: Arcade) -> None:
     go(arcade, "channel")
     arcade.press(Button.RIGHT)
     assert page.network == (0x0B, 0x4000 | 4712)
-    go(arcade, "kind_2")
+    go(arcade, "robot")
+    arcade.press(Button.RIGHT)
+    go(arcade, "kind")
     arcade.press(Button.RIGHT)
     arcade.press(Button.RIGHT)
-    assert page._fact() == "Ø 120 mm  ·  4.4 V"
+    assert page._fact() == "ESP32:  Ø 120 mm,  4.4 V"
     kept = Settings.load(folders().config)[0]
     assert (kept.arena_id, kept.radio_channel, kept.kinds) == (4712, 0x0B, ["", "esp32", "", ""])
 

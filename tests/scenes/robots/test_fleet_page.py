@@ -57,15 +57,18 @@ def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: 
 def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)
+    mat.arena.faults.switch("old_firmware", True, 1)
     arcade.wait(4.0, fps=50)
     page = arcade.shown(FleetPage)
     heard, _, seen, _ = page.lines[0]
     assert heard.startswith("5.")
     assert "V" in heard
-    assert seen == "seen"
+    assert seen == "seen  ·  Pololu 3pi"
+    assert page.lines[1][0] == "old firmware: flash it anew"
     assert page.lines[2][0] == "no signal"
-    assert page.lines[3][2] == "not seen"
+    assert page.lines[3][2] == "not seen  ·  Pololu 3pi"
     mat.arena.faults.switch("robot_off", False, 2)
+    mat.arena.faults.switch("old_firmware", False, 1)
     mat.arena.faults.switch("marker_covered", False, 3)
 
 

@@ -291,7 +291,7 @@ def test_a_battery_that_was_empty_pauses_until_the_robot_takes_commands_again(
     body.battery = 4.45
     until(arcade, RealMatch, 2.0)
     body.battery = before
-    assert caplog.text.count("Motors need 4.4 V to restart") == 1
+    assert caplog.text.count("Its motors stay off until then") == 1
 
 
 @pytest.mark.long
