@@ -19,7 +19,7 @@ from pigaming_app.storage.settings import folders
 HERE = Path(__file__).parent / "micropython"
 PROGRAM = Path(__file__).parents[2] / "firmware" / "micropython"
 INTERPRETER = "node_modules/@micropython/micropython-webassembly-pyscript/micropython.mjs"
-INSTALLING, ANSWER = 120.0, 20.0  # s, timeouts
+INSTALLING, ANSWER = 120.0, 60.0  # s, timeouts
 FULL = 65535  # duty of a PWM pin
 
 Shares = tuple[float, float]  # voltage of the left and the right motor, as shares of the battery's
