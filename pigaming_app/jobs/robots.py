@@ -31,10 +31,10 @@ CASES = {
 MISFITS = {
     "old": "old firmware",
     "no_arena": "no arena number",
-    "foreign": "of another arena",
+    "foreign": "no signal, only from another arena's robot",
     "key": "another key",
 }
-STATUS = {"ours": "ready", "taken": "another robot has its number", **MISFITS}
+STATUS = {**MISFITS, "ours": "ready", "foreign": "of another arena", "taken": "another robot has its number"}
 
 
 def options(parser: ArgumentParser) -> None:

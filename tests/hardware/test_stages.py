@@ -7,7 +7,7 @@ import pytest
 from tests.test_layers import PACKAGE, imported
 
 HARDWARE = PACKAGE / "hardware"
-ROOT = {"messages", "recordings", "signals", "worker"}
+ROOT = {"messages", "recordings", "robot_kinds", "signals", "worker"}
 MAY = {
     "radio": set(),
     "vision": set(),

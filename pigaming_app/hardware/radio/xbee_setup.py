@@ -57,8 +57,10 @@ def parameters(number: int, network: Network, mode: str, baud: int) -> dict[str,
 
     Raises ValueError for a number or a baud rate that does not exist.
     """
-    if not 0 <= number <= ROBOTS or baud not in RATES:
-        raise ValueError(f"radio {number} at {baud} baud")
+    if not 0 <= number <= ROBOTS:
+        raise ValueError(f"radio {number}; there are 0 to {ROBOTS}")
+    if baud not in RATES:
+        raise ValueError(f"an XBee has no rate of {baud} baud: choose 57600")
     api = MODES[mode] if number == 0 else 0
     to = BROADCAST if number == 0 and not api else 0  # in the API modes every packet names its address
     own = {"CH": network.channel, "ID": network.pan, "MY": number, "DH": 0, "DL": to}

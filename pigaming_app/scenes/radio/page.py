@@ -7,6 +7,7 @@ import pygame
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.radio.packets import LAST_ARENA
+from pigaming_app.hardware.radio.serial_line import BAUD
 from pigaming_app.hardware.radio.xbee_setup import CHANNELS, Network, Steps, XBeeSetup, network_of, parameters
 from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
@@ -199,10 +200,12 @@ class RadioPage:
             self._renumber(1 + secrets.randbelow(LAST_ARENA))
             self._save()
         elif name == "write":
-            settings = self.context.settings
+            mode, baud = (
+                ("api2", BAUD) if self.session.emulated else (self.context.settings.radio, self.context.settings.baud)
+            )
             try:
-                wanted = parameters(self.module, self.network, settings.radio, settings.baud)
-                self._steps = XBeeSetup(self.session.carrier(self.module), wanted, settings.baud).steps()
+                wanted = parameters(self.module, self.network, mode, baud)
+                self._steps = XBeeSetup(self.session.carrier(self.module), wanted, baud).steps()
             except RobotsUnavailable as error:
                 self._show(error.message)
             except ValueError:

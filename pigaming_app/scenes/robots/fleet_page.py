@@ -206,7 +206,9 @@ class FleetPage:
         named = f"{health.name}  ·  " if health.name else ""
         seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
         if health.misfit is not None:
-            return words(f"fleet.{health.misfit.reason}", arena=health.misfit.arena), ALARM, seen, MIST
+            reason, arena = health.misfit.reason, health.misfit.arena
+            remedy = words("fleet.elsewhere" if reason == "foreign" else "fleet.flash", arena=arena)
+            return words(f"fleet.{reason}"), ALARM, remedy, MIST
         if health.battery is None:
             return words("fleet.silent"), MIST, seen, MIST
         heard = named + words(

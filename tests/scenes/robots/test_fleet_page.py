@@ -64,7 +64,7 @@ def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSes
     assert heard.startswith("5.")
     assert "V" in heard
     assert seen == "seen  ·  Pololu 3pi"
-    assert page.lines[1][0] == "old firmware: flash it anew"
+    assert page.lines[1][::2] == ("old firmware", "flash it anew")
     assert page.lines[2][0] == "no signal"
     assert page.lines[3][2] == "not seen  ·  Pololu 3pi"
     mat.arena.faults.switch("robot_off", False, 2)
