@@ -44,7 +44,7 @@ DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
 DEPENDENCIES |= ROS
-FILES = [PACKAGE.parent / "main.py", *sorted(PACKAGE.rglob("*.py"))]
+FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.py") if "micropython" not in path.parts)]
 
 
 @cache

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
-from pigaming_app.jobs import radio_setup
+from pigaming_app.jobs import radio_setup, wifi_setup
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
@@ -32,13 +32,16 @@ MISFITS = {
     "old": "old firmware",
     "no_arena": "no arena number",
     "foreign": "no signal, only from another arena's robot",
+    "key": "another key",
 }
+STATUS = {**MISFITS, "ours": "ready", "foreign": "of another arena", "taken": "another robot has its number"}
 
 
 def options(parser: ArgumentParser) -> None:
     parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
     parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
-    shared(parser, "--emulate", "--camera", "--port", "--json")
+    wifi_setup.options(parser)
+    shared(parser, "--emulate", "--camera", "--port", "--radio", "--json")
     radio_setup.options(parser)
 
 
@@ -46,6 +49,11 @@ def run(arguments: Namespace) -> int:
     """Print the status. Raises Refusal."""
     mat_settings(arguments)
     settings = radio_setup.save_arena(arguments)
+    if arguments.wifi_config is not None:
+        print(wifi_setup.config(arguments.wifi_config, settings), end="")
+        return 0
+    if arguments.wheels is not None:
+        return _turn_wheels(arguments)
     if arguments.radio_setup is not None:
         return radio_setup.set_up(arguments, settings)
     if arguments.emulate is not None or arguments.pair or arguments.latency:
@@ -55,6 +63,17 @@ def run(arguments: Namespace) -> int:
         print(json.dumps(status))
     else:
         _print(status)
+    return 0
+
+
+def _turn_wheels(arguments: Namespace) -> int:
+    """Turn the wheels of one robot, without a camera. Raises Refusal."""
+    with refused(RobotsUnavailable):
+        session = new_session(arguments.emulate, arguments.camera, arguments.port, arguments.radio)
+    try:
+        wifi_setup.turn_wheels(session, arguments.wheels)
+    finally:
+        session.end()
     return 0
 
 
@@ -68,7 +87,7 @@ def look(arguments: Namespace) -> dict[str, Any]:
         "cameras": [camera._asdict() for camera in cameras()],
     }
     with refused(RobotsUnavailable):
-        session = new_session(arguments.emulate, arguments.camera, arguments.port)
+        session = new_session(arguments.emulate, arguments.camera, arguments.port, arguments.radio)
     try:
         status["arena"] = session.arena_id
         return {**status, **_full_status(session, arguments)}
@@ -84,7 +103,8 @@ def _radio_status(session: RobotSession) -> dict[str, Any]:
     """The status by radio alone."""
     link = session.open_link()
     time.sleep(LISTEN)
-    return {"radio": _sentence(session.fault), "robots": [_robot(link, i, i, None) for i in range(4)]}
+    robots = [_robot(link, i, i, None) for i in range(4)]
+    return {"radio": _sentence(session.fault), "robots": robots, "network": wifi_setup.network(session)}
 
 
 def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
@@ -96,6 +116,7 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
     seen = rig.sense()
     status["radio"], status["eyes"] = _sentence(rig.link.fault), _sentence(rig.camera.fault)
     status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
+    status["network"] = wifi_setup.network(session)
     movable = [i for i in range(4) if status["robots"][i]["heard"]]
     if (arguments.pair or arguments.latency) and not movable:
         raise Refusal(status["radio"] or "No robot answers: are they switched on?")
@@ -167,11 +188,15 @@ def _print(status: dict[str, Any]) -> None:
     for name in ("ports", "cameras"):
         devices = ", ".join(" ".join(str(part) for part in device.values()) for device in status[name])
         print(f"{name:9} {devices or 'none'}")
-    print(f"arena     {status['arena']} ({radio_setup.flash_command(1, status['arena'])})")
+    print(f"arena     {status['arena']} ({_set_up(1, status)})")
     for name in ("radio", "eyes"):
         print(f"{name:9} {status.get(name) or 'ok'}")
+    for robot in status["network"] or ():
+        volts = f", {robot['battery']:.2f} V" if robot["battery"] else ""
+        about = f"{robot['name']}, {robot['kind']}, at {robot['address']}{volts}, arena {robot['arena']}"
+        print(f"Wi-Fi {robot['robot']}   {about}: {STATUS[robot['status']]}")
     for robot in status["robots"]:
-        print(f"robot {robot['robot']}   {_described(robot, status['arena'])}")
+        print(f"robot {robot['robot']}   {_described(robot, status)}")
     for pair in status.get("pairing", ()):
         print(f"radio {pair['radio']}   {CASES[pair['case']].format(marker=pair['marker'])}")
     for entry in status.get("latency", ()):
@@ -181,9 +206,16 @@ def _print(status: dict[str, Any]) -> None:
         print(f"latency {entry['robot']} {text}")
 
 
-def _described(robot: dict[str, Any], arena: int) -> str:
+def _set_up(robot: int, status: dict[str, Any]) -> str:
+    """The command that sets up a robot."""
+    if status["network"] is not None:
+        return wifi_setup.config_command(robot)
+    return radio_setup.flash_command(robot, status["arena"])
+
+
+def _described(robot: dict[str, Any], status: dict[str, Any]) -> str:
     if robot["misfit"]:
-        return f"{MISFITS[robot['misfit']]}: {radio_setup.flash_command(robot['radio'], arena)}"
+        return f"{MISFITS[robot['misfit']]}: {_set_up(robot['radio'], status)}"
     if not robot["heard"]:
         return "no reports" + (", seen" if robot["seen"] else "")
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"

@@ -6,11 +6,15 @@ from pigaming_app.storage.settings import Settings, folders
 EXPOSURE_JITTER = 0.15  # size of the exposure steps of the emulated camera, as a share
 
 
-def emulated_session(seed: int) -> RobotSession:
-    """A session with the emulated arena of a seed, with all robots found. Raises RobotsUnavailable."""
+def emulated_session(seed: int, wifi: bool = False) -> RobotSession:
+    """A session with the emulated arena of a seed, with all robots found. Raises RobotsUnavailable.
+
+    `wifi`: its robots are boards with Wi-Fi that run their own program, else they have XBees.
+    """
+    from pigaming_app.hardware.emulator.wifi.air import WifiChannel
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
-    session = EmulatedSession(seed, live=False, exposure_jitter=EXPOSURE_JITTER)
+    session = EmulatedSession(seed, live=False, exposure_jitter=EXPOSURE_JITTER, wifi=WifiChannel() if wifi else None)
     session.open()  # raises RobotsUnavailable without OpenCV, before Lighting needs it
     from pigaming_app.hardware.session.lighting import Lighting
 
@@ -19,16 +23,17 @@ def emulated_session(seed: int) -> RobotSession:
     return session
 
 
-def real_session(camera: int | None = None, port: str | None = None) -> RobotSession:
-    """A session with the robots of the settings, not yet open; `camera` and `port` override the settings."""
+def real_session(camera: int | None = None, port: str | None = None, radio: str | None = None) -> RobotSession:
+    """A session with the robots of the settings, not yet open; `camera`, `port` and `radio` override the settings."""
     from pigaming_app.hardware.session.real import RealSession
 
     settings, _ = Settings.load(folders().config)
     settings.camera = settings.camera if camera is None else camera
     settings.port = port or settings.port
+    settings.radio = radio or settings.radio
     return RealSession(settings)
 
 
-def new_session(emulate: int | None, camera: int | None, port: str | None) -> RobotSession:
+def new_session(emulate: int | None, camera: int | None, port: str | None, radio: str | None = None) -> RobotSession:
     """The emulated session of a seed, or the real one. Raises RobotsUnavailable."""
-    return emulated_session(emulate) if emulate is not None else real_session(camera, port)
+    return emulated_session(emulate, radio == "udp") if emulate is not None else real_session(camera, port, radio)

@@ -7,6 +7,7 @@ the settings that it has changed.
 
 import logging
 import os
+import re
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any, Protocol
@@ -111,6 +112,14 @@ class RobotKinds:
         return None if short else "not a list of four short texts"
 
 
+class HexKey:
+    """Nothing, or 32 hexadecimal digits."""
+
+    def error(self, value: object) -> str | None:
+        valid = isinstance(value, str) and re.fullmatch("([0-9a-f]{32})?", value)
+        return None if valid else "neither empty nor 32 hexadecimal digits"
+
+
 class Corners:
     """An empty list, or eight whole numbers: the corners of the picture, px of the canvas."""
 
@@ -162,8 +171,9 @@ class Settings:
     lid_mm: float = _setting(70.0, Range(0.0, 300.0))  # the height of the robots' lids
     port: str = _setting("", ShortText())  # of the radio; empty: the first one found
     baud: int = _setting(57600, Range(1200, 921600))
-    radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "stock")))  # its mode
+    radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "udp", "stock")))  # its mode
     arena_id: int = _setting(0, Range(0, 16383))  # of this computer and its robots; 0: drawn on first use
+    wifi_key: str = _setting("", HexKey())  # of this arena and its Wi-Fi robots; empty: drawn on first use
     radio_channel: int = _setting(0, Range(0, 26))  # of the XBees, 11 to 26; 0: follows from the arena id
     radio_pan: int = _setting(0, Range(0, 65534))  # of the XBees; 0: follows from the arena id
     mat: bool = _setting(False, Boolean())  # real robots are selectable

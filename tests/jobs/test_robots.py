@@ -219,3 +219,17 @@ def test_robots_that_cannot_be_read_are_one_line(tmp_path, capsys, text, more):
     assert main(["play", "--headless", "--robots", str(file), *more]) == 2
     text = capsys.readouterr().err
     assert text.count("\n") == 1
+
+
+def test_the_configuration_of_a_wifi_robot_has_the_arena_and_a_key_drawn_once(capsys):
+    printed = []
+    for _ in range(2):
+        assert main(["robots", "--wifi-config", "2", "--arena", "77"]) == 0
+        printed.append(capsys.readouterr().out)
+    assert printed[0] == printed[1]
+    values: dict[str, object] = {}
+    exec(printed[0], values)
+    settings, _ = Settings.load(folders().config)
+    assert (values["ROBOT"], values["ARENA"], values["NAME"]) == (2, 77, "Robot 2")
+    assert values["KEY"] == settings.wifi_key
+    assert len(bytes.fromhex(settings.wifi_key)) == 16

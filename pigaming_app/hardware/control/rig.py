@@ -34,6 +34,7 @@ SPARSE = 24  # px between the samples of the quick comparison of two pictures
 ROUNDING = 1.0  # px of a body's radius that the virtual walls' own margin covers
 RETRY = 0.5  # s until the next try after an error
 PERIOD = 0.005  # s between two polls of the camera
+MUTE = 0.35  # s without a report after which commands may be lost, too
 GREETING = 0.5  # s after which every robot in range has received a command and reported since
 
 log = logging.getLogger("pigaming")
@@ -132,6 +133,7 @@ class Rig:
         self.recorder: Recorder | None = None
         self.viewers: list[Callable[[CameraFrame], None]] = []  # also get every new picture, in the rig's thread
         self._begun = clock()
+        self._unreached: set[int] = set()
         self._deaf_since: dict[int, float] = {}  # s, by robot
         self._image: Image | None = None  # the newest
         self._lock = threading.Lock()
@@ -215,6 +217,7 @@ class Rig:
         A verdict lasts one tick, so ages are extrapolated by one tick.
         """
         now, gone, drift = self.clock(), self.link.fault is not None, self.drift()
+        reached = {robot for robot in outside if self._reached(robot, now)}
         with self._lock:
             last_captured, duplicates, rejections = (
                 self.tracker.last_captured,
@@ -232,7 +235,7 @@ class Rig:
                 rejection=rejections.get(robot, ""),
                 duplicate=robot in duplicates,
                 outside=seconds,
-                silence=now - (report.received if report else self._begun),
+                silence=self._silence(report, now),
                 misfit=misfit.reason if misfit else "",
                 battery=(report.battery if report else 0.0) or Health().battery,  # 0: it is not measured
                 battery_low=kind.warn_mv / 1000,
@@ -240,12 +243,25 @@ class Rig:
                 undervoltage=report is not None and bool(report.flags & EMPTY),
                 deadman_seconds=self._deaf(robot, report),
                 astray=contradictions[robot].astray,
-                stuck=contradictions[robot].stuck,
+                stuck=contradictions[robot].stuck if robot in reached else 0.0,
                 leaving=contradictions[robot].leaving,
                 unlinked=gone,
                 drift=drift,
             )
         return health
+
+    def _silence(self, report: Telemetry | None, now: float) -> float:
+        """Seconds since a robot's last report, or since the start."""
+        return now - (report.received if report else self._begun)
+
+    def _reached(self, robot: int, now: float) -> bool:
+        """True if commands reach a robot. When they do so again, those lost explain nothing: its check starts anew."""
+        report = self.telemetry(robot)
+        reached = report is not None and self._silence(report, now) < MUTE and not report.flags & DEADMAN
+        if reached and robot in self._unreached:
+            self.forget(robot)
+        (self._unreached.discard if reached else self._unreached.add)(robot)
+        return reached
 
     def _deaf(self, robot: int, report: Telemetry | None) -> float:
         """Seconds from the first to the latest of consecutive reports of a tripped deadman.

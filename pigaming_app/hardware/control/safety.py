@@ -82,6 +82,7 @@ RULES = (
     SafetyRule("old", lambda s: s.misfit == "old", Response.OFF, pauses=True),
     SafetyRule("no_arena", lambda s: s.misfit == "no_arena", Response.OFF, pauses=True),
     SafetyRule("foreign", lambda s: s.misfit == "foreign" and s.silence > 1.0, Response.OFF, pauses=True),
+    SafetyRule("key", lambda s: s.misfit == "key" and s.silence > 1.0, Response.OFF, pauses=True),
     SafetyRule("silent", lambda s: s.silence > 1.0 and not s.misfit, Response.OFF, pauses=True),
     SafetyRule("deadman", lambda s: s.deadman_seconds > 0.5, Response.STOP, pauses=True),
     SafetyRule("deadman", lambda s: s.deadman_seconds > 0.0, Response.WARN),

@@ -106,6 +106,9 @@ class EmulatedRadio:
     def close(self) -> None:
         """No effect: the emulated radio stays."""
 
+    def end(self) -> None:
+        """Release what the radio holds."""
+
     def step(self) -> None:
         """Process all events that are due: robots receive, report, and apply their deadmen."""
         now = self.clock()

@@ -10,6 +10,7 @@ import numpy as np
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane
 from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
+from pigaming_app.hardware.emulator.wifi.air import WifiChannel
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.lighting import Lighting
 from pigaming_app.hardware.signals import CameraFrame, Fix
@@ -37,7 +38,10 @@ class TimedTracker(Tracker):
 
 
 class Testbed:
-    """A calibrated arena with a rig. `drops`: share of lost frames; `ground`: skips the calibration if given."""
+    """A calibrated arena with a rig. `drops`: share of lost frames; `ground`: skips the calibration if given.
+
+    With `wifi` the robots are Wi-Fi boards that run their own program, see EmulatedSession.
+    """
 
     def __init__(
         self,
@@ -46,6 +50,7 @@ class Testbed:
         drops: float = 0.0,
         channel: RadioChannel = MODERATE,
         ground: GroundPlane | None = None,
+        wifi: WifiChannel | None = None,
     ) -> None:
         self.lighting = Lighting(seed)
         self.session = EmulatedSession(
@@ -57,6 +62,7 @@ class Testbed:
             exposure_jitter=EXPOSURE_JITTER,
             ground=ground,
             tracker=TimedTracker,
+            wifi=wifi,
         )
         self.rig = self.session.open()
         self.arena, self.ground = self.session.arena, self.session.ground

@@ -17,7 +17,8 @@ class LinkQuality(NamedTuple):
 class Misfit(NamedTuple):
     """A robot that reports but cannot be driven."""
 
-    reason: str  # old: firmware of protocol 1; no_arena: flashed without an arena id; foreign: of another arena
+    reason: str  # old: firmware of protocol 1; no_arena: flashed without an arena id; foreign: of another arena; key:
+    # of another key, on Wi-Fi
     arena: int  # id in its reports, 0 if there is none
     received: float  # s, time of its last such report
 

@@ -44,6 +44,7 @@ ERRORS = {
     errno.EACCES: "denied",
     errno.EPERM: "denied",
     errno.EBUSY: "busy",
+    errno.EADDRINUSE: "busy",  # of a UDP port
     errno.EAGAIN: "busy",  # another program holds the lock that pyserial requests
     errno.ENOTTY: "wrong",
     errno.EINVAL: "wrong",

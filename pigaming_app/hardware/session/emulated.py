@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.emulator.paced import PacedArena
     from pigaming_app.hardware.emulator.radio import RadioChannel
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
+    from pigaming_app.hardware.emulator.wifi.air import WifiChannel
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.session.lighting import Lighting
     from pigaming_app.hardware.signals import CameraFrame
@@ -29,6 +31,7 @@ SLICE = 0.5 * DT  # s of simulated time after which arena and rig alternate
 DARK = (1080, 1920)  # px, size of a black image
 FPS = 30.0  # frames/s of the emulated camera
 WHOLE, QUICK = 3, 30  # interval of complete renders, frames: in real and in simulated time
+EMULATED_KEY = bytes(range(16))  # of the emulated Wi-Fi robots
 SEARCH = 10.0  # timeout for finding all robots, s
 
 
@@ -38,7 +41,7 @@ class EmulatedSession:
     `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
     `show`. `timing`, `traits`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
-    camera and radio.
+    camera and radio. With `wifi` the robots are boards on such a network, and run their own program; else they have XBees.
     """
 
     emulated = True
@@ -55,10 +58,13 @@ class EmulatedSession:
         ground: "GroundPlane | None" = None,
         tracker: "type[Tracker] | None" = None,
         traits: "CameraTraits | None" = None,
+        wifi: "WifiChannel | None" = None,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
         self.mm = 0.0
         self.quality: CameraQuality | None = None
+        self.network: WifiNetwork | None = None  # of robots with Wi-Fi
+        self._wifi = wifi
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._traits = traits
         self._arena: EmulatedArena | None = None
@@ -129,7 +135,11 @@ class EmulatedSession:
             arena, ground = self.arena, self.ground
             arena.cleared = False
             self._now, self.mm, self.quality = arena.clock(), ground.mm, ground.quality
-            link = Link(arena.radio.open, arena.clock, XBeeProtocol(arena.arena_id), "EMU0")
+            link = (
+                self._wifi_link(self._wifi)
+                if self._wifi
+                else Link(arena.radio.open, arena.clock, XBeeProtocol(arena.arena_id), "EMU0")
+            )
             camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
             self._rig = new_rig(camera, link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker)
             if self._time is not None:
@@ -204,6 +214,8 @@ class EmulatedSession:
         passing, self._time = self._time, None
         if passing is not None:
             passing.close()
+        if self._arena is not None and self.network is not None:
+            self._arena.radio.end()
 
     def _new_arena(self) -> "EmulatedArena":
         import numpy as np
@@ -224,6 +236,23 @@ class EmulatedSession:
         self._made = self._made or calibrated(arena)
         arena.project(np.zeros(DARK, np.uint8))  # until the window renders
         return arena
+
+    def _wifi_link(self, channel: "WifiChannel") -> "Link":
+        """A link to boards of their own. Raises RobotsUnavailable."""
+        from pigaming_app.hardware.emulator.wifi.air import LOOPBACK
+        from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython
+        from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
+        from pigaming_app.hardware.radio.link import Link
+        from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
+
+        if self.network is None:
+            network = WifiNetwork(self.arena.arena_id, EMULATED_KEY, self.arena.clock, 0, LOOPBACK).open()
+            try:
+                self.arena.radio = WifiRadio(self.arena, channel, network.bound, network.arena, network.key)
+            except NoMicroPython as error:
+                raise RobotsUnavailable(OperatorMessage("micropython", detail=error)) from error
+            self.network = network
+        return Link(self.network.open, self.arena.clock, WifiProtocol(self.network), "Wi-Fi")
 
     def _light(self, rig: "Rig") -> None:
         """Project the floor, and a disc at each robot's predicted position when the light lands."""

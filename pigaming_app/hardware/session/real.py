@@ -18,10 +18,11 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
 
-STOCK = "stock"  # radio setting: a single robot with factory firmware, on a cable
+STOCK, UDP = "stock", "udp"  # radio settings: a robot with factory firmware on a cable; Wi-Fi robots
 NO_PORT = "no serial port"
 
 
@@ -35,6 +36,7 @@ class RealSession:
         self.mm = 0.0
         self.quality: CameraQuality | None = None
         self._rig: Rig | None = None
+        self.network: WifiNetwork | None = None
         self._link: Link | None = None
         self._next = time.monotonic()  # s, time of the next tick
 
@@ -95,6 +97,7 @@ class RealSession:
 
     def close(self) -> None:
         rig, self._rig, link, self._link = self._rig, None, self._link, None
+        self.network = None
         if rig is not None:
             rig.close()
         if link is not None:
@@ -121,9 +124,15 @@ class RealSession:
         from pigaming_app.hardware.radio.link import Link
         from pigaming_app.hardware.radio.serial_line import serial_port
         from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
+        from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
         from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
+        from pigaming_app.hardware.session.store import wifi_key
 
-        chosen, name = self.settings, self._port_name()
+        chosen = self.settings
+        if chosen.radio == UDP:
+            self.network = WifiNetwork(self.arena_id, wifi_key(chosen), time.monotonic)
+            return Link(self.network.open, time.monotonic, WifiProtocol(self.network), f"UDP port {self.network.bound}")
+        name = self._port_name()
         if chosen.radio == STOCK:
             return Link(serial_port(name, BAUD), time.monotonic, StockProtocol(0), name)
         protocol = XBeeProtocol(self.arena_id, XBeeMode(chosen.radio))

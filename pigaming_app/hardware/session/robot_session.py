@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.signals import CameraSource, Clock
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -33,6 +34,7 @@ class RobotSession(Protocol):
     """Robots on a mat with a camera, a radio and a projector."""
 
     emulated: bool
+    network: "WifiNetwork | None"  # of Wi-Fi robots, while the session is open
 
     @property
     def fault(self) -> OperatorMessage | None:

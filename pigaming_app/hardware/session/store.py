@@ -5,7 +5,7 @@ Files of the emulated arena have separate names, so they never overwrite those o
 
 import logging
 import secrets
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
@@ -21,6 +21,7 @@ from pigaming_app.storage.parsing import ParseError, describe_error, read_text
 from pigaming_app.storage.safe_files import NotSaved, write_with_backup
 from pigaming_app.storage.settings import Settings, folders
 
+CONFIG = Path(__file__).parents[1] / "firmware" / "micropython" / "config_example.py"
 log = logging.getLogger("pigaming")
 
 
@@ -94,14 +95,33 @@ def save_radios(channels: Sequence[int]) -> None:
 
 def arena_id(settings: Settings) -> int:
     """The arena id of these settings; on first use it is drawn at random and saved."""
-    if not settings.arena_id:
-        config = folders().config
-        saved, _ = Settings.load(config)
-        if not saved.arena_id:
-            saved.arena_id = 1 + secrets.randbelow(LAST_ARENA)
-            try:
-                saved.save(config)
-            except NotSaved as error:
-                log.warning("%s", error)
-        settings.arena_id = saved.arena_id
+    _draw(settings, "arena_id", lambda: 1 + secrets.randbelow(LAST_ARENA))
     return settings.arena_id
+
+
+def wifi_key(settings: Settings) -> bytes:
+    """The key of the Wi-Fi robots of these settings, 16 bytes; on first use it is drawn at random and saved."""
+    _draw(settings, "wifi_key", lambda: secrets.token_hex(16))
+    return bytes.fromhex(settings.wifi_key)
+
+
+def robot_config(robot: int, arena: int, key: bytes) -> str:
+    """`config.py` of a Wi-Fi robot (1 to 4): the example with the values of this arena."""
+    text = CONFIG.read_text("utf-8")
+    text = text.replace("ROBOT = 1", f"ROBOT = {robot}").replace("Robot 1", f"Robot {robot}")
+    return text.replace("ARENA = 0", f"ARENA = {arena}").replace("0" * 32, key.hex())
+
+
+def _draw(settings: Settings, name: str, draw: Callable[[], object]) -> None:
+    """Set a setting that is still empty, to the saved value or to a drawn one, which is saved."""
+    if getattr(settings, name):
+        return
+    config = folders().config
+    saved, _ = Settings.load(config)
+    if not getattr(saved, name):
+        saved.choose(name, draw())
+        try:
+            saved.save(config)
+        except NotSaved as error:
+            log.warning("%s", error)
+    settings.choose(name, getattr(saved, name))

@@ -26,6 +26,7 @@ from pigaming_app.hardware.proof import trials as proving
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, StopResult
 from pigaming_app.hardware.proof.testbed import Testbed, one_core
 from pigaming_app.hardware.proof.trials import ButtonMasher, FigureEight, MatchResult, TrackingResult
+from pigaming_app.jobs.bench import wifi
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.i18n import english
 
@@ -47,6 +48,7 @@ TARGETS = {  # upper limits, but for frames_complete
     "wall_entry_mm": 5.0,
     "worst_stop_ms": 300.0,
     "arcade_worst_stop_ms": 300.0,
+    "wifi_worst_stop_ms": 300.0,
     "false_alarms": 0.0,
     "things_mean_mm": 3.0,
     "things_worst_mm": 7.0,
@@ -84,12 +86,17 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
         calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]
         scanned = {tilted: pool.submit(things.trial, seeds, tilted) for tilted, seeds in SCENES.items()}
+        on_wifi = wifi.submit(pool, note)
         played = [(job, pool.submit(on_mat, job)) for job in jobs()]
         tracks = _tracks(followed, note)
         stops = _stops(stopped, note)
         scans = _scans(scanned, note)
         matches = [_match(job, future, note) for job, future in played]
         boards = [_result(future, "calibrating") for future in calibrated]
+    try:
+        wifi_figures = wifi.collect(on_wifi, note)
+    except RuntimeError as reason:
+        raise Unproven(f"Wi-Fi robots: {reason}") from reason
     return {
         "pose_rmse_mm": max(run.rmse_mm for run in tracks.values()),
         "pose_rmse_deg": max(run.rmse_deg for run in tracks.values()),
@@ -102,6 +109,7 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         "false_alarms": float(sum(run.alarms for run in matches)),
         **stops_outside(note),
         **scans,
+        **wifi_figures,
     }
 
 

@@ -103,7 +103,7 @@ SHARED: dict[str, dict[str, Any]] = {
     "--camera": {"type": integer(0), "metavar": "NUMBER", "help": "camera above the mat, from 0"},
     "--port": {"type": word, "help": "serial port of the radio; empty: the first one"},
     "--baud": {"type": integer(), "metavar": "NUMBER", "help": "baud rate of the radio"},
-    "--radio": {"metavar": "MODE", "help": "api2, api1, transparent, or stock (a robot on a cable)"},
+    "--radio": {"metavar": "MODE", "help": "api2, api1, transparent, udp (Wi-Fi), or stock (a robot on a cable)"},
 }
 MATCH = ("--arena", "--minutes", "--variant", "--laps", "--pallets", "--seed")
 

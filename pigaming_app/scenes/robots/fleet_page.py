@@ -30,7 +30,7 @@ from pigaming_app.ui.widgets.labels import blit_sprite, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
-RADIOS = ("api2", "api1", "transparent", "stock")
+RADIOS = ("api2", "api1", "transparent", "udp", "stock")
 EMULATED = ("pair", "latency")
 ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
 WEAK = 0.7  # share of reports below which a robot is marked
@@ -214,6 +214,7 @@ class FleetPage:
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.context.words, self.check.health(robot)
         late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
+        named = f"{health.name}  ·  " if health.name else ""
         seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
         if health.misfit is not None:
             reason, arena = health.misfit.reason, health.misfit.arena
@@ -221,7 +222,7 @@ class FleetPage:
             return words(f"fleet.{reason}"), ALARM, remedy, MIST
         if health.battery is None:
             return words("fleet.silent"), MIST, seen, MIST
-        heard = words(
+        heard = named + words(
             "fleet.heard" if health.battery else "fleet.heard_only",
             volts=f"{health.battery:.1f}",
             share=round(100 * health.share),
@@ -247,6 +248,8 @@ class FleetPage:
     def _choices(self, name: str) -> tuple[dict[object, str], object]:
         """Options of a row, by stored value, and the current value."""
         words, settings = self.context.words, self.context.settings
+        if settings.radio == "udp" and name in ("port", "baud"):
+            return {getattr(settings, name): words("fleet.no_line")}, getattr(settings, name)
         if name == "camera":
             known: dict[object, str] = {camera.number: f"{camera.number}: {camera.name}" for camera in cameras()}
             return {settings.camera: str(settings.camera), **known}, settings.camera

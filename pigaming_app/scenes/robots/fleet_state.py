@@ -38,6 +38,7 @@ class RobotStatus:
     kind: RobotKind
     misfit: Misfit | None
     deaf: bool
+    name: str  # announced by a Wi-Fi robot, or empty
 
 
 @dataclass
@@ -144,12 +145,18 @@ class FleetState:
         misfit = self.link.misfit(robot) if self.link is not None else None
         battery, latency = report.battery if report else None, self.latencies.get(robot)
         deaf = report is not None and bool(report.flags & DEADMAN)
-        return RobotStatus(battery, share, self._seen(robot), latency, kind, misfit, deaf)
+        return RobotStatus(battery, share, self._seen(robot), latency, kind, misfit, deaf, self._name(robot))
 
     # ---- inside
 
     def _seen(self, robot: int) -> bool:
         return self.rig is not None and self.rig.sense()[robot].age < SEEN
+
+    def _name(self, robot: int) -> str:
+        """Name that the robot on a radio channel has announced, if it has Wi-Fi."""
+        network = self.session.network
+        ours = [found.announced for found in network.robots if found.status == "ours"] if network else []
+        return next((found.name for found in ours if found.address == robot + 1), "")
 
     def _search(self, job: Callable[[], bool]) -> bool:
         if self.rig is None or not any(self.heard(robot) for robot in range(ROBOTS)):

@@ -67,6 +67,7 @@ SIGNS: dict[str, Draw] = {
     "old": _radio,
     "no_arena": _radio,
     "foreign": _radio,
+    "key": _radio,
     "deadman": _radio,
     "empty": _battery,
     "low": _battery,

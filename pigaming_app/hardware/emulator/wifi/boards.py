@@ -1,0 +1,208 @@
+"""Emulated boards: MicroPython runs the robots' own program, in Node.js, one thread a robot, with UDP on loopback.
+
+MicroPython is its WebAssembly build from npm, of the version in `micropython/package-lock.json`, installed into the
+user's cache folder at first use. `micropython/` holds the scripts and the stand-ins for a board's hardware.
+"""
+
+import json
+import queue
+import shutil
+import subprocess
+import threading
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, Any, NamedTuple, Self, cast
+
+from pigaming_app.storage.settings import folders
+
+HERE = Path(__file__).parent / "micropython"
+PROGRAM = Path(__file__).parents[2] / "firmware" / "micropython"
+INTERPRETER = "node_modules/@micropython/micropython-webassembly-pyscript/micropython.mjs"
+INSTALLING, ANSWER = 120.0, 60.0  # s, timeouts
+FULL = 65535  # duty of a PWM pin
+
+Shares = tuple[float, float]  # voltage of the left and the right motor, as shares of the battery's
+
+
+class NoMicroPython(Exception):
+    """MicroPython cannot be run here; the text says why."""
+
+
+class Wheel(NamedTuple):
+    """Pins of a motor driver: a DRV8833 has two, a TB6612 three, Pololu's one for the direction and one for the PWM."""
+
+    ahead: int | None
+    back: int
+    pwm: int | None = None
+
+    def share(self, pins: Mapping[str, int]) -> float:
+        """Voltage at the motor, as a share of the battery's."""
+        back = pins.get(str(self.back), 0)
+        if self.pwm is None:
+            return (pins.get(str(self.ahead), 0) - back) / FULL
+        way = 1 - 2 * back if self.ahead is None else pins.get(str(self.ahead), 0) - back
+        return way * pins.get(str(self.pwm), 0) / FULL
+
+
+WIRING: Mapping[str, tuple[Wheel, Wheel]] = {  # of the board files
+    "board_esp32": (Wheel(25, 26), Wheel(32, 33)),
+    "board_pico_w": (Wheel(10, 11), Wheel(12, 13)),
+    "board_pololu_2040": (Wheel(None, 11, 15), Wheel(None, 10, 14)),
+}
+
+
+class BoardConfig(NamedTuple):
+    """`config.py` of a robot."""
+
+    robot: int  # 1 to 4
+    arena: int
+    key: bytes
+    port: int  # UDP port of the arcade
+    name: str = ""
+    board: str = "board_esp32"
+    radio: str = "wifi"
+
+    def text(self) -> str:
+        return (
+            f'NETWORK, PASSWORD = "emulated", ""\nROBOT, NAME, ARENA = {self.robot}, {self.name!r}, {self.arena}\n'
+            f'KEY, BOARD, RADIO = "{self.key.hex()}", "{self.board}", "{self.radio}"\n'
+            f'HOST, PORT = "127.0.0.1", {self.port}\n'
+        )
+
+
+def interpreter() -> Path:
+    """MicroPython's WebAssembly build, installed if necessary. Raises NoMicroPython."""
+    node, npm = shutil.which("node"), shutil.which("npm")
+    if not node:
+        raise NoMicroPython("Node.js is not installed")
+    folder = folders().cache / "micropython"
+    lock = HERE / "package-lock.json"
+    found, installed = folder / INTERPRETER, folder / lock.name
+    if found.is_file() and installed.is_file() and installed.read_bytes() == lock.read_bytes():
+        return found
+    if not npm:
+        raise NoMicroPython("npm is not installed")
+    folder.mkdir(parents=True, exist_ok=True)
+    for file in (HERE / "package.json", lock):
+        shutil.copy(file, folder)
+    command = [npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--prefix", str(folder)]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=INSTALLING, cwd=folder)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise NoMicroPython(f"npm cannot install MicroPython ({type(error).__name__})") from error
+    if done.returncode or not found.is_file():
+        raise NoMicroPython("npm cannot install MicroPython; is this computer online?")
+    return found
+
+
+class Boards:
+    """Running boards; a context manager. `paced`: their time passes in `advance` only, else it is the system's.
+
+    `boards` are further board files by name, `wiring` the motors of all of them. `pins` holds the values at the pins of
+    every robot, 0 to 65535; times are s of `advance`, or of `time.monotonic`. Raises NoMicroPython.
+    """
+
+    def __init__(
+        self,
+        configs: Sequence[BoardConfig],
+        paced: bool = False,
+        boards: Mapping[str, str] = {},
+        wiring: Mapping[str, tuple[Wheel, Wheel]] = WIRING,
+    ) -> None:
+        self.pins: list[Mapping[str, int]] = [{} for _ in configs]
+        self.powered_until = [float("-inf")] * len(configs)  # s, when the motors were last switched off
+        self.resets: list[tuple[int, int]] = []  # robot and cause (1 power, 3 watchdog), in order
+        self._wiring = [wiring[config.board] for config in configs]
+        files = {file.name: file.read_text("utf-8") for file in [*PROGRAM.glob("*.py"), *HERE.glob("*.py")]}
+        files |= {f"{name}.py": text for name, text in boards.items()}
+        files["main.py"] = files.pop("robot.py")
+        first = {
+            "robots": [{**files, "config.py": config.text()} for config in configs],
+            "interpreter": interpreter().as_uri(),
+            "paced": paced,
+        }
+        self._process = subprocess.Popen(
+            ["node", str(HERE / "boards.mjs")], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+        self._lines: queue.Queue[str] = queue.Queue()
+        self._reader = threading.Thread(target=self._read, name="boards", daemon=True)
+        self._reader.start()
+        self._tell(first)
+        self.ports: list[int] = self._await("ports")
+
+    def advance(self, now: float, received: Sequence[int] = ()) -> None:
+        """Let the boards run until `now`, s, once each has received so many datagrams. Only if `paced`."""
+        self._tell({"now": round(1000 * now), "received": list(received)})
+        self._await("now")
+
+    def disturb(self, robot: int, **order: Any) -> None:
+        """`do`: "reboot", "off", "hang loop" (the timer runs on) or "hang board"; `battery`: mV."""
+        self._tell({"robot": robot, **order})
+
+    def motors(self, robot: int) -> Shares:
+        """Voltages at the motors of a robot now."""
+        self.poll()
+        return self._shares(robot)
+
+    def poll(self) -> None:
+        """Take in everything that the boards have reported."""
+        while not self._lines.empty():
+            self._take(json.loads(self._lines.get()))
+
+    def close(self) -> None:
+        """End all boards. Idempotent."""
+        if self._process.poll() is None:
+            self._process.kill()
+        self._process.wait()
+        self._reader.join(1.0)
+        for pipe in (self._process.stdin, self._process.stdout):
+            with suppress(OSError):
+                cast(IO[str], pipe).close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _shares(self, robot: int) -> Shares:
+        left, right = self._wiring[robot]
+        return left.share(self.pins[robot]), right.share(self.pins[robot])
+
+    def _tell(self, order: Mapping[str, Any]) -> None:
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(json.dumps(order) + "\n")
+            self._process.stdin.flush()
+        except OSError as error:
+            raise RuntimeError("the emulated boards have ended") from error
+
+    def _read(self) -> None:
+        assert self._process.stdout is not None
+        for line in self._process.stdout:
+            self._lines.put(line)
+        self._lines.put("{}")
+
+    def _await(self, key: str) -> Any:
+        """The value of the next message with this key."""
+        while True:
+            try:
+                message = json.loads(self._lines.get(timeout=ANSWER))
+            except queue.Empty:
+                raise RuntimeError("the emulated boards do not answer") from None
+            if not message or "failed" in message:
+                raise RuntimeError(f"the emulated boards have ended: {message.get('failed', '')}")
+            if key in message:
+                return message[key]
+            self._take(message)
+
+    def _take(self, message: Mapping[str, Any]) -> None:
+        if "pins" in message:
+            robot = message["robot"]
+            was_on = any(self._shares(robot))
+            self.pins[robot] = message["pins"]
+            if was_on and not any(self._shares(robot)):
+                self.powered_until[robot] = message["at"] / 1000
+        elif "reset" in message:
+            self.resets.append((message["robot"], message["reset"]))

@@ -1,0 +1,56 @@
+// One emulated board: MicroPython in this thread, with the robot's files and stand-ins for the hardware.
+import { randomBytes } from "node:crypto";
+import { parentPort, receiveMessageOnPort, workerData } from "node:worker_threads";
+
+const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6; // as in boards.mjs
+const { numbers, inbox, files, interpreter, paced } = workerData;
+const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
+const pins = {};
+let changed = false;
+const time = () => paced ? Atomics.load(numbers, NOW) : monotonic();
+
+globalThis.bridge = {
+  ticks: () => Math.floor(time()),
+  random: (size) => randomBytes(size).toString("hex"),
+  cause: () => numbers[CAUSE],
+  battery: () => numbers[BATTERY],
+  hangs: () => numbers[HANG] === 1,
+  watch(ms) {
+    numbers[FED] = time() | 0;
+    numbers[TIMEOUT] = ms;
+  },
+  feed() { numbers[FED] = time() | 0; },
+  pin(name, value) {
+    changed ||= pins[name] !== value;
+    pins[name] = value;
+  },
+  send(hex, host, port) { parentPort.postMessage(["send", hex, host, port]); },
+  receive() {
+    const found = receiveMessageOnPort(inbox);
+    return found ? found.message.join(" ") : "";
+  },
+  wait(until) { // until a time, or until something happened
+    if (changed) parentPort.postMessage(["pins", time(), { ...pins }]);
+    changed = false;
+    const seen = Atomics.load(numbers, WAKE);
+    while (numbers[HANG] === 2) Atomics.wait(numbers, WAKE, Atomics.load(numbers, WAKE));
+    if (paced) {
+      const now = time();
+      if (now >= until) return;
+      parentPort.postMessage(["idle", now]);
+      if (time() === now) Atomics.wait(numbers, WAKE, seen);
+    } else Atomics.wait(numbers, WAKE, seen, Math.max(0, until - monotonic()));
+  },
+};
+
+const { loadMicroPython } = await import(interpreter);
+const micropython = await loadMicroPython({
+  heapsize: 128 * 1024, // bytes, about that of an ESP32
+  linebuffer: true,
+  stdout: (line) => console.error(line),
+  stderr: (line) => console.error(line),
+});
+micropython.FS.mkdir("/robot");
+for (const [name, text] of Object.entries(files)) micropython.FS.writeFile(`/robot/${name}`, text);
+micropython.runPython("import sys\nsys.path.insert(0, '/robot')\nimport standins");
+micropython.runPython(files["main.py"]);

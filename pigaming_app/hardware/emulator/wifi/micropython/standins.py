@@ -1,0 +1,28 @@
+"""Completes the WebAssembly build of MicroPython by what every board has: a clock that sleeps, and random bytes."""
+
+import os
+import time
+
+import js
+import machine
+
+PERIOD = 0x3FFFFFFF  # of ticks_ms, which starts 3 s before it wraps
+BEGUN = js.bridge.ticks()
+
+
+def ticks_ms():
+    return js.bridge.ticks() - BEGUN - 3000 & PERIOD
+
+
+def sleep_ms(ms):
+    end = js.bridge.ticks() + ms
+    while True:
+        machine.fire()
+        now = js.bridge.ticks()
+        if now >= end and not js.bridge.hangs():
+            return
+        js.bridge.wait(max(now + 1, min(end, machine.next_timer())))
+
+
+time.ticks_ms, time.sleep_ms = ticks_ms, sleep_ms
+os.urandom = lambda size: bytes.fromhex(js.bridge.random(size))

@@ -1,0 +1,13 @@
+"""Pololu 3pi+ 2040 and Zumo 2040: RP2040 without Wi-Fi, so an XBee (AP=0) on GP28 and GP29; four AAA or AA cells."""
+
+from motors import Phase
+
+KIND = 3
+TIMER = -1
+WATCHDOG_MS = 500
+LED, BATTERY_PIN = 25, 26
+BATTERY_FULL_MV = 3.3 * 11 * 1000
+LOW_MV, EMPTY_MV = 4400, 4000
+UART = (0, 28, 29)
+
+left, right = Phase(15, 11), Phase(14, 10)

@@ -1,0 +1,230 @@
+"""Wi-Fi robots: a `WifiNetwork` is the serial port of a link, and a `WifiProtocol` its RadioProtocol.
+
+Robots announce themselves by broadcast. Each drive packet that the link writes goes to every announced robot of the
+arena in a datagram of its own; the reports in their answers are what the link reads. Datagrams without the right
+message code, of another kind, repeated or out of order are dropped.
+"""
+
+import errno
+import socket
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple, Self
+
+from pigaming_app.hardware.radio import envelope
+from pigaming_app.hardware.radio.envelope import ANNOUNCE, DRIVE, REPORT, Announcement
+from pigaming_app.hardware.radio.packets import LENGTHS, NO_ARENA, ROBOTS, VERSION
+from pigaming_app.hardware.radio.packets import REPORT as REPORT_HEAD
+from pigaming_app.hardware.radio.protocol import Misfit
+from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
+from pigaming_app.hardware.signals import Clock
+
+PORT = 47474  # UDP
+SILENT = 0.5  # s without a report after which another robot may take over a number, or the same one after a restart
+GONE = 4.0  # s without a datagram after which a robot is forgotten
+BUFFER = 1 << 16  # bytes that the system keeps for a late reader
+MOST = 64  # robots remembered, and datagrams handled at once
+NO_NETWORK = (errno.ENETDOWN, errno.ENETUNREACH, errno.EADDRNOTAVAIL)
+
+Address = tuple[str, int]
+
+
+class WifiRobot(NamedTuple):
+    """A robot on the network, for the operator."""
+
+    announced: Announcement
+    address: str
+    status: str  # "ours", or why it cannot be driven: "foreign" arena, "no_arena", "key", "old", "taken" number
+
+
+@dataclass
+class Session:
+    """Connection to a robot since its start."""
+
+    announced: Announcement
+    address: Address
+    sent: int  # counter of the newest DRIVE
+    received: int  # counter of the newest REPORT or ANNOUNCE
+    heard: float  # s, when the newest datagram came
+    replaces: bytes = b""  # nonce of the session before, void from the first REPORT of this one
+    reported: float = float("-inf")  # s, when the newest REPORT came
+
+
+class WifiNetwork:
+    """The network as a SerialPort for the robots of one arena. `key`: 16 bytes, the same in their configuration.
+
+    `port` 0 takes any free UDP port (`bound` tells it).
+    """
+
+    def __init__(self, arena: int, key: bytes, clock: Clock, port: int = PORT, host: str = "") -> None:
+        self.arena, self.key, self.bound = arena, key, port
+        self.offline = False  # True if this computer has no network
+        self.dropped = 0  # datagrams that were not for us, forged, repeated or out of order
+        self._clock, self._host = clock, host
+        self._socket: socket.socket | None = None
+        self._sessions: dict[int, Session] = {}  # by address of the robot, 1 to 4
+        self._strangers: dict[Address, tuple[WifiRobot, float]] = {}  # robots that are not driven, and when they called
+        self._void: set[bytes] = set()  # nonces of robots that have restarted since
+        self._reports = bytearray()
+
+    def open(self) -> Self:
+        """Open the socket. Raises OSError, e.g. if another program has the port."""
+        self.close()
+        port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        try:
+            port.setblocking(False)
+            port.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER)
+            port.bind((self._host, self.bound))
+        except BaseException:
+            port.close()
+            raise
+        self._socket, self.bound = port, port.getsockname()[1]
+        return self
+
+    @property
+    def robots(self) -> list[WifiRobot]:
+        """The robots of the network that have called lately, those of this arena first."""
+        now = self._clock()
+        sessions = [session for session in [*self._sessions.values()] if now - session.heard < GONE]
+        ours = sorted(WifiRobot(session.announced, session.address[0], "ours") for session in sessions)
+        return ours + [robot for robot, called in [*self._strangers.values()] if now - called < GONE]
+
+    @property
+    def boards(self) -> dict[int, int]:
+        """Board number of every robot of this arena, by robot from 0."""
+        return {address - 1: session.announced.board for address, session in [*self._sessions.items()]}
+
+    @property
+    def misfits(self) -> dict[int, Misfit]:
+        """Robots that cannot be driven, by robot from 0."""
+        now = self._clock()
+        strangers = [robot for robot in self.robots if robot.status not in ("ours", "taken")]
+        return {
+            robot.announced.address - 1: Misfit(robot.status, robot.announced.arena, now)
+            for robot in strangers
+            if 1 <= robot.announced.address <= ROBOTS
+        }
+
+    @property
+    def in_waiting(self) -> int:
+        """Bytes of reports received by now."""
+        self._receive()
+        return len(self._reports)
+
+    def read(self, size: int = 1) -> bytes:
+        """Bytes of whole reports."""
+        data = bytes(self._reports[:size])
+        del self._reports[:size]
+        return data
+
+    def write(self, data: bytes) -> int:
+        """Send a drive packet to every robot of this arena."""
+        assert self._socket is not None
+        now, faults, reached = self._clock(), list[int | None](), False
+        for session in [*self._sessions.values()]:
+            if now - session.heard >= GONE:
+                continue
+            session.sent += 1
+            datagram = envelope.seal(self.key, session.announced.nonce, DRIVE, session.sent, data)
+            try:
+                self._socket.sendto(datagram, session.address)
+                reached = True
+            except BlockingIOError:
+                reached = True  # busy: this one counts as lost on the way
+            except OSError as error:
+                faults.append(error.errno)
+        self.offline = not reached and bool(faults) and all(fault in NO_NETWORK for fault in faults)
+        return len(data)
+
+    def close(self) -> None:
+        """Close the socket; sessions stay, so that `open` continues them."""
+        port, self._socket = self._socket, None
+        if port is not None:
+            port.close()
+
+    def _receive(self) -> None:
+        """Handle the datagrams that have arrived. Raises OSError if the socket has failed."""
+        assert self._socket is not None
+        for _ in range(MOST):
+            try:
+                datagram, sender = self._socket.recvfrom(256)
+            except BlockingIOError:
+                return
+            except ConnectionError:
+                continue  # Windows: an earlier datagram met a closed port
+            if not (self._take_report(datagram) or self._take_announcement(datagram, sender)):
+                self.dropped += 1
+
+    def _take_report(self, datagram: bytes) -> bool:
+        """Accept a new report of one of our robots; its sender need not have kept its address."""
+        for session in self._sessions.values():
+            opened = envelope.unseal(self.key, session.announced.nonce, REPORT, datagram)
+            if opened is not None:
+                counter, report = opened
+                valid = counter > session.received and len(report) == LENGTHS[REPORT_HEAD] and report[0] == REPORT_HEAD
+                if valid and report[3] == session.announced.address:
+                    session.received, session.heard = counter, self._clock()
+                    session.reported = session.heard
+                    self._void.add(session.replaces)
+                    self._reports += report
+                    return True
+        return False
+
+    def _take_announcement(self, datagram: bytes, sender: Address) -> bool:
+        robot = envelope.announcement_from(datagram)
+        if robot is None:
+            return False
+        opened = envelope.unseal(self.key, robot.nonce, ANNOUNCE, datagram)
+        reason = self._reason(robot, genuine=opened is not None)
+        if reason is None and opened is not None:
+            return self._meet(robot, opened[0], sender)
+        if len(self._strangers) < MOST or sender in self._strangers:
+            self._strangers[sender] = WifiRobot(robot, sender[0], reason or "key"), self._clock()
+        return True
+
+    def _reason(self, robot: Announcement, genuine: bool) -> str | None:
+        """Why a robot is not ours; None if it is."""
+        if robot.arena != self.arena:
+            return "no_arena" if robot.arena == NO_ARENA else "foreign"
+        if not genuine:
+            return "key"
+        return "old" if robot.version < VERSION or not 1 <= robot.address <= ROBOTS else None
+
+    def _meet(self, robot: Announcement, counter: int, sender: Address) -> bool:
+        """Begin or refresh a session. A recorded announcement, of now or of before a restart, changes nothing."""
+        now, known = self._clock(), self._sessions.get(robot.address)
+        self._strangers.pop(sender, None)
+        if robot.nonce in self._void:
+            return False
+        if known is None or known.announced.nonce != robot.nonce:
+            if known is not None and now - known.reported < SILENT:
+                self._strangers[sender] = WifiRobot(robot, sender[0], "taken"), now
+                return True
+            before = known.announced.nonce if known is not None else b""
+            self._sessions[robot.address] = Session(robot, sender, robot.counter, counter, now, before)
+            return True
+        if counter <= known.received:
+            return False
+        known.announced, known.address, known.heard, known.received = robot, sender, now, counter
+        known.sent = max(known.sent, robot.counter)
+        return True
+
+
+class WifiProtocol(XBeeProtocol):
+    """RadioProtocol of Wi-Fi robots: the packets of a transparent line, and what robots announce."""
+
+    def __init__(self, network: WifiNetwork) -> None:
+        self.network = network
+        super().__init__(network.arena, XBeeMode.TRANSPARENT)
+
+    @property
+    def boards(self) -> Mapping[int, int]:  # type: ignore[override]
+        return self.network.boards
+
+    def fault(self, now: float) -> tuple[str, str] | None:
+        """Only the lack of a network: what others send there is no fault."""
+        return ("offline", "") if self.network.offline else None
+
+    @property
+    def misfits(self) -> Mapping[int, Misfit]:
+        return {**super().misfits, **self.network.misfits}

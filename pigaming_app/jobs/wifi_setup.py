@@ -1,0 +1,78 @@
+"""Wi-Fi robots in the job `robots`: their configuration, the robots on the network, and a first turn of the wheels."""
+
+import time
+from argparse import ArgumentParser
+from typing import Any
+
+from pigaming_app.hardware.radio.packets import ROBOTS
+from pigaming_app.hardware.robot_kinds import robot_kind
+from pigaming_app.hardware.session.robot_session import RobotSession
+from pigaming_app.hardware.session.store import arena_id, robot_config, wifi_key
+from pigaming_app.hardware.signals import WheelCommand
+from pigaming_app.jobs.terminal.options import integer
+from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.storage.settings import Settings
+
+APPEARS, TURNS = 5.0, 1.5  # s: for a robot to report; for each turn of the wheels
+TICK = 0.02  # s
+GENTLE = 0.25  # of full speed
+WHEELS = {
+    "left wheel ahead": WheelCommand(GENTLE, 0.0),
+    "right wheel ahead": WheelCommand(0.0, GENTLE),
+    "both wheels back": WheelCommand(-GENTLE, -GENTLE),
+}
+
+
+def options(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "--wifi-config", type=integer(1, ROBOTS), metavar="ROBOT", help="print the config.py of a Wi-Fi robot, 1 to 4"
+    )
+    parser.add_argument(
+        "--wheels", type=integer(1, ROBOTS), metavar="ROBOT", help="turn the wheels of a robot that stands on blocks"
+    )
+
+
+def config(robot: int, settings: Settings) -> str:
+    """`config.py` of a Wi-Fi robot of these settings."""
+    return robot_config(robot, arena_id(settings), wifi_key(settings))
+
+
+def config_command(robot: int) -> str:
+    """The command that prints `config.py`."""
+    return f"main.py robots --wifi-config {robot}"
+
+
+def network(session: RobotSession) -> list[dict[str, Any]] | None:
+    """The robots that have announced themselves by Wi-Fi, of this arena or not; None with another radio."""
+    if session.network is None:
+        return None
+    return [
+        {
+            "robot": robot.announced.address,
+            "name": robot.announced.name,
+            "kind": robot_kind("", robot.announced.board).name,
+            "battery": round(robot.announced.millivolts / 1000, 2) or None,
+            "address": robot.address,
+            "arena": robot.announced.arena,
+            "status": robot.status,
+        }
+        for robot in session.network.robots
+    ]
+
+
+def turn_wheels(session: RobotSession, robot: int) -> None:
+    """Turn the wheels of a robot on blocks, and say which should turn. Raises Refusal if it does not report."""
+    link = session.open_link()
+    if link is None:
+        raise Refusal("--wheels is for real robots: leave out --emulate")
+    deadline = time.monotonic() + APPEARS
+    while robot - 1 not in link.telemetry:
+        if time.monotonic() > deadline:
+            raise Refusal(f"Robot {robot} does not report: is it switched on, and of this arena?")
+        time.sleep(TICK)
+    for name, command in WHEELS.items():
+        print(f"robot {robot}   {name}", flush=True)
+        for _ in range(round(TURNS / TICK)):
+            link.send([command if i == robot - 1 else None for i in range(ROBOTS)])
+            time.sleep(TICK)
+    link.send([None] * ROBOTS)

@@ -1,0 +1,236 @@
+"""The robots' own program in MicroPython, on emulated boards in time of their own; skipped without Node.js and npm."""
+
+import socket
+
+import pytest
+
+from pigaming_app.hardware.emulator.wifi.boards import WIRING, BoardConfig, Boards, NoMicroPython, Wheel, interpreter
+from pigaming_app.hardware.radio.envelope import DRIVE, REPORT, announcement_from, seal, unseal
+from pigaming_app.hardware.radio.packets import DEADMAN, RESTARTED, drive_packet, report_from, with_crc
+from pigaming_app.hardware.signals import WheelCommand
+
+pytestmark = pytest.mark.long
+ARENA, KEY = 1234, bytes(range(16))
+GO = [WheelCommand(1.0, -0.5), WheelCommand(-1.0, 0.5)]
+ON, BACK = (1.0, -32 / 63), (-1.0, 32 / 63)
+TB6612 = "\n".join(
+    [
+        "from motors import Enable",
+        "KIND, TIMER, WATCHDOG_MS, LED, BATTERY_PIN = 1, 0, 500, None, None",
+        "left, right = Enable(25, 26, 27), Enable(14, 32, 33)",
+    ]
+)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _micropython():
+    try:
+        interpreter()
+    except NoMicroPython as reason:
+        pytest.skip(f"{reason}: apt-get install nodejs npm")
+
+
+class Arcade:
+    """A UDP socket that drives one board in steps of 2 ms."""
+
+    def __init__(self, **about):
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.socket.settimeout(2.0)
+        self.config = BoardConfig(1, ARENA, KEY, self.socket.getsockname()[1], "Ruby")._replace(**about)
+        wiring = {**WIRING, "board_tb6612": (Wheel(26, 27, 25), Wheel(32, 33, 14))}
+        self.boards = Boards([self.config], paced=True, boards={"board_tb6612": TB6612}, wiring=wiring)
+        self.to, self.now, self.delivered = ("127.0.0.1", self.boards.ports[0]), 0.0, 0
+        self.counter = self.seq = 0
+        self.nonce = b""
+
+    def run(self, seconds):
+        for _ in range(round(seconds / 0.002)):
+            self.now += 0.002
+            self.boards.advance(self.now, [self.delivered])
+
+    def meet(self):
+        """Wait for an announcement."""
+        self.run(1.5)
+        datagram = self.received(b"PG2A")[-1]
+        found = announcement_from(datagram)
+        assert unseal(KEY, found.nonce, b"A", datagram) is not None
+        self.nonce = found.nonce
+        return found
+
+    def received(self, head):
+        found = []
+        self.socket.settimeout(0.05)
+        try:
+            while True:
+                found.append(self.socket.recv(256))
+        except TimeoutError:
+            return [datagram for datagram in found if datagram.startswith(head)]
+
+    def packet(self, arena=ARENA):
+        self.seq += 1
+        return drive_packet(arena, self.seq, GO)
+
+    def sealed(self, packet=None, key=KEY, nonce=None, kind=DRIVE, counter=None):
+        self.counter += 1
+        counter = self.counter if counter is None else counter
+        return seal(key, self.nonce if nonce is None else nonce, kind, counter, packet or self.packet())
+
+    def send(self, datagram, by=None):
+        (by or self.socket).sendto(datagram, self.to)
+        self.delivered += 1
+
+    def moves(self, datagram, by=None):
+        """True if the datagram sets a standing robot in motion; it stands again after."""
+        assert not any(self.motors)
+        self.send(datagram, by)
+        self.run(0.004)
+        moving = any(self.motors)
+        self.run(0.22)
+        return moving
+
+    @property
+    def motors(self):
+        return self.boards.motors(0)
+
+    def close(self):
+        self.boards.close()
+        self.socket.close()
+
+
+@pytest.fixture
+def arcade(request):
+    arcade = Arcade(**getattr(request, "param", {}))
+    yield arcade
+    arcade.close()
+
+
+def test_a_command_drives_the_motors_until_the_deadman_stops_them(arcade):
+    about = arcade.meet()
+    assert about[:5] == (ARENA, 1, 1, 2, arcade.nonce)
+    assert about[5:] == (0, pytest.approx(5200, abs=5), DEADMAN, "Ruby")
+    for _ in range(20):
+        arcade.send(arcade.sealed())
+        arcade.run(0.02)
+        assert arcade.motors == pytest.approx(ON, abs=1e-3)
+    sent = arcade.now - 0.02
+    arcade.run(0.3)
+    assert arcade.motors == (0.0, 0.0)
+    assert 0.200 <= arcade.boards.powered_until[0] - sent <= 0.216
+    reports = [unseal(KEY, arcade.nonce, REPORT, datagram) for datagram in arcade.received(b"PG2T")]
+    assert [counter for counter, _ in reports] == sorted({counter for counter, _ in reports})
+    assert len(reports) in (3, 4, 5)
+    first, last = (report_from(body) for _, body in (reports[0], reports[-1]))
+    assert all(with_crc(body[:-5]) == body for _, body in reports)
+    assert (first.arena, first.address, first.version, first.flags) == (ARENA, 1, 2, 0)
+    assert (last.seq, last.flags) == (20, DEADMAN)
+
+
+def test_nothing_forged_repeated_or_meant_for_others_moves_a_motor(arcade):
+    arcade.meet()
+    genuine = arcade.sealed()
+    assert arcade.moves(genuine)
+    assert not arcade.moves(genuine), "a recording"
+    for place in (0, 3, 4, 11, 12, 13, 16, 17, 29, 30, 37):
+        broken = bytearray(arcade.sealed())
+        broken[place] ^= 1
+        assert not arcade.moves(bytes(broken)), place
+    assert not arcade.moves(arcade.sealed(key=bytes(16)))
+    assert not arcade.moves(arcade.sealed(nonce=bytes(8)))
+    assert not arcade.moves(arcade.sealed(kind=REPORT))
+    assert not arcade.moves(arcade.sealed(counter=0))
+    assert not arcade.moves(arcade.sealed(arcade.packet(arena=ARENA + 1)))
+    assert not arcade.moves(arcade.sealed(drive_packet(ARENA, arcade.seq - 1, [None] * 4)))
+    assert not arcade.moves(arcade.packet()), "without an envelope"
+    assert not arcade.moves(b"PG2D")
+    packet = arcade.packet()
+    assert arcade.moves(arcade.sealed(packet))
+    assert not arcade.moves(arcade.sealed(packet)), "the same sequence number"
+
+
+def test_a_recording_of_before_a_restart_is_void_and_the_robot_has_a_new_nonce(arcade):
+    arcade.meet()
+    unsent, before = arcade.sealed(counter=1 << 40), arcade.nonce
+    arcade.boards.disturb(0, do="reboot")
+    arcade.meet()
+    assert arcade.nonce != before
+    assert not arcade.moves(unsent)
+    assert arcade.moves(arcade.sealed())
+
+
+def test_another_sender_with_the_same_key_waits_for_the_deadman(arcade):
+    arcade.meet()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as second:
+        second.bind(("127.0.0.1", 0))
+        arcade.send(arcade.sealed())
+        arcade.run(0.05)
+        stop = arcade.sealed(drive_packet(ARENA, 99, []))
+        arcade.send(stop, second)
+        arcade.run(0.02)
+        assert any(arcade.motors)
+        arcade.run(0.3)
+        assert arcade.moves(arcade.sealed(), second)
+
+
+def test_a_hanging_main_loop_is_stopped_by_the_timer_and_restarted_by_the_watchdog(arcade):
+    arcade.meet()
+    arcade.send(arcade.sealed())
+    arcade.run(0.02)
+    began = arcade.now
+    arcade.boards.disturb(0, do="hang loop")
+    arcade.run(0.3)
+    assert arcade.motors == (0.0, 0.0)
+    assert arcade.boards.powered_until[0] - began <= 0.216
+    arcade.run(1.0)
+    assert arcade.boards.resets == [(0, 3)]
+    arcade.run(1.0)
+    assert arcade.meet().flags == DEADMAN | RESTARTED
+
+
+def test_a_hanging_chip_is_restarted_by_the_watchdog(arcade):
+    arcade.meet()
+    arcade.send(arcade.sealed())
+    arcade.run(0.02)
+    arcade.boards.disturb(0, do="hang board")
+    arcade.run(1.1)
+    assert arcade.boards.resets == [(0, 3)]
+    assert arcade.motors == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("arcade", "share"), [({"board": "board_pico_w"}, ON), ({"board": "board_tb6612"}, ON)], indirect=["arcade"]
+)
+def test_every_motor_driver_turns_ahead_and_back_and_brakes(arcade, share):
+    arcade.meet()
+    arcade.send(arcade.sealed())
+    arcade.run(0.004)
+    assert arcade.motors == pytest.approx(share, abs=1e-3)
+    arcade.send(arcade.sealed(drive_packet(ARENA, 77, GO[1:])))
+    arcade.run(0.004)
+    assert arcade.motors == pytest.approx(BACK, abs=1e-3)
+    arcade.run(0.3)
+    assert arcade.motors == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("arcade", [{"board": "board_pololu_2040", "radio": "serial_radio"}], indirect=True)
+def test_a_robot_with_an_xbee_obeys_bare_packets_after_noise(arcade):
+    arcade.run(0.3)
+    arcade.send(b"\x01\xd1\x02\xff")
+    arcade.send(arcade.packet()[:9])
+    for _ in range(20):
+        arcade.send(arcade.packet())
+        arcade.run(0.02)
+        assert arcade.motors == pytest.approx(ON, abs=1e-3)
+    assert [report_from(found).flags for found in arcade.received(b"\xd5")] == [0, 0, 0]
+    arcade.run(0.3)
+    assert arcade.motors == (0.0, 0.0)
+
+
+def test_an_empty_battery_brakes_until_it_has_recovered(arcade):
+    arcade.meet()
+    for millivolts, moving in ((4300, True), (3900, False), (4300, False), (4500, True)):
+        arcade.boards.disturb(0, battery=millivolts)
+        for _ in range(40):
+            arcade.send(arcade.sealed())
+            arcade.run(0.02)
+        assert any(arcade.motors) is moving, millivolts

@@ -1,0 +1,261 @@
+"""The network of Wi-Fi robots, against robots made of a socket, on loopback."""
+
+import errno
+import socket
+
+import pytest
+
+from pigaming_app.hardware.radio.envelope import DRIVE, REPORT, Announcement, announce, seal, unseal
+from pigaming_app.hardware.radio.link import Link
+from pigaming_app.hardware.radio.packets import VERSION, RobotReport
+from pigaming_app.hardware.radio.wifi import SILENT, WifiNetwork, WifiProtocol
+from pigaming_app.hardware.signals import WheelCommand
+from tests.hardware.robot_packets import report_packet
+
+ARENA, KEY = 77, bytes(range(16))
+GO = WheelCommand(0.5, 0.5)
+
+
+class Robot:
+    """A robot on the network: announces itself, answers every drive packet by a report."""
+
+    def __init__(self, network, address=1, arena=ARENA, key=KEY, nonce=b"ABCDEFGH"):
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.socket.settimeout(0.0)
+        self.to, self.key = ("127.0.0.1", network.bound), key
+        self.about = Announcement(arena, address, 1, 2, nonce, 0, 5000, 1, f"R{address}")
+        self.sent, self.obeyed, self.last = 0, [], None
+
+    def reboot(self, nonce):
+        self.about, self.sent = self.about._replace(nonce=nonce, counter=0), 0
+
+    def announce(self):
+        self.sent += 1
+        self.send(announce(self.key, self.sent, self.about))
+
+    def send(self, datagram):
+        self.last = datagram
+        self.socket.sendto(datagram, self.to)
+
+    def receive(self):
+        """Take in all drive packets; those with the right code count."""
+        while True:
+            try:
+                datagram = self.socket.recv(256)
+            except BlockingIOError:
+                return
+            opened = unseal(self.key, self.about.nonce, DRIVE, datagram)
+            if opened is not None and opened[0] > self.about.counter:
+                self.about = self.about._replace(counter=opened[0])
+                self.obeyed.append(opened[1])
+
+    def report(self, flags=0):
+        self.sent += 1
+        seq = self.obeyed[-1][3] if self.obeyed else 0
+        about = self.about
+        packet = report_packet(RobotReport(about.arena, about.address, VERSION, seq, flags, 5000))
+        self.send(seal(self.key, self.about.nonce, REPORT, self.sent, packet))
+
+
+class Site:
+    """A network with a link on a clock of its own, and the robots on it."""
+
+    def __init__(self):
+        self.now, self.robots = 100.0, []
+        self.network = WifiNetwork(ARENA, KEY, lambda: self.now, port=0, host="127.0.0.1").open()
+        self.link = Link(self.network.open, lambda: self.now, WifiProtocol(self.network), "Wi-Fi")
+        self.link.pump()
+
+    def add(self, **about):
+        self.robots.append(Robot(self.network, **about))
+        return self.robots[-1]
+
+    def tick(self, seconds=0.02):
+        self.now += seconds
+        self.link.send([GO] * 4)
+        self.link.pump()
+
+    def status(self):
+        return [(robot.announced.name, robot.status) for robot in self.network.robots]
+
+    def close(self):
+        self.link.close()
+        for robot in self.robots:
+            robot.socket.close()
+
+
+@pytest.fixture
+def site():
+    site = Site()
+    yield site
+    site.close()
+
+
+def test_robots_that_announce_themselves_are_driven_each_by_its_own_datagrams(site):
+    one, two = site.add(address=1), site.add(address=2, nonce=b"12345678")
+    for robot in (one, two):
+        robot.announce()
+    site.tick()
+    for robot in (one, two):
+        robot.receive()
+        robot.report(flags=8)
+    site.tick()
+    assert one.obeyed
+    assert one.obeyed == two.obeyed
+    assert site.status() == [("R1", "ours"), ("R2", "ours")]
+    assert site.network.boards == {0: 1, 1: 1}
+    assert {robot: (found.battery, found.flags) for robot, found in site.link.telemetry.items()} == {
+        0: (5.0, 8),
+        1: (5.0, 8),
+    }
+    assert site.link.quality(0).echo == pytest.approx(0.02)
+    assert site.link.fault is None
+
+
+def test_strangers_are_listed_and_never_driven(site):
+    robots = [
+        site.add(address=1, arena=78),
+        site.add(address=2, arena=0),
+        site.add(address=3, key=KEY[::-1]),
+    ]
+    for robot in robots:
+        robot.announce()
+    site.tick()
+    for robot in robots:
+        robot.receive()
+        robot.report()
+    site.tick()
+    assert not any(robot.obeyed for robot in robots)
+    assert sorted(site.status()) == [("R1", "foreign"), ("R2", "no_arena"), ("R3", "key")]
+    assert [site.link.misfit(robot).reason for robot in range(3)] == ["foreign", "no_arena", "key"]
+    assert not site.link.telemetry
+
+
+def test_a_recorded_report_is_dropped(site):
+    robot = site.add()
+    robot.announce()
+    site.tick()
+    robot.receive()
+    robot.report()
+    site.tick()
+    heard, recorded = site.link.telemetry[0].received, robot.last
+    site.add().send(recorded)
+    site.tick(1.0)
+    assert site.link.telemetry[0].received == heard
+    assert site.network.dropped == 1
+
+
+def test_a_robot_that_restarts_is_driven_again_and_its_recorded_past_is_void(site):
+    robot = site.add()
+    robot.announce()
+    recorded = robot.last
+    for _ in range(3):
+        site.tick()
+        robot.receive()
+        robot.report()
+    site.tick()
+    site.tick()
+    robot.reboot(b"ABCDEFG2")
+    site.tick(SILENT + 0.1)
+    robot.announce()
+    site.tick()
+    robot.obeyed = []
+    robot.receive()
+    assert robot.obeyed
+    robot.report()
+    site.tick(1.0)
+    robot.send(recorded)
+    site.tick()
+    robot.receive()
+    robot.obeyed = []
+    site.tick()
+    robot.receive()
+    assert robot.obeyed, "the recording has ended its session"
+
+
+def test_the_recorded_announcement_of_an_earlier_start_does_not_lock_a_robot_out(site):
+    robot = site.add(nonce=b"earlier.")
+    robot.announce()
+    recorded = robot.last
+    robot.reboot(b"present.")
+    for attempt in range(3):
+        robot.announce()
+        site.tick()
+        robot.receive()
+        robot.report()
+        site.tick(SILENT + 0.1)
+        robot.send(recorded)
+        site.tick()
+        assert robot.obeyed, attempt
+        robot.obeyed = []
+
+
+def test_counters_go_on_where_a_killed_arcade_ended(site):
+    robot = site.add()
+    robot.about = robot.about._replace(counter=1000)
+    robot.announce()
+    site.tick()
+    robot.receive()
+    assert robot.obeyed
+
+
+def test_a_second_robot_with_the_same_number_waits_and_takes_over_when_the_first_is_gone(site):
+    one, two = site.add(), site.add(nonce=b"12345678")
+    one.announce()
+    site.tick()
+    one.receive()
+    one.report()
+    site.tick()
+    two.announce()
+    site.tick()
+    assert site.status() == [("R1", "ours"), ("R1", "taken")]
+    assert site.link.misfit(0) is None
+    site.tick(SILENT + 0.1)
+    two.announce()
+    site.tick()
+    two.receive()
+    assert two.obeyed
+
+
+def test_rubbish_is_dropped(site):
+    robot = site.add()
+    for datagram in (b"", b"PG2", b"PG2A" + bytes(200), bytes(37), b"PG2T" + bytes(30)):
+        robot.send(datagram)
+    site.tick()
+    assert site.network.dropped == 5
+    assert not site.network.robots
+
+
+def test_without_a_network_there_is_a_fault_until_it_is_back(site, monkeypatch):
+    class Unreachable:
+        def __init__(self, port):
+            self.port = port
+
+        def sendto(self, *_):
+            raise OSError(errno.ENETUNREACH, "Network is unreachable")
+
+        def recvfrom(self, size):
+            return self.port.recvfrom(size)
+
+        def close(self):
+            self.port.close()
+
+    site.add().announce()
+    site.tick()
+    port = site.network._socket
+    site.network._socket = Unreachable(port)
+    site.tick()
+    assert site.link.fault.key == "radio_offline"
+    site.network._socket = port
+    site.tick()
+    assert site.link.fault is None
+
+
+def test_a_port_in_use_is_a_fault():
+    held = WifiNetwork(ARENA, KEY, lambda: 0.0, port=0, host="127.0.0.1").open()
+    second = WifiNetwork(ARENA, KEY, lambda: 0.0, port=held.bound, host="127.0.0.1")
+    link = Link(second.open, lambda: 0.0, WifiProtocol(second), "UDP port 47474")
+    link.pump()
+    assert link.fault.key == "radio_busy"
+    held.close()
