@@ -41,7 +41,8 @@ class EmulatedSession:
     `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
     `show`. `timing`, `traits`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
-    camera and radio. With `wifi` the robots are boards on such a network, and run their own program; else they have XBees.
+    camera and radio. With `wifi` the robots are boards on such a network and run their own program, else they have
+    XBees.
     """
 
     emulated = True

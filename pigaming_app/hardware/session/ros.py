@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.ros.node import RosNode
 
@@ -28,6 +29,7 @@ class RosSession:
 
     emulated = False
     quality: "CameraQuality | None" = None  # the cameras are those of the network
+    network: "WifiNetwork | None" = None
 
     def __init__(self, width: float = WIDTH_MM) -> None:
         self.width, self.mm = width, 0.0
