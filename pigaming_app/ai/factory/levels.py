@@ -27,7 +27,7 @@ LEVELS: tuple[BrainKind, ...] = (
         "level3",
         PlannerMind,
         think,
-        make_reset(speed=0.97, hesitation=0.04, noise=0.02, delay=0.2, rules=2, form=0.27, start=5.0, warm_up=0.56),
+        make_reset(speed=0.97, hesitation=0.04, noise=0.02, delay=0.2, rules=2, form=0.27, start=5.0, warm_up=0.54),
     ),
     BrainKind("level4", PlannerMind, think, make_reset(speed=0.995, delay=0.1, form=0.2, start=3.0, warm_up=0.34)),
     BrainKind("level5", PlannerMind, think, make_reset()),
