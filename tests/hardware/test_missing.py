@@ -8,7 +8,7 @@ ROOT = Path(__file__).parents[2]
 MODULES = sorted(
     ".".join(path.relative_to(ROOT).with_suffix("").parts)
     for path in (ROOT / "pigaming_app" / "hardware").rglob("*.py")
-    if path.stem != "__init__"
+    if path.stem != "__init__" and "micropython" not in path.parts  # for another interpreter
 )
 
 

@@ -20,7 +20,7 @@ MAY = {
     "scan": {"calibration", "vision"},
     "emulator": {"calibration", "vision"},
     "session": {"calibration", "control", "emulator", "radio", "ros", "scan", "tracking", "vision"},
-    "proof": {"calibration", "control", "emulator", "scan", "session", "tracking", "vision"},
+    "proof": {"calibration", "commissioning", "control", "emulator", "scan", "session", "tracking", "vision"},
 }
 
 

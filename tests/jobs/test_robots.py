@@ -11,7 +11,8 @@ from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
 from pigaming_app.hardware.emulator.xbee import Module
 from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session.store import save_radios
-from pigaming_app.jobs import fidelity, radio_setup, robots
+from pigaming_app.jobs import fidelity, robots
+from pigaming_app.jobs.robots import radio_setup
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from pigaming_app.storage.settings import Settings, folders
 from tests.hardware.mat import TRUE, Mat

@@ -179,7 +179,7 @@ def test_a_robot_that_drives_into_another_is_not_predicted_to_be_inside_of_it():
     mat.tracker.correct(marks({0: (500.0, 400.0, 0.0), 1: (572.0, 400.0, 0.0)}), 0.0)
     for tick in range(6):
         mat.tracker.record_commands(tick * 0.02, [(260.0, 0.0), None, None, None])
-    alone = mat.tracker._filters[0].at(0.1)
+    alone = mat.tracker.filters[0].at(0.1)
     one, other = mat.tracker.sense(0.1)[:2]
     assert alone.x > 505.0
     assert other.x - one.x == pytest.approx(72.0)

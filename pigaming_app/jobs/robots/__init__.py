@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
-from pigaming_app.jobs import radio_setup, wifi_setup
+from pigaming_app.jobs.robots import radio_setup, wifi_setup
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
