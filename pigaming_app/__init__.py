@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-__version__ = "1.7.0"
+__version__ = "1.8.0"
 
 _PACKAGE = Path(__file__).resolve().parent
 ROOT = _PACKAGE.parent  # working directory for `python -m pigaming_app.…`
