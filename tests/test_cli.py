@@ -108,7 +108,6 @@ def test_the_doctor_speaks_json(capsys):
     [
         ["nonsense"],
         ["play", "--seats", "fsm,wizard"],
-        ["play", "--emulate", "--record", "a.replay"],
         ["play", "--seats", "fsm,off", "--real", "2"],
         ["play", "--real", "one"],
         ["play", "--real", "1", "--headless"],

@@ -6,10 +6,11 @@ ends with a CRC-32.
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 from zlib import crc32
 
-from pigaming_app.hardware.signals import WheelCommand
+if TYPE_CHECKING:
+    from pigaming_app.hardware.signals import WheelCommand
 
 ROBOTS = 4
 STOP = 63  # the middle of the speed codes 0 to 126
@@ -35,7 +36,7 @@ class RobotReport(NamedTuple):
     millivolts: int
 
 
-def drive_packet(arena: int, seq: int, wheels: Sequence[WheelCommand | None]) -> bytes:
+def drive_packet(arena: int, seq: int, wheels: "Sequence[WheelCommand | None]") -> bytes:
     """Packet for robots 0 to 3 of an arena, disabled where None or missing.
 
     Raises ValueError for a fifth robot and for an id that no arena has.

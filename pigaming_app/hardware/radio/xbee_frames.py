@@ -6,6 +6,7 @@ Pure functions and a stream decoder, without ports or clocks.
 import re
 from typing import NamedTuple
 
+CHANNELS = range(0x0B, 0x1B)  # of an XBee; an XBee-PRO takes 0C to 17
 BROADCAST = 0xFFFF
 DELIMITER, ESCAPE = 0x7E, 0x7D
 ESCAPED = frozenset((DELIMITER, ESCAPE, 0x11, 0x13))

@@ -15,7 +15,6 @@ from pigaming_app.hardware.radio.xbee_frames import ATCommand, ATResponse, Frame
 from pigaming_app.hardware.signals import Clock, SerialPort
 
 FACTORY_BAUD = 9600
-CHANNELS = range(0x0B, 0x1B)  # of an XBee; an XBee-PRO takes 0C to 17
 BOTH, FIRST_OF_BOTH = 12, 0x0C  # channels that both take
 OWN_PANS = 0x4000  # added to the arena id: never the factory's PAN, 3332
 BROADCAST = 0xFFFF

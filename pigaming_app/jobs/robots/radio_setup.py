@@ -6,7 +6,7 @@ from typing import Any
 
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.radio.packets import LAST_ARENA, ROBOTS
-from pigaming_app.hardware.radio.xbee_setup import CHANNELS, XBeeSetup, network_of, parameters
+from pigaming_app.hardware.radio.xbee_frames import CHANNELS
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import hexadecimal, integer
@@ -57,6 +57,8 @@ def flash_command(robot: int, arena: int) -> str:
 
 def set_up(arguments: Namespace, settings: Settings) -> int:
     """Write one XBee and read it back. Raises Refusal."""
+    from pigaming_app.hardware.radio.xbee_setup import XBeeSetup, network_of, parameters
+
     if settings.radio not in ("api2", "api1", "transparent"):
         raise Refusal(f"radio mode {settings.radio} uses no XBee")
     number = arguments.radio_setup

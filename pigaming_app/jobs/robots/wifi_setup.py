@@ -7,8 +7,6 @@ from typing import Any
 from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.hardware.robot_kinds import robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession
-from pigaming_app.hardware.session.store import arena_id, robot_config, wifi_key
-from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.jobs.terminal.options import integer
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.storage.settings import Settings
@@ -16,10 +14,10 @@ from pigaming_app.storage.settings import Settings
 APPEARS, TURNS = 5.0, 1.5  # s: for a robot to report; for each turn of the wheels
 TICK = 0.02  # s
 GENTLE = 0.25  # of full speed
-WHEELS = {
-    "left wheel ahead": WheelCommand(GENTLE, 0.0),
-    "right wheel ahead": WheelCommand(0.0, GENTLE),
-    "both wheels back": WheelCommand(-GENTLE, -GENTLE),
+WHEELS = {  # commands of left and right wheel
+    "left wheel ahead": (GENTLE, 0.0),
+    "right wheel ahead": (0.0, GENTLE),
+    "both wheels back": (-GENTLE, -GENTLE),
 }
 
 
@@ -34,6 +32,8 @@ def options(parser: ArgumentParser) -> None:
 
 def config(robot: int, settings: Settings) -> str:
     """`config.py` of a Wi-Fi robot of these settings."""
+    from pigaming_app.hardware.session.store import arena_id, robot_config, wifi_key
+
     return robot_config(robot, arena_id(settings), wifi_key(settings))
 
 
@@ -61,7 +61,9 @@ def network(session: RobotSession) -> list[dict[str, Any]] | None:
 
 
 def turn_wheels(session: RobotSession, robot: int) -> None:
-    """Turn the wheels of a robot on blocks, and say which should turn. Raises Refusal if it does not report."""
+    """Turn the wheels of a robot on blocks one after another. Raises Refusal if it does not report."""
+    from pigaming_app.hardware.signals import WheelCommand
+
     link = session.open_link()
     if link is None:
         raise Refusal("--wheels is for real robots: leave out --emulate")
@@ -73,6 +75,6 @@ def turn_wheels(session: RobotSession, robot: int) -> None:
     for name, command in WHEELS.items():
         print(f"robot {robot}   {name}", flush=True)
         for _ in range(round(TURNS / TICK)):
-            link.send([command if i == robot - 1 else None for i in range(ROBOTS)])
+            link.send([WheelCommand(*command) if i == robot - 1 else None for i in range(ROBOTS)])
             time.sleep(TICK)
     link.send([None] * ROBOTS)

@@ -105,8 +105,8 @@ class DriftPage:
         words, quality, state = self.context.words, self.work.quality, self.work.exposure
         if self.work.fault is not None or quality is None:
             return
-        figures = {"blur": f"{quality.blur_px:.1f}", "share": round(100 * quality.detection)}
-        line = words("calibrate.picture", time=exposure_text(words, state), **figures)
+        share = round(100 * quality.detection)
+        line = words("calibrate.picture", time=exposure_text(words, state), blur=f"{quality.blur_px:.1f}", share=share)
         text(line, BODY, MIST, room=ROOM).draw(screen, 960, 800)
         message = quality.advice if not quality.sufficient else warning_of(state) or quality.advice
         if message is None and quality.anyway:

@@ -8,7 +8,8 @@ import pygame
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import BAUD
-from pigaming_app.hardware.radio.xbee_setup import CHANNELS, Network, Steps, XBeeSetup, network_of, parameters
+from pigaming_app.hardware.radio.xbee_frames import CHANNELS
+from pigaming_app.hardware.radio.xbee_setup import Network, Steps, XBeeSetup, network_of, parameters
 from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
@@ -131,7 +132,10 @@ class RadioPage:
         if name in KIND_ROWS:
             chosen = self.context.settings.kinds[self.robot - 1]
             kind = next((kind for kind in KINDS if kind.key == chosen), None)
-            return f"{kind.name}:  Ø {2 * kind.radius_mm:g} mm,  {kind.warn_mv / 1000:g} V" if kind else ""
+            if kind is None:
+                return ""
+            volts = self.context.words.decimal(f"{kind.warn_mv / 1000:.1f}")
+            return f"{kind.name}:  Ø {round(2 * kind.radius_mm)} mm,  {volts} V"
         return str(self.network)
 
     def _say(self, key: str) -> None:
