@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from math import hypot
 from threading import Thread
 from time import perf_counter, sleep
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +24,7 @@ from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.procedure import Scan
 from pigaming_app.hardware.scan.things import Layout, Outline, Thing, ThingKind
 from pigaming_app.hardware.session.emulated import calibrated
-from pigaming_app.hardware.signals import CameraFrame, CameraSource
+from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
 
 TILTED = TrueLens(eye=(150.0, 1150.0, 2400.0), aim=(25.0, 50.0), focal=1830.0)  # 25 degrees off the vertical
 SMALL = (1280, 720)  # px
@@ -39,6 +40,10 @@ class SmallCamera:
 
     def __init__(self, camera: CameraSource) -> None:
         self._camera = camera
+
+    @property
+    def exposure(self) -> ExposureState:
+        return self._camera.exposure
 
     def newest(self) -> CameraFrame | None:
         import cv2
@@ -57,8 +62,8 @@ class SmallCamera:
 class SmallSite(EmulatedCalibrationSite):
     """The calibration site of an arena with the small camera."""
 
-    def open(self, number: int, locks: bool = True, fresh: bool = False) -> SmallCamera:  # type: ignore[override]
-        return SmallCamera(super().open(number, locks, fresh))
+    def open(self, *args: Any, **kwargs: Any) -> SmallCamera:  # type: ignore[override]
+        return SmallCamera(super().open(*args, **kwargs))
 
 
 class ThingsBed:

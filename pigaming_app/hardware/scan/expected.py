@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.boards import CANVAS, LIGHT
+from pigaming_app.hardware.scan.convex import Pixels
 from pigaming_app.hardware.scan.heights import Map, Mask, Rectified, Surface, plane_displacement
 from pigaming_app.hardware.scan.patterns import PATTERNS, flat_phase
 from pigaming_app.hardware.scan.things import ProjectorPlace
@@ -32,9 +33,12 @@ class Light(NamedTuple):
 
 
 class ExpectedLight:
-    """The scanned mat as the camera sees it. `usable`: cells whose light is known."""
+    """The scanned mat as the camera sees it. `usable`: cells whose light is known.
 
-    def __init__(self, pictures: Rectified, surface: Surface, projector: ProjectorPlace) -> None:
+    `covered`: mask, on the canvas grid, of what robots hid during the scan.
+    """
+
+    def __init__(self, pictures: Rectified, surface: Surface, projector: ProjectorPlace, covered: Pixels) -> None:
         self.ground, self.projector = pictures.ground, projector
         self._maps = pictures.camera_maps(CELL)
         white, black, *fringes = pictures.samples(CELL)
@@ -45,7 +49,7 @@ class ExpectedLight:
         self._light = _light_px(pictures, projector, height)
         near, cv = np.ones((3, 3), np.uint8), opencv()
         even = cv.dilate(height, near) - cv.erode(height, near) < ROUGH
-        self.usable: Mask = np.asarray(even & (white > 1.0))
+        self.usable: Mask = np.asarray(even & (white > 1.0) & (covered[pick, pick] == 0))
         self._response = _response(white, black, fringes, lit & (np.abs(height) < 6.0))
 
     def seen(self, image: Image) -> Map:

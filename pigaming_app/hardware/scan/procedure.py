@@ -18,7 +18,7 @@ from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.expected import ExpectedLight
 from pigaming_app.hardware.scan.heights import Map, Rectified, Surface, surface
-from pigaming_app.hardware.scan.outlines import find_things
+from pigaming_app.hardware.scan.outlines import find_things, robot_shadows
 from pigaming_app.hardware.scan.patterns import PATTERNS, SETS, STEPS, Pattern
 from pigaming_app.hardware.scan.projector_place import Place, projector_place
 from pigaming_app.hardware.scan.things import Layout, ProjectorPlace, Thing, largest
@@ -162,7 +162,8 @@ class Scan:
             found = things
             yield
         layout = Layout(largest(found), projector)
-        self.expected = ExpectedLight(pictures, whole, projector)
+        covered = robot_shadows(self.robots, self.ground, projector)
+        self.expected = ExpectedLight(pictures, whole, projector, covered)
         self.layout, self._pictures = layout, []  # 120 MB
 
     def _place(self, pictures: Rectified, robots: Sequence[Place]) -> ProjectorPlace:
