@@ -32,7 +32,8 @@ def options(parser: ArgumentParser) -> None:
 
 def config(robot: int, settings: Settings) -> str:
     """`config.py` of a Wi-Fi robot of these settings."""
-    from pigaming_app.hardware.session.store import arena_id, robot_config, wifi_key
+    from pigaming_app.hardware.robot_files import robot_config
+    from pigaming_app.hardware.session.store import arena_id, wifi_key
 
     return robot_config(robot, arena_id(settings), wifi_key(settings))
 

@@ -148,7 +148,7 @@ def test_limits_and_margin_follow_the_kind_of_robot():
     assert [round(rig.margin(robot), 2) for robot in range(4)] == [8.45, 8.45, 0.0, 0.0]
     assert Rig(mat, mat, mat, mat.clock, mm=0.66).margin(0) == pytest.approx(47.5 / 0.66 - 37.0)
     health = rig.health(dict.fromkeys(range(4), 0.0), rig.snapshot())
-    assert [(one.battery_low, one.battery_empty) for one in health.values()] == [(4.4, 4.0), (3.3, 3.0)] + [
+    assert [(one.battery_low, one.battery_empty) for one in health.values()] == [(4.4, 4.0), (4.6, 4.4)] + [
         (4.4, 4.0)
     ] * 2
 
