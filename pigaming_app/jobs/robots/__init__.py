@@ -6,7 +6,7 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.packets import DEADMAN
+from pigaming_app.hardware.radio.packets import DEADMAN, PARKED
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.jobs.robots import radio_setup, wifi_setup
 from pigaming_app.jobs.sessions import new_session
@@ -141,6 +141,7 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
         "heard": report is not None and quality.share > 0.0,
         "misfit": misfit.reason if misfit else None,
         "deaf": report is not None and bool(report.flags & DEADMAN),
+        "parked": report is not None and bool(report.flags & PARKED),
         "battery": round(report.battery, 2) if report else None,
         "share": round(quality.share, 2),
         "strength": quality.strength,
@@ -221,5 +222,5 @@ def _described(robot: dict[str, Any], status: dict[str, Any]) -> str:
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"
     echo = "" if robot["echo_ms"] is None else f", answers in {robot['echo_ms']} ms"
     where = f", seen at {robot['at'][0]:.0f}, {robot['at'][1]:.0f}" if robot["seen"] else ", not seen"
-    deaf = ", receives no commands" if robot["deaf"] else ""
+    deaf = ", stopped by its button" if robot["parked"] else ", receives no commands" if robot["deaf"] else ""
     return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}{deaf}"

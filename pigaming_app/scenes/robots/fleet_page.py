@@ -227,6 +227,8 @@ class FleetPage:
             volts=f"{health.battery:.1f}",
             share=round(100 * health.share),
         )
+        if health.parked:
+            return named + words("fleet.parked"), FOCUS, seen, MIST
         if health.deaf:
             return words("fleet.deaf"), ALARM, seen, MIST
         weak = 0.0 < health.battery < health.kind.warn_mv / 1000 or health.share < WEAK
