@@ -1,4 +1,4 @@
-"""Files for robots that run MicroPython, with the numbers of their arena filled in."""
+"""Files for robots that run MicroPython, with the numbers of their arena, and the commands that set up robots."""
 
 from pathlib import Path
 
@@ -19,3 +19,12 @@ def microbit_program(number: int, arena: int) -> str:
     return text.replace("ROBOT, ARENA = 1, 0", f"ROBOT, ARENA = {number}, {arena}").replace(
         "ARENA = 0  #", f"ARENA = {arena}  #"
     )
+
+
+def set_up_command(robot: int, arena: int, radio: str, kind: str = "") -> str:
+    """The command that gives a robot (1 to 4) its numbers. `radio`: of the settings; `kind`: see robot_kinds."""
+    if radio == "udp":
+        return f"main.py robots --wifi-config {robot}"
+    if kind == "microbit":
+        return f"main.py robots --microbit {robot}"
+    return f"make flash ADDRESS={robot} ARENA={arena}"

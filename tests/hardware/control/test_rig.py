@@ -139,7 +139,7 @@ def test_time_that_passes_while_signs_are_read_makes_nobody_unseen():
 
 
 def test_limits_and_margin_follow_the_kind_of_robot():
-    """On an arena of 1.32 mm/px a simulated robot has a radius of 47.5 mm. The board of a micro:bit robot needs 4.5 V."""
+    """On an arena of 1.32 mm/px a simulated robot has a radius of 47.5 mm. A micro:bit robot needs 4.5 V."""
     mat = Mat([(900.0, 450.0, 0.0)] * 4)
     mat.boards = {1: 1}
     rig = Rig(mat, mat, mat, mat.clock, mm=1.32, kinds=("", "", "microbit", "3pi"))

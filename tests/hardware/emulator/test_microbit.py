@@ -32,8 +32,8 @@ def _micropython():
 class Air:
     """Relay (board 0), robots 1 and 2, the radio between them, and the relay's USB line, a SerialPort."""
 
-    def __init__(self):
-        self.boards = Boards([MicrobitConfig(number, ARENA) for number in range(3)], paced=True)
+    def __init__(self, robot):
+        self.boards = Boards([MicrobitConfig(0, ARENA), robot(1, ARENA), robot(2, ARENA)], paced=True)
         self.sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(3)]
         for end in self.sockets:
             end.bind(("127.0.0.1", 0))
@@ -95,9 +95,17 @@ class Air:
         pass
 
 
+class WithDivider(MicrobitConfig):
+    """A robot that measures its battery at pin 2."""
+
+    def files(self):
+        text = super().files()["main.py"].replace("BATTERY = None", "BATTERY = pin2").replace("pin16, r", "pin16, pin2, r")
+        return {"main.py": text}
+
+
 @pytest.fixture
-def air():
-    air = Air()
+def air(request):
+    air = Air(getattr(request, "param", MicrobitConfig))
     yield air
     air.boards.close()
     for end in air.sockets:
@@ -202,3 +210,12 @@ def test_a_hanging_program_is_stopped_by_the_timer_and_a_hanging_chip_by_the_wat
         air.boards.resets.clear()
         drive(air, link, 0.6)
         assert link.telemetry[0].flags == RESTARTED
+
+
+@pytest.mark.parametrize("air", [WithDivider], indirect=True)
+def test_an_empty_battery_brakes_until_it_has_recovered(air, link):
+    for millivolts, moving in ((4500, True), (4300, False), (4500, False), (4700, True)):
+        air.boards.disturb(1, battery=millivolts)
+        drive(air, link, 0.8)
+        assert any(air.boards.motors(1)) is moving, millivolts
+        assert link.telemetry[0].battery == pytest.approx(millivolts / 1000, abs=0.02)

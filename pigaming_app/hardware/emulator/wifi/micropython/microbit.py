@@ -21,6 +21,9 @@ class Pin:
             raise ValueError(duty)
         js.bridge.pin(self.name, duty * 65535 // 1023)
 
+    def read_analog(self):
+        return js.bridge.battery() * 1023 // 9900  # a divider by 3, on 3.3 V
+
 
 class Uart:
     baudrate = 115200

@@ -9,13 +9,13 @@ import time
 
 import radio
 from machine import mem32
-from microbit import button_a, display, pin0, pin2, pin8, pin12, pin16, run_every, sleep
+from microbit import button_a, display, pin0, pin8, pin12, pin16, run_every, sleep
 
 ROBOT, ARENA = 1, 0  # number of the robot, 1 to 4; id of the arena, 1 to 16383: with 0 the motors never run
 
 # Kitronik's motor driver board 5620 (DRV8833, four AA cells): pins ahead and back of each motor
 LEFT, RIGHT = (pin8, pin12), (pin0, pin16)
-BATTERY = None  # pin2, with a divider of 200 kOhm and 100 kOhm at the cells
+BATTERY = None  # or pin2, also in the line with `import`: with a divider of 200 kOhm and 100 kOhm at the cells
 BATTERY_FULL_MV = 3.3 * 3 * 1000
 LOW_MV, EMPTY_MV = 4600, 4400  # the board needs 4.5 V
 
