@@ -99,7 +99,9 @@ class WithDivider(MicrobitConfig):
     """A robot that measures its battery at pin 2."""
 
     def files(self):
-        text = super().files()["main.py"].replace("BATTERY = None", "BATTERY = pin2").replace("pin16, r", "pin16, pin2, r")
+        text = (
+            super().files()["main.py"].replace("BATTERY = None", "BATTERY = pin2").replace("pin16, r", "pin16, pin2, r")
+        )
         return {"main.py": text}
 
 
