@@ -20,7 +20,7 @@ from typing import IO, TYPE_CHECKING, Any
 import pygame
 
 from pigaming_app.hardware.messages import OperatorError
-from pigaming_app.hardware.session.real import RealSession
+from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
@@ -377,9 +377,11 @@ def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedS
         return RosSession(options.ros_width)
     if options.emulator_seed is None:
         return RealSession(settings, lambda: canvas.projection)
+    from pigaming_app.hardware.emulator.wifi.air import WifiChannel
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
-    session = EmulatedSession(options.emulator_seed, options.step is None, lambda: canvas.projection)
+    wifi = WifiChannel() if settings.radio == UDP else None
+    session = EmulatedSession(options.emulator_seed, options.step is None, lambda: canvas.projection, wifi=wifi)
     canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
     settings.real = settings.real or [1, 2, 3, 4]

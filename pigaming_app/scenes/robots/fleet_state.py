@@ -40,7 +40,7 @@ class RobotStatus:
     misfit: Misfit | None
     deaf: bool
     parked: bool
-    name: str  # announced by a Wi-Fi robot, or empty
+    name: str  # announced by a Wi-Fi robot; empty if it is only its number
 
 
 @dataclass
@@ -156,10 +156,11 @@ class FleetState:
         return self.rig is not None and self.rig.sense()[robot].age < SEEN
 
     def _name(self, robot: int) -> str:
-        """Name that the robot on a radio channel has announced, if it has Wi-Fi."""
+        """Name that the robot on a radio channel has announced, if it has Wi-Fi and is not just called by its number."""
         network = self.session.network
         ours = [found.announced for found in network.robots if found.status == "ours"] if network else []
-        return next((found.name for found in ours if found.address == robot + 1), "")
+        name = next((found.name for found in ours if found.address == robot + 1), "")
+        return "" if name == f"Robot {robot + 1}" else name
 
     def _search(self, job: Callable[[], bool]) -> bool:
         if self.rig is None or not any(self.heard(robot) for robot in range(ROBOTS)):
