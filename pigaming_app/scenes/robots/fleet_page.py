@@ -40,7 +40,7 @@ REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
 EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
 ROBOTS_H = 486  # px, height of the robots' frame
-MESSAGE = pygame.Rect(150, 854, 1620, 84)  # px, between description and prompts
+MESSAGE = pygame.Rect(150, 858, 1620, 80)  # px, between description and prompts
 LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: description of the focused row
 
 log = logging.getLogger("pigaming")
