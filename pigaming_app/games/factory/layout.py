@@ -22,7 +22,7 @@ at = [800, 450]
 at = [740, 130]
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 from pigaming_app.games.factory.state import (
@@ -44,9 +44,11 @@ from pigaming_app.games.factory.state import (
     A,
     B,
 )
+from pigaming_app.games.starts import clear_starts
 from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, read_starts
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, expand, free_node
+from pigaming_app.sim.things.spec import read_things
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WIDTH, World
 
@@ -94,7 +96,7 @@ class Floor:
 
 def read(table: TomlTable) -> Layout:
     """Parse a floor: warehouses, machines, aisle and workers. Raises FieldError."""
-    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared")
+    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared", "thing")
     starts = read_starts(table)
     machines = tuple(_machine(entry) for entry in table.tables("machine"))
     if sorted(machine.kind for machine in machines) != [A, A, B, B]:
@@ -104,7 +106,9 @@ def read(table: TomlTable) -> Layout:
         raise table.error("worker", f"{len(homes)} workers, but there must be {WORKERS}")
     slots = (*_shelves(table), *_machine_slots(machines), *_shared_slots(table))
     floor = Floor(slots, machines, homes, _aisle(table.table("aisle")))
-    layout = Layout(tuple(wall for machine in machines for wall in _body(machine)), starts, floor)
+    bodies = tuple(wall for machine in machines for wall in _body(machine))
+    layout = Layout(bodies, starts, floor, read_things(table))
+    layout = replace(layout, starts=clear_starts(layout))
     _check_reachable(layout, floor)
     return layout
 
@@ -184,7 +188,7 @@ def _body(machine: MachineSpec) -> tuple[WallSpec, WallSpec]:
 def _check_reachable(layout: Layout, floor: Floor) -> None:
     """Raises FieldError unless robots can reach every slot, people every machine, and no slots overlap."""
     world = World()
-    build(world, Arena("", {}, layout.walls, layout.starts, "", floor))
+    build(world, Arena("", {}, layout.walls, layout.starts, "", floor, layout.things))
     field = Route()
     expand(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
     free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]
