@@ -1,0 +1,116 @@
+"""Where robots can pass the things on a course: at each of its points an interval of offsets from the centre line.
+
+Of the gaps beside the things, the ones are taken that lie nearest to the fastest line and are wide, and that connect
+all round.
+"""
+
+from collections.abc import Sequence
+from math import hypot, sqrt
+from typing import Any
+
+from pigaming_app.games.race.course import POINTS, Course, segment_at
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.things.cover import Capsule
+from pigaming_app.sim.toml_table import FieldError
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+SPARE = 6.0  # px between a robot that passes and a thing; virtual walls of real robots need 4
+WALL = RADIUS + SPARE  # px between the centre of a robot and the outer walls
+STEP = 3.0  # px between tried offsets
+NARROW = 60.0  # px, a gap of this width costs as much as a detour of NARROW px
+LAPS = 2  # round the course, until the choice at its beginning no longer depends on that beginning
+
+Span = tuple[float, float]  # offsets, px, positive to the right
+
+
+@kernel
+def clear_aside(match: Any, along: float) -> float:
+    """The offset nearest to the middle of the course at which no thing stands, px; `along` px along it."""
+    if not match.narrow:
+        return 0.0
+    k, _ = segment_at(match.course, along)
+    low: float = match.low[k]
+    high: float = match.high[k]
+    return low if low > 0.0 else high if high < 0.0 else 0.0
+
+
+def passages(course: Course, capsules: Sequence[Capsule], ideal: Sequence[float]) -> tuple[Span, ...]:
+    """The interval of offsets at each point of the course in which robots can pass. `ideal`: that of the fastest line.
+
+    Raises FieldError if they cannot pass somewhere.
+    """
+    gaps = [_gaps(course, k, capsules) for k in range(POINTS)]
+    for k, some in enumerate(gaps):
+        if not some:
+            raise _blocked(course, k)
+    costs: list[dict[int, float]] = [dict.fromkeys(range(len(gaps[0])), 0.0)]
+    came: list[dict[int, int]] = [{}]
+    for step in range(1, LAPS * POINTS + 1):
+        k = step % POINTS
+        before, cost, origin = costs[-1], {}, {}
+        for i, gap in enumerate(gaps[k]):
+            linked = [j for j in before if _overlap(gaps[k - 1][j], gap)]
+            if linked:
+                origin[i] = min(linked, key=lambda j: before[j])
+                cost[i] = before[origin[i]] + _cost(gap, ideal[k])
+        if not cost:
+            raise _blocked(course, k)
+        costs.append(cost)
+        came.append(origin)
+    chosen = min(costs[-1], key=lambda i: costs[-1][i])
+    way = [0] * POINTS
+    for step in range(LAPS * POINTS, (LAPS - 1) * POINTS, -1):
+        way[step % POINTS] = chosen
+        chosen = came[step][chosen]
+    return tuple(gaps[k][way[k]] for k in range(POINTS))
+
+
+def _gaps(course: Course, k: int, capsules: Sequence[Capsule]) -> list[Span]:
+    """The intervals of offsets at a point at which a robot touches nothing."""
+    x, y, half = course.xs[k], course.ys[k], course.half[k]
+    near = [one for one in capsules if _distance(one, x, y) < half + RADIUS + SPARE]
+    if not near:
+        return [(-half, half)]
+    after = (k + 1) % POINTS
+    ex, ey = course.xs[after] - course.xs[k - 1], course.ys[after] - course.ys[k - 1]
+    right_x, right_y = -ey / hypot(ex, ey), ex / hypot(ex, ey)
+    count = int(2.0 * half / STEP)
+    found: list[Span] = []
+    begin: float | None = None
+    for i in range(count + 1):
+        aside = -half + i * STEP
+        px, py = x + aside * right_x, y + aside * right_y
+        free = WALL <= px <= WIDTH - WALL and WALL <= py <= HEIGHT - WALL
+        free = free and all(_distance(one, px, py) >= RADIUS + SPARE for one in near)
+        if free and begin is None:
+            begin = aside
+        elif not free and begin is not None:
+            found.append((begin, aside - STEP))
+            begin = None
+    if begin is not None:
+        found.append((begin, -half + count * STEP))
+    return found
+
+
+def _distance(capsule: Capsule, x: float, y: float) -> float:
+    """Distance of a point from a capsule, px; negative inside."""
+    ex, ey = capsule.bx - capsule.ax, capsule.by - capsule.ay
+    px, py = x - capsule.ax, y - capsule.ay
+    length2 = ex * ex + ey * ey
+    share = max(0.0, min(1.0, (px * ex + py * ey) / length2)) if length2 else 0.0
+    dx, dy = px - share * ex, py - share * ey
+    return sqrt(dx * dx + dy * dy) - capsule.half
+
+
+def _overlap(one: Span, other: Span) -> bool:
+    return one[0] <= other[1] + STEP and other[0] <= one[1] + STEP
+
+
+def _cost(gap: Span, ideal: float) -> float:
+    detour = max(0.0, gap[0] - ideal, ideal - gap[1])
+    return detour + NARROW * NARROW / max(gap[1] - gap[0], STEP)
+
+
+def _blocked(course: Course, k: int) -> FieldError:
+    return FieldError("thing", f"no robot can pass the things at ({course.xs[k]:.0f}, {course.ys[k]:.0f})")
