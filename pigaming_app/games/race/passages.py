@@ -1,14 +1,14 @@
 """Where robots can pass the things on a course: at each of its points an interval of offsets from the centre line.
 
 Of the gaps beside the things, the ones are taken that lie nearest to the fastest line and are wide, and that connect
-all round.
+all round. Where things leave no room on the course, robots pass through the mud beside it, but not at a line.
 """
 
 from collections.abc import Sequence
 from math import hypot, sqrt
 from typing import Any
 
-from pigaming_app.games.race.course import POINTS, Course, segment_at
+from pigaming_app.games.race.course import POINTS, Course, CoursePosition, locate, segment_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.cover import Capsule
@@ -19,6 +19,9 @@ SPARE = 6.0  # px between a robot that passes and a thing; virtual walls of real
 WALL = RADIUS + SPARE  # px between the centre of a robot and the outer walls
 STEP = 3.0  # px between tried offsets
 NARROW = 60.0  # px, a gap of this width costs as much as a detour of NARROW px
+BESIDE = 90.0  # px beside the course, where robots may pass if need be
+LINE = 70.0  # px from a line within which they may not
+MUD = 1000.0  # px, cost of that
 LAPS = 2  # round the course, until the choice at its beginning no longer depends on that beginning
 
 Span = tuple[float, float]  # offsets, px, positive to the right
@@ -35,12 +38,27 @@ def clear_aside(match: Any, along: float) -> float:
     return low if low > 0.0 else high if high < 0.0 else 0.0
 
 
-def passages(course: Course, capsules: Sequence[Capsule], ideal: Sequence[float]) -> tuple[Span, ...]:
-    """The interval of offsets at each point of the course in which robots can pass. `ideal`: that of the fastest line.
+@kernel
+def in_passage(match: Any, place: Any) -> bool:
+    """True if a position beside the course is where robots pass a thing."""
+    if not match.narrow:
+        return False
+    k, _ = segment_at(match.course, place.along)
+    low: float = match.low[k] - RADIUS
+    high: float = match.high[k] + RADIUS
+    return bool(low <= place.aside <= high)
+
+
+def passages(
+    course: Course, capsules: Sequence[Capsule], ideal: Sequence[float], lines: Sequence[float]
+) -> tuple[Span, ...]:
+    """The interval of offsets at each point of the course in which robots can pass.
+
+    `ideal`: offsets of the fastest line; `lines`: px along the course, where robots must stay on it.
 
     Raises FieldError if they cannot pass somewhere.
     """
-    gaps = [_gaps(course, k, capsules) for k in range(POINTS)]
+    gaps = [_gaps(course, k, capsules, _beside(course, k, lines)) for k in range(POINTS)]
     for k, some in enumerate(gaps):
         if not some:
             raise _blocked(course, k)
@@ -53,7 +71,7 @@ def passages(course: Course, capsules: Sequence[Capsule], ideal: Sequence[float]
             linked = [j for j in before if _overlap(gaps[k - 1][j], gap)]
             if linked:
                 origin[i] = min(linked, key=lambda j: before[j])
-                cost[i] = before[origin[i]] + _cost(gap, ideal[k])
+                cost[i] = before[origin[i]] + _cost(gap, ideal[k], course.half[k])
         if not cost:
             raise _blocked(course, k)
         costs.append(cost)
@@ -63,25 +81,42 @@ def passages(course: Course, capsules: Sequence[Capsule], ideal: Sequence[float]
     for step in range(LAPS * POINTS, (LAPS - 1) * POINTS, -1):
         way[step % POINTS] = chosen
         chosen = came[step][chosen]
-    return tuple(gaps[k][way[k]] for k in range(POINTS))
+    return tuple(_on_course(gaps[k][way[k]], course.half[k]) for k in range(POINTS))
 
 
-def _gaps(course: Course, k: int, capsules: Sequence[Capsule]) -> list[Span]:
-    """The intervals of offsets at a point at which a robot touches nothing."""
+def _beside(course: Course, k: int, lines: Sequence[float]) -> float:
+    """How far beside the course robots may pass at a point, px."""
+    at = k * course.step
+    gap = min((min((at - line) % course.length, (line - at) % course.length) for line in lines), default=course.length)
+    return BESIDE if gap > LINE else 0.0
+
+
+def _on_course(gap: Span, half: float) -> Span:
+    """The part of a gap that lies on the course; the whole gap if there is none."""
+    low, high = max(gap[0], -half), min(gap[1], half)
+    return (low, high) if low <= high else gap
+
+
+def _gaps(course: Course, k: int, capsules: Sequence[Capsule], beside: float) -> list[Span]:
+    """The intervals of offsets at a point, up to `beside` px beside the course, at which a robot touches nothing."""
     x, y, half = course.xs[k], course.ys[k], course.half[k]
-    near = [one for one in capsules if _distance(one, x, y) < half + RADIUS + SPARE]
+    reach, place = half + beside, CoursePosition()
+    near = [one for one in capsules if _distance(one, x, y) < reach + RADIUS + SPARE]
     if not near:
         return [(-half, half)]
     after = (k + 1) % POINTS
     ex, ey = course.xs[after] - course.xs[k - 1], course.ys[after] - course.ys[k - 1]
     right_x, right_y = -ey / hypot(ex, ey), ex / hypot(ex, ey)
-    count = int(2.0 * half / STEP)
+    count = int(2.0 * reach / STEP)
     found: list[Span] = []
     begin: float | None = None
     for i in range(count + 1):
-        aside = -half + i * STEP
+        aside = -reach + i * STEP
         px, py = x + aside * right_x, y + aside * right_y
         free = WALL <= px <= WIDTH - WALL and WALL <= py <= HEIGHT - WALL
+        if free and abs(aside) > half:  # not on another stretch of the course
+            locate(course, px, py, place)
+            free = not place.on
         free = free and all(_distance(one, px, py) >= RADIUS + SPARE for one in near)
         if free and begin is None:
             begin = aside
@@ -89,7 +124,7 @@ def _gaps(course: Course, k: int, capsules: Sequence[Capsule]) -> list[Span]:
             found.append((begin, aside - STEP))
             begin = None
     if begin is not None:
-        found.append((begin, -half + count * STEP))
+        found.append((begin, -reach + count * STEP))
     return found
 
 
@@ -107,9 +142,10 @@ def _overlap(one: Span, other: Span) -> bool:
     return one[0] <= other[1] + STEP and other[0] <= one[1] + STEP
 
 
-def _cost(gap: Span, ideal: float) -> float:
+def _cost(gap: Span, ideal: float, half: float) -> float:
     detour = max(0.0, gap[0] - ideal, ideal - gap[1])
-    return detour + NARROW * NARROW / max(gap[1] - gap[0], STEP)
+    mud = max(0.0, gap[0] - half, -half - gap[1])
+    return detour + (MUD + mud if mud > 0.0 else 0.0) + NARROW * NARROW / max(gap[1] - gap[0], STEP)
 
 
 def _blocked(course: Course, k: int) -> FieldError:

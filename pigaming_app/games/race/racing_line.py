@@ -38,16 +38,18 @@ def fastest_line(course: Course, speed: float, turn_rate: float) -> Line:
 
 @lru_cache(maxsize=32)
 def line_round(
-    course: Course, speed: float, turn_rate: float, capsules: tuple[Capsule, ...]
+    course: Course, speed: float, turn_rate: float, capsules: tuple[Capsule, ...], lines: tuple[float, ...]
 ) -> tuple[Line, tuple[Span, ...]]:
     """The fastest line that goes round things, and the passages that it takes; none if there are no things.
+
+    `lines`: px along the course, see `passages`.
 
     Raises FieldError if there is no way past them.
     """
     line = fastest_line(course, speed, turn_rate)
     if not capsules:
         return line, ()
-    spans = passages(course, capsules, line[0])
+    spans = passages(course, capsules, line[0], lines)
     return _search(course, speed, turn_rate, line[0], spans), spans
 
 
@@ -148,9 +150,10 @@ def _room(half: float, post: tuple[float, float, float, float]) -> tuple[float, 
 
 def _within(room: Span, spans: Sequence[Span]) -> Span:
     """The part of `room` in all spans; where there is none, as near to all as possible."""
-    low = max(room[0], *(span[0] for span in spans))
-    high = min(room[1], *(span[1] for span in spans))
-    return (low, high) if low <= high else (0.5 * (low + high), 0.5 * (low + high))
+    low, high = max(span[0] for span in spans), min(span[1] for span in spans)
+    low, high = (low, high) if low <= high else (0.5 * (low + high), 0.5 * (low + high))
+    inner = max(room[0], low), min(room[1], high)
+    return inner if inner[0] <= inner[1] else (low, high)  # beside the course
 
 
 def _interpolate(band: Sequence[float], i: int, share: float) -> float:

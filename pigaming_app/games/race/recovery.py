@@ -11,7 +11,7 @@ from typing import Any
 
 from pigaming_app.games.race.course import distance_ahead, point_at, segment_at
 from pigaming_app.games.race.laps import stretch
-from pigaming_app.games.race.passages import clear_aside
+from pigaming_app.games.race.passages import clear_aside, in_passage
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, STUCK, WRONG_WAY
 from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import is_free
@@ -49,7 +49,7 @@ def detect_lost(match: Any, k: int) -> None:
         return
     if racer.missed:
         racer.lost = MISSED_LINE
-    elif not racer.place.on:
+    elif not racer.place.on and not in_passage(match, racer.place):
         racer.lost = OFF_COURSE
     elif racer.backward >= BACKWARD_TICKS:
         racer.lost = WRONG_WAY

@@ -73,7 +73,7 @@ def read(table: TomlTable) -> Layout:
     course, things = read_course(table), read_things(table)
     lines = _lines(table.table("track"), course, taped(course, things))
     solid = tuple(wall_capsules(things, WALLS))
-    spans = line_round(course, Rules().speed, Rules().turn_rate, solid)[1]
+    spans = line_round(course, Rules().speed, Rules().turn_rate, solid, lines)[1]
     starts = tuple(clear_pose(course, line - BEHIND, 0.0, spans) for line in lines)
     common, pads = common_line(course, lines), place_pads(course, lines)
     boxes = place_boxes(course, lines, pads, spans)
@@ -113,7 +113,7 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
     match.course = copy(track.course)
     match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
-    set_line(match, track.course, track.solid)
+    set_line(match, track, track.solid)
     for line, along in zip(match.lines, track.lines, strict=True):
         _place_line(line, match.course, along)
     for robot, seat in zip(match.robots, setup.seats, strict=True):
@@ -131,9 +131,10 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
         _furnish(match, track)
 
 
-def set_line(match: Race, course: Course, solid: tuple[Capsule, ...]) -> None:
+def set_line(match: Race, track: TrackPlan, solid: tuple[Capsule, ...]) -> None:
     """Set the fastest line round things, and the passages beside them. Raises FieldError if robots cannot pass."""
-    (ideal, pace), spans = line_round(course, match.rules.speed, match.rules.turn_rate, solid)
+    rules = match.rules
+    (ideal, pace), spans = line_round(track.course, rules.speed, rules.turn_rate, solid, track.lines)
     match.ideal[:], match.pace[:] = ideal, pace
     match.narrow = int(bool(spans))
     match.low[:], match.high[:] = zip(*spans, strict=True) if spans else ([0.0] * POINTS,) * 2
