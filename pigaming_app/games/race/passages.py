@@ -5,13 +5,13 @@ all round. Where things leave no room on the course, robots pass through the mud
 """
 
 from collections.abc import Sequence
-from math import hypot, sqrt
+from math import hypot
 from typing import Any
 
 from pigaming_app.games.race.course import POINTS, Course, CoursePosition, locate, segment_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.things.cover import Capsule
+from pigaming_app.sim.things.cover import Capsule, from_capsule
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -101,7 +101,7 @@ def _gaps(course: Course, k: int, capsules: Sequence[Capsule], beside: float) ->
     """The intervals of offsets at a point, up to `beside` px beside the course, at which a robot touches nothing."""
     x, y, half = course.xs[k], course.ys[k], course.half[k]
     reach, place = half + beside, CoursePosition()
-    near = [one for one in capsules if _distance(one, x, y) < reach + RADIUS + SPARE]
+    near = [one for one in capsules if from_capsule(one, x, y) < reach + RADIUS + SPARE]
     if not near:
         return [(-half, half)]
     after = (k + 1) % POINTS
@@ -117,7 +117,7 @@ def _gaps(course: Course, k: int, capsules: Sequence[Capsule], beside: float) ->
         if free and abs(aside) > half:  # not on another stretch of the course
             locate(course, px, py, place)
             free = not place.on
-        free = free and all(_distance(one, px, py) >= RADIUS + SPARE for one in near)
+        free = free and all(from_capsule(one, px, py) >= RADIUS + SPARE for one in near)
         if free and begin is None:
             begin = aside
         elif not free and begin is not None:
@@ -126,16 +126,6 @@ def _gaps(course: Course, k: int, capsules: Sequence[Capsule], beside: float) ->
     if begin is not None:
         found.append((begin, -reach + count * STEP))
     return found
-
-
-def _distance(capsule: Capsule, x: float, y: float) -> float:
-    """Distance of a point from a capsule, px; negative inside."""
-    ex, ey = capsule.bx - capsule.ax, capsule.by - capsule.ay
-    px, py = x - capsule.ax, y - capsule.ay
-    length2 = ex * ex + ey * ey
-    share = max(0.0, min(1.0, (px * ex + py * ey) / length2)) if length2 else 0.0
-    dx, dy = px - share * ex, py - share * ey
-    return sqrt(dx * dx + dy * dy) - capsule.half
 
 
 def _overlap(one: Span, other: Span) -> bool:
