@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from math import cos, hypot, pi, sin
 from typing import NamedTuple
 
-from pigaming_app.sim.things.convex import Outline, Point, distance, inradius, inset, sides, simplified
+from pigaming_app.sim.things.convex import Outline, Point, distance, from_side, inradius, inset, sides, simplified
 
 BAND = 12.0  # px, half the thickness of a capsule along a side, at most
 FIT = 4.0  # px by which a single capsule may extend beyond the outline
@@ -60,6 +60,11 @@ def around(outline: Outline, margin: float) -> Capsule:
             best = one
     assert best is not None
     return best._replace(half=best.half + margin)
+
+
+def from_capsule(capsule: Capsule, x: float, y: float) -> float:
+    """Distance of a point from a capsule, px; negative inside."""
+    return from_side((capsule.ax, capsule.ay), (capsule.bx, capsule.by), x, y) - capsule.half
 
 
 def excess(capsule: Capsule, outline: Outline) -> float:
