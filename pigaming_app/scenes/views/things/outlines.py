@@ -35,6 +35,11 @@ def along(ring: Points, apart: float) -> list[tuple[Point, Point, Point]]:
     return found
 
 
+def mix_points(a: Point, b: Point, share: float) -> Point:
+    """The point at a share of the way from a to b."""
+    return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])
+
+
 def draw_blocks(
     ink: GlowCanvas, inner: Points, outer: Points, long: float, colors: tuple[Color, Color], slant: float = 0.0
 ) -> None:
@@ -65,9 +70,8 @@ def _sums(lengths: Sequence[float]) -> list[float]:
 def _on(loop: Points, lengths: Sequence[float], at: float) -> Point:
     """The point of a closed line at a position."""
     at %= sum(lengths)
-    for ((ax, ay), (bx, by)), length in zip(pairwise(loop), lengths, strict=True):
+    for (a, b), length in zip(pairwise(loop), lengths, strict=True):
         if at <= length:
-            share = at / length if length else 0.0
-            return ax + share * (bx - ax), ay + share * (by - ay)
+            return mix_points(a, b, at / length if length else 0.0)
         at -= length
     return loop[0]

@@ -6,16 +6,17 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from pigaming_app.scenes.views.race.track import MUD
-from pigaming_app.scenes.views.things.outlines import along, draw_blocks, grown
+from pigaming_app.scenes.views.things.outlines import along, draw_blocks, grown, mix_points
 from pigaming_app.sim.things.convex import contains, inset
 from pigaming_app.ui.draw import ALARM, BLACK, ICE, LINE, STEEL, THIN, WALL, Color, GlowCanvas, Point, Points, dim
 
 DARK = 2  # px between the margin of a thing and the light around it
 BLOCK, KERB = 26.0, 12.0  # px, length and width of kerb blocks
-HATCH, HATCHED = 18.0, 11.0  # px between the ticks around a wall, px that they reach outwards
+BAND = 18.0  # px, width of the light around a wall
 STRIPE, TAPE = 22.0, 12.0  # px, length and width of warning stripes
 WARNING: Color = (226, 168, 40)
-CONTOUR, RIPPLE = 17.0, 2.5  # px between contour lines of mud, px of their waves
+CONTOUR, RIPPLE = 17.0, 2.0  # px between contour lines of mud, px of their waves
+CUTS = 2  # times that the corners of a contour line are cut
 CLOD = 900.0  # px^2 of mud for each clod
 ZONE = 30.0  # px between the stripes of a slow zone
 
@@ -28,17 +29,14 @@ class Style(NamedTuple):
     line: Callable[[GlowCanvas, Sequence[Point]], None]
 
 
-# ---- PiTanks: a solid wall, its ticks outside
+# ---- PiTanks: neon
 
 
 def neon_wall(ink: GlowCanvas, corners: Sequence[Point], margin: float) -> None:
-    """A neon outline with the slanted ticks of an indestructible wall around it."""
-    rim = grown(corners, margin + DARK + LINE / 2)
-    ticks = grown(corners, margin + DARK + LINE + 3)
-    for (x, y), (nx, ny), (tx, ty) in along(ticks, HATCH):
-        end = x + HATCHED * (nx + 0.6 * tx), y + HATCHED * (ny + 0.6 * ty)
-        ink.line([(x, y), end], dim(WALL, 0.5), 3)
-    ink.neon(rim, WALL, LINE, True)
+    """A neon outline on a band of light."""
+    near = margin + DARK
+    ink.line(grown(corners, near + BAND / 2), dim(WALL, 0.3), BAND, True)
+    ink.neon(grown(corners, near + LINE / 2), WALL, LINE, True)
 
 
 def mud(ink: GlowCanvas, corners: Sequence[Point]) -> None:
@@ -112,13 +110,17 @@ STYLES = {
 }
 
 
-def _wavy(ring: Points, seed: int) -> list[Point]:
-    """A closed line with waves."""
-    out = []
-    for i, ((x, y), (nx, ny), _) in enumerate(along(ring, 7.0)):
-        wave = RIPPLE * (math.sin(0.9 * i + 1.7 * seed) + 0.7 * math.sin(0.37 * i + seed))
-        out.append((x - abs(wave) * nx, y - abs(wave) * ny))
-    return out if len(out) > 2 else list(ring)
+def _wavy(ring: Points, level: int) -> list[Point]:
+    """A contour line of mud: round corners, and waves that reach inwards."""
+    out = list(ring)
+    for _ in range(CUTS):
+        loop = zip(out, (*out[1:], out[0]), strict=True)
+        out = [p for a, b in loop for p in (mix_points(a, b, 0.2), mix_points(a, b, 0.8))]
+    waves = []
+    for i, ((x, y), (nx, ny), _) in enumerate(along(out, 8.0)):
+        wave = RIPPLE * (1.0 + math.sin(0.55 * i + 1.7 * level) * math.cos(0.23 * i + level))
+        waves.append((x - wave * nx, y - wave * ny))
+    return waves if len(waves) > 2 else out
 
 
 def _clods(ink: GlowCanvas, corners: Sequence[Point]) -> None:
