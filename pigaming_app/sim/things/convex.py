@@ -1,7 +1,7 @@
 """Geometry of convex outlines: sequences of corners, px, clockwise on screen."""
 
 from collections.abc import Sequence
-from math import hypot
+from math import atan2, hypot, pi
 
 Point = tuple[float, float]
 Outline = tuple[Point, ...]
@@ -57,20 +57,25 @@ def inradius(corners: Sequence[Point]) -> float:
     return low
 
 
+def angles(corners: Sequence[Point]) -> list[float]:
+    """The angles inside a convex outline, rad, one at each corner."""
+    ways = [atan2(by - ay, bx - ax) for (ax, ay), (bx, by) in sides(corners)]
+    return [pi - (way - before) % (2.0 * pi) for way, before in zip(ways, (ways[-1], *ways[:-1]), strict=True)]
+
+
 def simplified(corners: Sequence[Point], most: int, near: float) -> tuple[list[Point], float]:
-    """The outline without the corners that matter least, and the largest distance by which a removed one stood out, px.
+    """The outline without the corners that matter least, and the largest distance of a removed one from it, px.
 
     Corners go while there are more than `most`, or while one stands out by less than `near` px.
     """
-    left, lost = list(corners), 0.0
+    left = list(corners)
     while len(left) > 3:
         heights = [from_side(left[i - 1], left[(i + 1) % len(left)], *left[i]) for i in range(len(left))]
         least = min(heights)
         if least >= near and len(left) <= most:
             break
         left.pop(heights.index(least))
-        lost += least
-    return left, lost
+    return left, max(distance(left, x, y) for x, y in corners)
 
 
 def _cut(corners: Sequence[Point], nx: float, ny: float, least: float) -> list[Point]:
