@@ -49,7 +49,9 @@ class MarkerDiscs:
             ]
         return areas
 
-    def draw(self, screen: pygame.Surface, robots: set[int], cover: Callable[[pygame.Surface], None] | None = None) -> None:
+    def draw(
+        self, screen: pygame.Surface, robots: set[int], cover: Callable[[pygame.Surface], None] | None = None
+    ) -> None:
         """Draw the discs of the visible robots: all surrounding light first, then the discs.
 
         `cover`: called in between; keeps the surrounding light off real things.

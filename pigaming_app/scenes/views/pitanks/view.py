@@ -37,7 +37,9 @@ class PiTanksView(MatchView):
         self, arena: Arena, state: PiTanks, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        self.walls = WalledBackground(state, len(arena.walls), tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats))
+        self.walls = WalledBackground(
+            state, len(arena.walls), tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats)
+        )
         super().__init__(state, players, options, words, self.walls, arena.things)
         self.hud = PiTanksHud(self.background, state, players, words)
         self.detector = PiTanksEventDetector(state)

@@ -6,7 +6,7 @@ within a budget per frame; until then a thing is black, or keeps its light of a 
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache, partial
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.things.outlines import grown
-from pigaming_app.scenes.views.things.styles import STYLES, Style
+from pigaming_app.scenes.views.things.styles import STYLES
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BLACK, GlowCanvas, Point
@@ -115,13 +115,14 @@ def halo(style: str, use: Use, shape: Shape, turn: int, margin: int) -> Steps[Sp
 
 def draw(ink: GlowCanvas, style: str, use: Use, corners: Sequence[Point], margin: float) -> None:
     """Draw one thing in the style of a game, with a black body if it is a wall."""
-    look: Style = STYLES[style]
-    paint: Callable[..., None] = {Use.WALL: look.wall, Use.MUD: look.mud, Use.LINE: look.line}[use]
+    look = STYLES[style]
     if use is Use.WALL:
-        paint(ink, corners, margin)
+        look.wall(ink, corners, margin)
         ink.fill(grown(corners, margin), BLACK)
+    elif use is Use.MUD:
+        look.mud(ink, corners)
     else:
-        paint(ink, corners)
+        look.line(ink, corners)
 
 
 def draw_all(ink: GlowCanvas, style: str, things: Sequence[ThingSpec]) -> None:

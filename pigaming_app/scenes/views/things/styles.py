@@ -5,11 +5,11 @@ import random
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from pigaming_app.scenes.views.race.track import MUD
 from pigaming_app.scenes.views.things.outlines import along, draw_blocks, grown, mix_points
 from pigaming_app.sim.things.convex import contains, inset
 from pigaming_app.ui.draw import ALARM, BLACK, ICE, LINE, STEEL, THIN, WALL, Color, GlowCanvas, Point, Points, dim
 
+MUD: Color = (170, 106, 44)
 DARK = 2  # px between the margin of a thing and the light around it
 BLOCK, KERB = 26.0, 12.0  # px, length and width of kerb blocks
 BAND = 18.0  # px, width of the light around a wall
