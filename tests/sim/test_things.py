@@ -11,7 +11,6 @@ from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.record import copy, digest
 from pigaming_app.sim.things.convex import (
-    angles,
     contains,
     distance,
     inradius,
@@ -19,9 +18,8 @@ from pigaming_app.sim.things.convex import (
     is_convex,
     sides,
     signed_area,
-    simplified,
 )
-from pigaming_app.sim.things.cover import CUT, THIN, around, capsules, excess, from_capsule
+from pigaming_app.sim.things.cover import CUT, around, capsules, excess, from_capsule
 from pigaming_app.sim.things.mud import in_mud
 from pigaming_app.sim.things.spec import ThingSpec, Use, mud_capsules, read_things, wall_capsules, written
 from pigaming_app.sim.toml_table import FieldError, TomlTable
@@ -66,12 +64,10 @@ def world_with(*things, walls=()):
 def test_capsules_cover_the_outline_and_hardly_more(outline):
     margin = 4.0
     parts = capsules(outline, margin)
-    needle = min(angles(simplified(outline, 12, 1.5)[0]))
-    rounded = max(CUT, THIN / sin(needle / 2) - THIN) + 0.2
     for (ax, ay), (bx, by) in sides(outline):
         for k in range(10):
             x, y = ax + (bx - ax) * k / 10, ay + (by - ay) * k / 10
-            assert min(from_capsule(one, x, y) for one in parts) < rounded - margin
+            assert min(from_capsule(one, x, y) for one in parts) < CUT - margin + 0.5
     assert max(excess(one, outline) for one in parts) < margin + 6.0
 
 
@@ -102,11 +98,6 @@ def test_an_outline_moved_inwards_is_as_far_from_every_side():
     assert inset(outline, 31.0) == []
     assert distance(outline, 800, 450) == 0.0
     assert distance(box(800, 450, 100, 60), 800, 500) == pytest.approx(20.0)
-
-
-def test_the_angles_of_an_outline_are_those_inside():
-    assert angles(((0, 0), (100, 0), (0, 100))) == pytest.approx([pi / 2, pi / 4, pi / 4])
-    assert sum(angles(disc(0, 0, 10))) == pytest.approx(14 * pi)
 
 
 def test_things_are_read_as_they_were_written():

@@ -1,7 +1,7 @@
 """Geometry of convex outlines: sequences of corners, px, clockwise on screen."""
 
 from collections.abc import Sequence
-from math import atan2, hypot, pi
+from math import hypot
 
 Point = tuple[float, float]
 Outline = tuple[Point, ...]
@@ -55,12 +55,6 @@ def inradius(corners: Sequence[Point]) -> float:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if inset(corners, middle) else (low, middle)
     return low
-
-
-def angles(corners: Sequence[Point]) -> list[float]:
-    """The angles inside a convex outline, rad, one at each corner."""
-    ways = [atan2(by - ay, bx - ax) for (ax, ay), (bx, by) in sides(corners)]
-    return [pi - (way - before) % (2.0 * pi) for way, before in zip(ways, (ways[-1], *ways[:-1]), strict=True)]
 
 
 def simplified(corners: Sequence[Point], most: int, near: float) -> tuple[list[Point], float]:

@@ -11,7 +11,6 @@ from typing import NamedTuple
 from pigaming_app.sim.things.convex import (
     Outline,
     Point,
-    angles,
     distance,
     from_side,
     inradius,
@@ -52,12 +51,10 @@ def capsules(outline: Outline, margin: float, hollow: float = FILLED) -> list[Ca
     band, extra = min(BAND, INNER * room), margin + lost
     inner = inset(corners, band)
     found = [Capsule(*a, *b, band + extra) for a, b in sides(inner)]
-    for corner, angle in zip(corners, angles(corners), strict=True):
-        if band / sin(0.5 * angle) - band > CUT:
-            end = min(inner, key=lambda point: dist(point, corner))
-            share = min(1.0, THIN / sin(0.5 * angle) / dist(corner, end))
-            tip = corner[0] + share * (end[0] - corner[0]), corner[1] + share * (end[1] - corner[1])
-            found.append(Capsule(*tip, *end, THIN + extra))
+    for corner in corners:
+        end = _nearest(inner, corner)
+        if dist(end, corner) - band > CUT:
+            found.append(Capsule(*_nearest(inset(corners, THIN), corner), *end, THIN + extra))
     if room > band + hollow:
         a, b = _farthest(inset(corners, INNER * room))
         found.append(Capsule(*a, *b, INNER * room))
@@ -129,6 +126,10 @@ def _extent(capsule: Capsule) -> float:
     """Area of a capsule, px^2."""
     length = hypot(capsule.bx - capsule.ax, capsule.by - capsule.ay)
     return capsule.half * (2.0 * length + pi * capsule.half)
+
+
+def _nearest(points: Sequence[Point], to: Point) -> Point:
+    return min(points, key=lambda point: dist(point, to))
 
 
 def _farthest(corners: Sequence[Point]) -> tuple[Point, Point]:
