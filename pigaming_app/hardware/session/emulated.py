@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.emulator.paced import PacedArena
     from pigaming_app.hardware.emulator.radio import RadioChannel
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
+    from pigaming_app.hardware.emulator.things.prism import Prism
     from pigaming_app.hardware.emulator.wifi.air import WifiChannel
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
@@ -42,7 +43,7 @@ class EmulatedSession:
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
     `show`. `timing`, `traits`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
     camera and radio. With `wifi` the robots are boards on such a network and run their own program, else they have
-    XBees.
+    XBees. `things`: number of random real things on the mat, at most 8; the wizard takes them away.
     """
 
     emulated = True
@@ -60,6 +61,7 @@ class EmulatedSession:
         tracker: "type[Tracker] | None" = None,
         traits: "CameraTraits | None" = None,
         wifi: "WifiChannel | None" = None,
+        things: int = 0,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
         self.mm = 0.0
@@ -68,6 +70,8 @@ class EmulatedSession:
         self._wifi = wifi
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._traits = traits
+        self._count = things
+        self._things: list[Prism] = []  # to stand on the mat
         self._arena: EmulatedArena | None = None
         self._made = ground
         self._rig: Rig | None = None
@@ -135,6 +139,8 @@ class EmulatedSession:
 
             arena, ground = self.arena, self.ground
             arena.cleared = False
+            if self._things and not arena.things:
+                arena.furnish(self._things)
             self._now, self.mm, self.quality = arena.clock(), ground.mm, ground.quality
             link = (
                 self._wifi_link(self._wifi)
@@ -221,7 +227,7 @@ class EmulatedSession:
     def _new_arena(self) -> "EmulatedArena":
         import numpy as np
 
-        from pigaming_app.hardware.emulator.arena import EmulatedArena
+        from pigaming_app.hardware.emulator.arena import STARTS, EmulatedArena
         from pigaming_app.hardware.emulator.camera import FrameTiming
         from pigaming_app.hardware.emulator.radio import MODERATE
 
@@ -235,6 +241,11 @@ class EmulatedSession:
             traits=self._traits,
         )
         self._made = self._made or calibrated(arena)
+        if self._count:
+            from pigaming_app.hardware.emulator.things.random_scene import some_things
+
+            self._things = some_things(self.seed, self._count, arena.optics, STARTS)
+            arena.furnish(self._things)
         arena.project(np.zeros(DARK, np.uint8))  # until the window renders
         return arena
 

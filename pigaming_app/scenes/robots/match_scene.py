@@ -146,12 +146,13 @@ class RealMatch(MatchScene):
         """Draw the match or the start positions; the discs last."""
         if self.gathering is None:
             super().draw(screen)
+            self._draw_lights(screen, self.runner.view.things.cover)
         else:
             self.gathering.draw(screen)
             if self.gathering.flood.full:
                 draw_corners(screen)
-                return
-        self.draw_overlay(screen)
+            else:
+                self.draw_overlay(screen)
 
     # ---- interface for the pages above
 
@@ -172,9 +173,12 @@ class RealMatch(MatchScene):
 
     def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw the corner markers and the discs on top of everything."""
+        self._draw_lights(screen)
+
+    def _draw_lights(self, screen: pygame.Surface, cover: Callable[[pygame.Surface], None] | None = None) -> None:
         if self.real:
             draw_corners(screen)
-        self.discs.draw(screen, self.real)
+        self.discs.draw(screen, self.real, cover)
 
     def apply_pairing(self, channels: Sequence[int], turned: Collection[int]) -> None:
         """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""
