@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
+    from pigaming_app.hardware.scan.expected import ExpectedLight
     from pigaming_app.hardware.session.lighting import Lighting
     from pigaming_app.hardware.signals import CameraFrame
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -65,6 +66,7 @@ class EmulatedSession:
         self.mm = 0.0
         self.quality: CameraQuality | None = None
         self.network: WifiNetwork | None = None  # of robots with Wi-Fi
+        self.expected: ExpectedLight | None = None
         self._wifi = wifi
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._traits = traits
@@ -181,6 +183,7 @@ class EmulatedSession:
         """Advance the arena by `seconds`; returns the time that passed, less if this computer is too slow."""
         if self._rig is None:
             return seconds
+        self._render(self._rig)
         if self._time is None:
             self._light(self._rig)
             for _ in range(max(1, round(seconds / SLICE))):
@@ -190,6 +193,16 @@ class EmulatedSession:
         before, self._now = self._now, self.arena.clock()
         self._time.limit = self._now + seconds + AHEAD
         return self._now - before
+
+    def furnish(self) -> None:
+        """Put random things on the mat, and the robots around them, unless there are some already."""
+        from pigaming_app.hardware.emulator.things.random_scene import scene
+
+        if not self.arena.things:
+            things, robots = scene(self.seed, self.arena.optics)
+            self.arena.furnish(things)
+            for robot, pose in enumerate(robots):
+                self.arena.place(robot, pose)
 
     def show(self, pixels: Callable[[], Any]) -> None:
         """Project the window on the mat, if there is one. `pixels` returns a BGRA image, (height, width, 4).
@@ -254,6 +267,10 @@ class EmulatedSession:
                 raise RobotsUnavailable(OperatorMessage("micropython", detail=error)) from error
             self.network = network
         return Link(self.network.open, self.arena.clock, WifiProtocol(self.network), "Wi-Fi")
+
+    def _render(self, rig: "Rig") -> None:
+        """Render complete pictures for those who look at more than the robots."""
+        self.arena.camera.painter.refresh = 1 if rig.viewers else WHOLE if self.live else QUICK
 
     def _light(self, rig: "Rig") -> None:
         """Project the floor, and a disc at each robot's predicted position when the light lands."""
