@@ -99,4 +99,5 @@ def _set_plant(match: Match, replay: Any) -> None:
     if isinstance(replay, RealReplay):
         from pigaming_app.hardware.control.recorded_plant import RecordedPlant
 
-        match.plant = RecordedPlant(match.state, replay.recording.track)
+        recording = replay.recording
+        match.plant = RecordedPlant(match.state, recording.track, recording.moves, len(match.arena.walls))

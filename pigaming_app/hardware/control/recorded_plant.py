@@ -3,11 +3,16 @@
 import sys
 import zlib
 from array import array
+from collections import deque
 from collections.abc import Sequence
+from contextlib import suppress
 from math import isfinite
 from typing import Any
 
+from pigaming_app.hardware.control.moving_things import ThingsMove
+from pigaming_app.sim.arena import replace_things
 from pigaming_app.sim.plant import Pose, Sighting, Twist
+from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import ROBOTS, World
 
 FIELDS = ("x", "y", "heading", "linear", "angular", "requested_linear", "requested_angular", "recover")
@@ -79,14 +84,21 @@ class RobotTrack:
 
 
 class RecordedPlant:
-    """Robots that repeat a track, row by row with the ticks of the world."""
+    """Robots that repeat a track, row by row with the ticks of the world, among things that move as they did.
 
-    def __init__(self, world: World, track: RobotTrack) -> None:
+    `moves`: of the things, in order; `first`: index of their first wall.
+    """
+
+    def __init__(self, world: World, track: RobotTrack, moves: Sequence[ThingsMove] = (), first: int = 0) -> None:
         self.world: Any = world
-        self.track = track
+        self.track, self.first = track, first
+        self._moves = deque(move for move in moves if move.tick >= self.world.tick)
         track.apply(world, self.world.tick)
 
     def sense(self) -> list[Sighting]:
+        while self._moves and self._moves[0].tick <= self.world.tick:
+            with suppress(FieldError):  # too many for this arena: an edited file
+                replace_things(self.world, self._moves.popleft().things, self.first)
         self.track.apply(self.world, self.world.tick)
         return [Sighting(robot.x, robot.y, robot.heading, 0.0) for robot in self.world.robots]
 

@@ -21,7 +21,7 @@ from pigaming_app.ui.widgets.focus import Focus
 from pigaming_app.ui.widgets.labels import black_out, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("robots", "radio", "calibrate", "check", "pin", "sheet")
+ROWS = ("robots", "radio", "calibrate", "check", "things", "pin", "sheet")
 SHEET = "markers.pdf"
 MESSAGE_SECONDS = 8.0  # s, display time of a message
 IDLE = 300.0  # s without input before the return to the title
@@ -88,6 +88,10 @@ class RobotsMenu:
                 return Push(CalibrationPage(self.context))
             case "check":
                 return Push(DriftPage(self.context))
+            case "things":
+                from pigaming_app.scenes.things.arena_page import ArenaPage
+
+                return Push(ArenaPage(self.context))
             case "pin":
                 return Push(CornerPinPage(self.context))
         self._write()
@@ -135,6 +139,11 @@ def sketch(name: str) -> LitImage:
         for x, y in ((-140, -76), (140, -76), (140, 76), (-140, 76)):
             ink.line(cut_box(x - 22, y - 22, 44, 44, 4), FOCUS, LINE, True)
         ink.line([(-50, 4), (-14, 38), (56, -36)], ICE, 12)
+    elif name == "things":
+        from pigaming_app.scenes.things.outlines import boxes
+
+        ink.line(cut_box(-176, -120, 352, 240, 12), STEEL, THIN, True)
+        boxes(ink, 0, 0, FOCUS)
     elif name == "pin":
         ink.line(cut_box(-170, -110, 340, 220, 12), STEEL, THIN, True)
         points = [(-150, -120), (176, -92), (150, 118), (-182, 96)]

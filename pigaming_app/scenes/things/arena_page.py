@@ -27,10 +27,10 @@ from pigaming_app.scenes.things.sweep_page import SweepPage
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import paragraph, text, wrap
+from pigaming_app.ui.draw.text import text, wrap
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 IDLE = 600.0  # s without input until the title
@@ -153,7 +153,7 @@ class ArenaPage:
     # ---- inside
 
     @property
-    def _row(self):  # type: ignore[no-untyped-def]
+    def _row(self) -> ButtonPrompts:
         thing = self.selected
         return self._prompts[thing.kind if thing else None]
 

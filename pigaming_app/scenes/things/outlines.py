@@ -33,6 +33,13 @@ def draw_thing(screen: pygame.Surface, thing: ThingSpec, color: Color, bold: boo
     blit_sprite(screen, _sprite(outline, thing.use, round(thing.margin), color, bold), LEFT + left, TOP + top)
 
 
+def boxes(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
+    """Icon of things: a box, a cup and a strip of tape, about (x, y)."""
+    ink.line([(x - 84, y - 50), (x - 8, y - 66), (x + 4, y + 4), (x - 72, y + 20)], color, LINE, True)
+    ink.ring(x + 52, y - 14, 30, color, LINE)
+    ink.line([(x - 58, y + 52), (x + 66, y + 44), (x + 67, y + 60), (x - 57, y + 68)], color, 0.6 * LINE, True)
+
+
 @cached
 def _sprite(outline: Outline, use: Use, margin: int, color: Color, bold: bool) -> Sprite:
     """A thing whose bounding box begins at (0, 0): walls have a solid line, mud a second one, lines are dashed."""
