@@ -1,8 +1,8 @@
-"""Starts that things cover move to the nearest free place."""
+"""Places that things cover move to the nearest free one."""
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import cos, hypot, pi, sin
+from math import cos, dist, hypot, pi, sin
 
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
 from pigaming_app.sim.contact import in_wall
@@ -24,27 +24,28 @@ def clear_starts(layout: Layout) -> tuple[StartPose, ...]:
     starts = list(layout.starts)
     blocked = [i for i, start in enumerate(starts) if in_wall(world, start.x, start.y)]
     for i in blocked:
-        others = [start for j, start in enumerate(starts) if j != i and (j not in blocked or j < i)]
-        starts[i] = _free_place(world, starts[i], others, i)
+        others = [(start.x, start.y) for j, start in enumerate(starts) if j != i and (j not in blocked or j < i)]
+        x, y = free_place(world, starts[i].x, starts[i].y, others)
+        starts[i] = replace(starts[i], x=x, y=y)
     return tuple(starts)
 
 
-def _free_place(world: World, start: StartPose, others: Sequence[StartPose], i: int) -> StartPose:
-    """The free place nearest to a start, from which the others can be reached. Raises FieldError."""
+def free_place(world: World, x: float, y: float, others: Sequence[tuple[float, float]] = ()) -> tuple[float, float]:
+    """The free place nearest to (x, y), px, from which others can be reached, and away from them.
+
+    Raises FieldError if there is none within SEARCH px.
+    """
     field = Route()
-    if others and (root := free_node(world, others[0].x, others[0].y)):
+    if others and (root := free_node(world, *others[0])):
         expand(world, field, root, -1)
     reach = range(-SEARCH, SEARCH + 1, STEP)
     for dx, dy in sorted(((dx, dy) for dx in reach for dy in reach), key=lambda way: hypot(*way)):
-        x, y = start.x + dx, start.y + dy
-        node = free_node(world, x, y)
-        if (
-            is_roomy(world, x, y)
-            and (not field.root or (node and field.reach[node]))
-            and all(hypot(x - other.x, y - other.y) >= 2 * RADIUS + CLEAR for other in others)
-        ):
-            return replace(start, x=x, y=y)
-    raise FieldError("thing", f"one covers start[{i + 1}], and there is no free place near it")
+        at = x + dx, y + dy
+        node = free_node(world, *at)
+        connected = not field.root or (node and field.reach[node])
+        if connected and is_roomy(world, *at) and all(dist(at, other) >= 2 * RADIUS + CLEAR for other in others):
+            return at
+    raise FieldError("thing", f"one covers the place at ({x:g}, {y:g}), and there is no free one near it")
 
 
 def is_roomy(world: World, x: float, y: float) -> bool:

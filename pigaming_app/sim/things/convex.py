@@ -34,7 +34,7 @@ def contains(corners: Sequence[Point], x: float, y: float) -> bool:
 
 def distance(corners: Sequence[Point], x: float, y: float) -> float:
     """Distance of a point from a convex outline, px; 0 inside."""
-    return 0.0 if contains(corners, x, y) else min(_from_side(a, b, x, y) for a, b in sides(corners))
+    return 0.0 if contains(corners, x, y) else min(from_side(a, b, x, y) for a, b in sides(corners))
 
 
 def inset(corners: Sequence[Point], by: float) -> list[Point]:
@@ -58,19 +58,18 @@ def inradius(corners: Sequence[Point]) -> float:
 
 
 def simplified(corners: Sequence[Point], most: int, near: float) -> tuple[list[Point], float]:
-    """The outline without the corners that matter least, and the largest distance by which a removed one stood out, px.
+    """The outline without the corners that matter least, and the largest distance of a removed one from it, px.
 
     Corners go while there are more than `most`, or while one stands out by less than `near` px.
     """
-    left, lost = list(corners), 0.0
+    left = list(corners)
     while len(left) > 3:
-        heights = [_from_side(left[i - 1], left[(i + 1) % len(left)], *left[i]) for i in range(len(left))]
+        heights = [from_side(left[i - 1], left[(i + 1) % len(left)], *left[i]) for i in range(len(left))]
         least = min(heights)
         if least >= near and len(left) <= most:
             break
         left.pop(heights.index(least))
-        lost += least
-    return left, lost
+    return left, max(distance(left, x, y) for x, y in corners)
 
 
 def _cut(corners: Sequence[Point], nx: float, ny: float, least: float) -> list[Point]:
@@ -88,7 +87,7 @@ def _cut(corners: Sequence[Point], nx: float, ny: float, least: float) -> list[P
     return kept
 
 
-def _from_side(a: Point, b: Point, x: float, y: float) -> float:
+def from_side(a: Point, b: Point, x: float, y: float) -> float:
     """Distance of a point from the segment between two others, px."""
     ex, ey = b[0] - a[0], b[1] - a[1]
     length2 = ex * ex + ey * ey

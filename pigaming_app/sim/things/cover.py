@@ -1,19 +1,29 @@
 """Convex outlines as capsules, the only shape of walls: as few as cover an outline and hardly more.
 
-A round or narrow outline is one capsule. Any other has a capsule along each side, inside of it, and a large thing one
-more in its middle, so that no node of the grid inside of it is free.
+A round or narrow outline is one capsule. Any other has a capsule along each side, inside of it, and a thin one into
+each sharp corner. A large thing has one more in its middle, so that no node of the grid inside of it is free.
 """
 
 from collections.abc import Sequence
-from math import cos, hypot, pi, sin
+from math import cos, dist, hypot, pi, sin
 from typing import NamedTuple
 
-from pigaming_app.sim.things.convex import Outline, Point, distance, inradius, inset, sides, simplified
+from pigaming_app.sim.things.convex import (
+    Outline,
+    Point,
+    distance,
+    from_side,
+    inradius,
+    inset,
+    sides,
+    simplified,
+)
 
 BAND = 12.0  # px, half the thickness of a capsule along a side, at most
+CUT, THIN = 5.5, 2.0  # px by which these may round a corner off; half the thickness of the one that fills it else
 FIT = 4.0  # px by which a single capsule may extend beyond the outline
-MOST_SIDES, SMOOTH = 8, 1.5  # sides of an outline that are kept; px of a corner that may go
-FILLED = 40.0  # px from the capsules along the sides to the middle, from which on that is filled
+MOST_SIDES, SMOOTH = 12, 1.5  # sides of an outline that are kept; px of a corner that may go
+FILLED = 40.0  # px: nodes of the grid are blocked as far from a wall
 INNER = 0.9  # of the inradius, the half thickness of the capsule in the middle
 SAMPLES = 16  # points on each end of a capsule, at which its fit is measured
 
@@ -28,16 +38,24 @@ class Capsule(NamedTuple):
     half: float
 
 
-def capsules(outline: Outline, margin: float) -> list[Capsule]:
-    """Capsules that cover an outline and the points within `margin` px of it."""
+def capsules(outline: Outline, margin: float, hollow: float = FILLED) -> list[Capsule]:
+    """Capsules that cover an outline and the points within `margin` px of it.
+
+    `hollow`: px from the capsules along the sides to the middle, from which on that is filled.
+    """
     single = around(outline, 0.0)
     if excess(single, outline) <= FIT:
         return [single._replace(half=single.half + margin)]
     corners, lost = simplified(outline, MOST_SIDES, SMOOTH)
     room = inradius(corners)
-    band = min(BAND, INNER * room)
-    found = [Capsule(*a, *b, band + margin + lost) for a, b in sides(inset(corners, band))]
-    if room > band + FILLED:
+    band, extra = min(BAND, INNER * room), margin + lost
+    inner = inset(corners, band)
+    found = [Capsule(*a, *b, band + extra) for a, b in sides(inner)]
+    for corner in corners:
+        end = _nearest(inner, corner)
+        if dist(end, corner) - band > CUT:
+            found.append(Capsule(*_nearest(inset(corners, THIN), corner), *end, THIN + extra))
+    if room > band + hollow:
         a, b = _farthest(inset(corners, INNER * room))
         found.append(Capsule(*a, *b, INNER * room))
     return found
@@ -60,6 +78,11 @@ def around(outline: Outline, margin: float) -> Capsule:
             best = one
     assert best is not None
     return best._replace(half=best.half + margin)
+
+
+def from_capsule(capsule: Capsule, x: float, y: float) -> float:
+    """Distance of a point from a capsule, px; negative inside."""
+    return from_side((capsule.ax, capsule.ay), (capsule.bx, capsule.by), x, y) - capsule.half
 
 
 def excess(capsule: Capsule, outline: Outline) -> float:
@@ -103,6 +126,10 @@ def _extent(capsule: Capsule) -> float:
     """Area of a capsule, px^2."""
     length = hypot(capsule.bx - capsule.ax, capsule.by - capsule.ay)
     return capsule.half * (2.0 * length + pi * capsule.half)
+
+
+def _nearest(points: Sequence[Point], to: Point) -> Point:
+    return min(points, key=lambda point: dist(point, to))
 
 
 def _farthest(corners: Sequence[Point]) -> tuple[Point, Point]:

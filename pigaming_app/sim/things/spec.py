@@ -78,7 +78,7 @@ def wall_capsules(things: Sequence[ThingSpec], room: int) -> list[Capsule]:
 
 def mud_capsules(things: Sequence[ThingSpec], room: int) -> list[Capsule]:
     """The capsules of all things that are mud. Raises FieldError if there are more than `room`."""
-    parts = [part for thing in things if thing.use is Use.MUD for part in capsules(thing.outline, 0.0)]
+    parts = [part for thing in things if thing.use is Use.MUD for part in capsules(thing.outline, 0.0, hollow=0.0)]
     if len(parts) > room:
         raise FieldError("thing", "there is too much mud")
     return parts
