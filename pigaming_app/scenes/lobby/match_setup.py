@@ -72,7 +72,7 @@ class MatchSetupPage:
         if self._on_mat and self.context.session is not None:
             from pigaming_app.hardware.session.things_on_mat import things_in_play
 
-            self.things = things_in_play(self.context.session)
+            self.things = () if self.context.settings.blocks else things_in_play(self.context.session)
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Change a value, start or go back."""

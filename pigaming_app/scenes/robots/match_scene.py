@@ -14,6 +14,7 @@ from pigaming_app.hardware.control.match_recording import MatchRecorder
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.moving_things import MovingThings, same_mud
 from pigaming_app.hardware.control.safety import Fault, Response
+from pigaming_app.hardware.scan.block_walls import BlockWalls
 from pigaming_app.hardware.scan.things import Layout
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, settings_problem
 from pigaming_app.hardware.session.things_on_mat import save_layout
@@ -89,6 +90,8 @@ class RealMatch(MatchScene):
         self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.hint_device)
         self.watch = MatchWatch(session, rig)
         plant.things = MovingThings(self.match.state, len(self.match.arena.walls), self.things)
+        if context.settings.blocks and session.ground is not None:
+            rig.viewers.append(BlockWalls(session.ground, plant.things).process)
         self.released = False  # rig released
         self.waiting = FixedTimestep()  # clock while the match waits
         self.logged: set[tuple[str, int | None]] = set()

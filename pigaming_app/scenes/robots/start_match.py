@@ -32,7 +32,7 @@ def match_of(
 ) -> Scene:
     """The match, or the page with the reason why the robots of the seats `real`, or the arena, are unavailable.
 
-    `things`: those on the mat, for a match with real robots; None: as they were scanned last.
+    `things`: those on the mat, for a match with real robots; None: as they were scanned last, unless they are blocks.
     `speed`: times real time, for a match without real robots. `game_choice`: see `Results`; `rounds`: see `MatchScene`.
     """
     real = [seat for seat in real if setup.seats[seat].brain != "off"]
@@ -45,7 +45,8 @@ def match_of(
 
     again = partial(match_of, context, game_choice=game_choice)
     try:
-        things = things_in_play(context.session) if things is None else things
+        if things is None:
+            things = () if context.settings.blocks else things_in_play(context.session)
         arena = with_things(setup.game, load(setup.game, setup.arena), things) if things else None
         return RealMatch(context, setup, devices, real, context.session, again, game_choice, rounds, arena)
     except ArenaError as error:

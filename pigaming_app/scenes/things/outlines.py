@@ -1,4 +1,4 @@
-"""Outlines of things on the mat: light around a thing, none on it."""
+"""Outlines of things on the mat: light around a thing, none on a tall one."""
 
 from collections.abc import Iterable
 
@@ -47,7 +47,8 @@ def _sprite(outline: Outline, use: Use, margin: int, color: Color, bold: bool) -
     edge = EDGE + margin + round(HALO)
     ink = GlowCanvas(round(wide) + 2 * edge, round(high) + 2 * edge).set_transform(edge, edge)
     halo, width = _around(outline, HALO + margin), 1.5 * LINE if bold else LINE
-    ink.solid(halo)
+    if use is Use.WALL:
+        ink.solid(halo)
     if use is Use.LINE:
         ink.dashes(halo, color, width, 18, 12)
     else:
