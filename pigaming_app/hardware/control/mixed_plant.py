@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from math import hypot
 from typing import Any
 
-from pigaming_app.hardware.control.moving_things import MovingThings
+from pigaming_app.hardware.control.moving_things import MovingThings, Things
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.sim.contact import MOVED, ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
@@ -27,6 +27,11 @@ class MixedPlant(RealPlant):
         super().__init__(world, rig, real)
         self.arriving: set[int] = set()  # real robots that will take over
         self.things: MovingThings | None = None  # on the mat, if they may be moved
+
+    @property
+    def shown_things(self) -> Things | None:
+        """The things in play now; None: those of the arena."""
+        return self.things.shown if self.things else None
 
     def sense(self) -> list[Sighting]:
         self._move_things()

@@ -92,13 +92,16 @@ class RecordedPlant:
     def __init__(self, world: World, track: RobotTrack, moves: Sequence[ThingsMove] = (), first: int = 0) -> None:
         self.world: Any = world
         self.track, self.first = track, first
+        earlier = [move.things for move in moves if move.tick < self.world.tick]
+        self.shown_things = earlier[-1] if earlier else None  # None: those of the arena
         self._moves = deque(move for move in moves if move.tick >= self.world.tick)
         track.apply(world, self.world.tick)
 
     def sense(self) -> list[Sighting]:
         while self._moves and self._moves[0].tick <= self.world.tick:
+            self.shown_things = self._moves.popleft().things
             with suppress(FieldError):  # too many for this arena: an edited file
-                replace_things(self.world, self._moves.popleft().things, self.first)
+                replace_things(self.world, self.shown_things, self.first)
         self.track.apply(self.world, self.world.tick)
         return [Sighting(robot.x, robot.y, robot.heading, 0.0) for robot in self.world.robots]
 

@@ -166,13 +166,14 @@ class RealMatch(MatchScene):
         """Draw the match or the start positions; the discs last."""
         if self.gathering is None:
             super().draw(screen)
+            self._draw_lights(screen, self.runner.view.things.cover)
         else:
             self.gathering.draw(screen)
             if self.gathering.flood.full:
                 draw_corners(screen)
-                return
-        self._draw_things(screen)
-        self.draw_overlay(screen)
+            else:
+                draw_things(screen, self.plant.shown_things or ())
+                self.draw_overlay(screen)
         if self.gathering is None and not self.match.over:
             self.watch.note(screen)
 
@@ -194,16 +195,14 @@ class RealMatch(MatchScene):
         self._stand_still(self.session.advance(seconds))
         self._publish()
 
-    def picture(self) -> pygame.Surface:
-        picture = super().picture()
-        self._draw_things(picture)
-        return picture
-
     def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw the corner markers and the discs on top of everything."""
+        self._draw_lights(screen)
+
+    def _draw_lights(self, screen: pygame.Surface, cover: Callable[[pygame.Surface], None] | None = None) -> None:
         if self.real:
             draw_corners(screen)
-        self.discs.draw(screen, self.real)
+        self.discs.draw(screen, self.real, cover)
 
     def apply_pairing(self, channels: Sequence[int], turned: Collection[int]) -> None:
         """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""
@@ -254,10 +253,6 @@ class RealMatch(MatchScene):
         return self.match_of(setup, self.devices, self.real, rounds=self.rounds, things=self.things)
 
     # ---- inside
-
-    def _draw_things(self, screen: pygame.Surface) -> None:
-        if self.plant.things:
-            draw_things(screen, self.plant.things.shown)
 
     def _take_places(self, gathering: TakePlaces, seconds: float) -> StackOperation:
         """Drive the robots to their start positions."""
