@@ -89,7 +89,7 @@ class MatchRecorder:
         """The recording of the first ticks, after which the robots of the world are as they are now."""
         track = self.track.first(ticks)
         track.add(robots)
-        moves = tuple(move for move in self.moves if move.tick < ticks)
+        moves = tuple(move for move in self.moves if move.tick <= ticks)
         return MatchRecording(track, tuple(self.faults), self.run.compressed(), moves)
 
 
@@ -148,7 +148,7 @@ def recording_of(parts: Mapping[str, bytes], ticks: int) -> MatchRecording:
 def _move(entry: Any, ticks: int) -> ThingsMove:
     """Parse a move of things. Raises KeyError, TypeError, ValueError or FieldError."""
     move = ThingsMove(int(entry["tick"]), read_things(TomlTable({"thing": entry["things"]})))
-    if not 0 <= move.tick < ticks:
+    if not 0 <= move.tick <= ticks:
         raise ValueError("time of a move")
     wall_capsules(move.things, WALLS)
     return move

@@ -11,6 +11,7 @@ from typing import Any
 from pigaming_app.hardware.control.moving_things import MovingThings, Things
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.sim.contact import MOVED, ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
 from pigaming_app.sim.plant import Pose, Sighting, Twist
 from pigaming_app.sim.robot import RADIUS, integrate
@@ -36,6 +37,10 @@ class MixedPlant(RealPlant):
     def sense(self) -> list[Sighting]:
         self._move_things()
         return super().sense()
+
+    def watch(self) -> list[Fault]:
+        self._move_things()
+        return super().watch()
 
     def sense_all(self) -> dict[int, Pose]:
         self._move_things()
@@ -86,8 +91,8 @@ class MixedPlant(RealPlant):
         self.arriving.clear()
 
     def _move_things(self) -> None:
-        """Replace the walls of things that have moved, at the beginning of a tick."""
-        if self.things is None:
+        """Replace the walls of things that have moved, between two ticks; after the match they stay."""
+        if self.things is None or self.world.over:
             return
         simulated = [robot for i, robot in enumerate(self.world.robots) if robot.present and i not in self.real]
         move = self.things.update(self.rig.clock(), simulated)

@@ -92,22 +92,26 @@ class RecordedPlant:
     def __init__(self, world: World, track: RobotTrack, moves: Sequence[ThingsMove] = (), first: int = 0) -> None:
         self.world: Any = world
         self.track, self.first = track, first
-        earlier = [move.things for move in moves if move.tick < self.world.tick]
-        self.shown_things = earlier[-1] if earlier else None  # None: those of the arena
-        self._moves = deque(move for move in moves if move.tick >= self.world.tick)
+        done = self.world.shifts
+        self.shown_things = moves[done - 1].things if 0 < done <= len(moves) else None  # None: those of the arena
+        self._moves = deque(moves[done:])
         track.apply(world, self.world.tick)
 
     def sense(self) -> list[Sighting]:
-        while self._moves and self._moves[0].tick <= self.world.tick:
-            self.shown_things = self._moves.popleft().things
-            with suppress(FieldError):  # too many for this arena: an edited file
-                replace_things(self.world, self.shown_things, self.first)
+        self._move_things()
         self.track.apply(self.world, self.world.tick)
         return [Sighting(robot.x, robot.y, robot.heading, 0.0) for robot in self.world.robots]
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
-        """The rules have counted the tick: the robots are where the next one begins."""
+        """The rules have counted the tick: robots and things are where the next one begins."""
+        self._move_things()
         self.track.apply(self.world, self.world.tick)
 
     def place(self, poses: Sequence[Pose]) -> None:
         """No effect: the track has the places."""
+
+    def _move_things(self) -> None:
+        while self._moves and self._moves[0].tick <= self.world.tick:
+            self.shown_things = self._moves.popleft().things
+            with suppress(FieldError):  # too many for this arena: an edited file
+                replace_things(self.world, self.shown_things, self.first)
