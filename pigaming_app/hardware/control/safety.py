@@ -62,7 +62,7 @@ class SafetyRule:
 
 def _disobeys(health: Health) -> bool:
     """True if motion contradicts the commands; a robot at rest without recent reports may just be switched off."""
-    return health.leaving or health.astray > 0.4 or (health.stuck > 0.4 and health.silence < 0.35)
+    return health.leaving or health.astray > 0.4 or (health.stuck > 0.399 and health.silence < 0.35)
 
 
 RULES = (

@@ -12,11 +12,12 @@ from dataclasses import replace
 from pathlib import Path
 from select import select
 
-from pigaming_app.hardware.calibration.ground_plane import GroundPlane, to_toml
+from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.proof.outside import OutsideArena
 from pigaming_app.jobs.bench.sabotage import PLAYING, ROOT
 from pigaming_app.storage.log import FILE
 from pigaming_app.storage.safe_files import write_atomic
+from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import english
 
 START = 120.0  # s until the robots have taken their places
@@ -29,6 +30,7 @@ class Arcade:
     def __init__(self, home: Path, feed: Path, port: str) -> None:
         sabotaged = [sys.executable, "-X", "pigaming", "-m", "pigaming_app.jobs.bench.sabotage", str(feed)]
         radio = ["--port", port, "--radio", "api2", "--camera", "0"]
+        self.log = home / "data" / FILE
         with (home / "arcade.log").open("ab") as log:
             self.process = subprocess.Popen(
                 [*sabotaged, *PLAY, *radio],
@@ -60,7 +62,8 @@ class Arcade:
         assert self.process.stdout
         ready = select([self.process.stdout], [], [], START)[0]
         if not ready or self.process.stdout.readline().decode().strip() != PLAYING:
-            raise RuntimeError("the match in the arcade did not begin")
+            last = self.log.read_text(encoding="utf-8").splitlines()[-1:] if self.log.exists() else []
+            raise RuntimeError(f"the match in the arcade did not begin; its log ends: {''.join(last) or 'nowhere'}")
 
     def order(self, word: str) -> None:
         """Hand it a word of `sabotage`."""
@@ -79,7 +82,7 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
         home, feed = Path(folder), Path(folder, "camera")
         log = home / "data" / FILE
         with OutsideArena(seed, feed) as outside:
-            _save(outside.ground, home)
+            _set_up(outside, home)
 
             def run(*trials: Callable[[Arcade], None]) -> None:
                 """Play a match and try these faults on it."""
@@ -130,8 +133,10 @@ def environment(home: Path) -> dict[str, str]:
     return {**os.environ, **dummies}
 
 
-def _save(ground: GroundPlane, home: Path) -> None:
-    """Save the calibration for the projection of the arcade's window."""
+def _set_up(outside: OutsideArena, home: Path) -> None:
+    """Save the arena number of the robots, and the calibration for the projection of the arcade's window."""
+    (home / "config").mkdir(parents=True, exist_ok=True)
+    Settings(arena_id=outside.arena.arena_id).save(home / "config")
     code = (
         "from pigaming_app.storage.settings import Settings\nfrom pigaming_app.ui.window import Canvas\n"
         "print(Canvas.open(Settings(), None, None, False).projection)"
@@ -142,8 +147,8 @@ def _save(ground: GroundPlane, home: Path) -> None:
     if found.returncode:
         raise RuntimeError("a window could not be opened")
     display = found.stdout.decode().splitlines()[-1]
-    (home / "config").mkdir(parents=True, exist_ok=True)
-    write_atomic(home / "config" / "calibration.toml", to_toml(replace(ground, display=display)).encode())
+    ground = replace(outside.ground, display=display)
+    write_atomic(home / "config" / "calibration.toml", to_toml(ground).encode())
 
 
 def _memory() -> str | None:
