@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
@@ -14,7 +15,7 @@ from select import select
 
 from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.proof.outside import OutsideArena
-from pigaming_app.jobs.bench.sabotage import PLAYING, ROOT
+from pigaming_app.jobs.bench.sabotage import PLAYING, ROOT, Sabotage
 from pigaming_app.storage.log import FILE
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import Settings
@@ -80,7 +81,12 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
     stops: dict[str, float] = {}
     with tempfile.TemporaryDirectory(dir=_memory()) as folder:
         home, feed = Path(folder), Path(folder, "camera")
-        log = home / "data" / FILE
+
+        def logged() -> list[str]:
+            """Lines of the arcade's log and of its standard error."""
+            files = (home / "data" / FILE, home / "arcade.log")
+            return [line for file in files for line in file.read_text(encoding="utf-8").splitlines()]
+
         with OutsideArena(seed, feed) as outside:
             _set_up(outside, home)
 
@@ -96,16 +102,20 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
                 begin: Callable[[Arcade], None],
                 end: Callable[[Arcade], None] = lambda _: None,
                 report: str = "",
+                raised: bool = False,
             ) -> Callable[[Arcade], None]:
-                """A trial; `report`: the fault that the arcade must show and log."""
+                """A trial. `report`: the fault that the arcade must show and log. `raised`: it must log an error."""
 
                 def trial(arcade: Arcade) -> None:
                     outside.settle(lambda: arcade.alive)
-                    before = len(log.read_text(encoding="utf-8"))
+                    before = Counter(logged())
                     stops[name] = outside.stopping(lambda: begin(arcade))
                     note(f"arcade, {name}: motors stood after {1e3 * stops[name]:.0f} ms")
-                    if report and english()(f"faults.{report}") not in log.read_text(encoding="utf-8")[before:]:
+                    news = "\n".join(Counter(logged()) - before)
+                    if report and english()(f"faults.{report}") not in news:
                         raise RuntimeError(f"{name}: the fault was not reported")
+                    if raised and Sabotage.__name__ not in news:
+                        raise RuntimeError(f"{name}: the exception was not logged")
                     end(arcade)
 
                 return trial
@@ -117,11 +127,17 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
                 fault("SIGSTOP", lambda one: one.signal(signal.SIGSTOP), lambda one: one.signal(signal.SIGCONT)),
                 fault("lock held", lambda one: one.order("lock"), lambda one: time.sleep(1.5)),
                 fault("camera frozen", lambda one: freeze(True), lambda one: freeze(False), "camera"),
-                fault("exception in the tracker", lambda one: one.order("tracker"), lambda one: one.order("mend")),
+                fault(
+                    "exception in the tracker",
+                    lambda one: one.order("tracker"),
+                    lambda one: one.order("mend"),
+                    "camera",
+                    raised=True,
+                ),
                 fault("kill -9", lambda one: one.signal(signal.SIGKILL)),
             )
-            run(fault("exception in the link", lambda one: one.order("link"), report="radio"))
-            run(fault("exception in a scene", lambda one: one.order("scene")))
+            run(fault("exception in the link", lambda one: one.order("link"), report="radio", raised=True))
+            run(fault("exception in a scene", lambda one: one.order("scene"), raised=True))
             run(fault("port pulled", lambda one: outside.pull(), report="radio"))
     return stops
 

@@ -215,18 +215,15 @@ class FleetPage:
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.context.words, self.check.health(robot)
         late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
-        named = f"{health.name}  ·  " if health.name else ""
         seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
         if health.misfit is not None:
             reason, arena = health.misfit.reason, health.misfit.arena
             return words(f"fleet.{reason}"), ALARM, words(f"fleet.{REMEDIES.get(reason, 'flash')}", arena=arena), MIST
         if health.battery is None:
             return words("fleet.silent"), MIST, seen, MIST
-        heard = named + words(
-            "fleet.heard" if health.battery else "fleet.heard_only",
-            volts=f"{health.battery:.1f}",
-            share=round(100 * health.share),
-        )
+        key = "heard_named" if health.name else "heard" if health.battery else "heard_only"
+        volts = words("fleet.volts", volts=f"{health.battery:.1f}") if health.battery else "–"
+        heard = words(f"fleet.{key}", name=health.name, volts=volts, share=round(100 * health.share))
         if health.empty:
             return words("fleet.empty", volts=f"{health.battery:.1f}"), ALARM, words("fleet.charge"), MIST
         if health.deaf:
