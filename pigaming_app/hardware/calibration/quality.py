@@ -17,7 +17,7 @@ NEEDED = 0.95  # share of the pictures in which a marker must be found
 SMALL_EDGE = 20.0  # camera px, edge of a marker below which the wizard warns
 SPEED = 350.0  # mm/s, of a robot
 MOTION = (17.63, -13.23)  # weights of `motion_terms`
-CLARITY = (-9.22, 5.84, -2.65, -14.5, -1.95)  # weights of `clarity_terms`; mean error of the predicted share 2 %
+CLARITY = (-9.22, 5.84, -2.64, -14.5, -1.95)  # weights of `clarity_terms`; mean error of the predicted share 2 %
 CELLS, MARKER_MM = 6.0, 50.0  # cells across a marker; its edge
 
 
