@@ -30,6 +30,7 @@ def run(arguments: Namespace) -> int:
             display=display(arguments),
             frames=arguments.frames,
             emulator_seed=arguments.emulate,
+            emulated_things=arguments.things,
             changed_settings=mat_settings(arguments),
         )
     )

@@ -343,6 +343,7 @@ def _on_screen(
             step=DT if arguments.headless else None,
             should_close=over,
             emulator_seed=arguments.emulate,
+            emulated_things=arguments.things,
             ros_width=(arguments.width or WIDTH_MM) if arguments.plant == "ros" else None,
             changed_settings=chosen,
         )

@@ -71,6 +71,7 @@ class Options:
     should_close: Callable[[], bool] = lambda: False  # close after this picture if true
     ros_width: float | None = None  # mm, width of the arena of robots in a ROS network
     emulator_seed: int | None = None  # seed of an emulated arena instead of the real one
+    emulated_things: int = 0  # real things on its mat
     changed_settings: Mapping[str, object] = field(default_factory=dict)  # settings to store
 
 
@@ -381,7 +382,8 @@ def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedS
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
     wifi = WifiChannel() if settings.radio == UDP else None
-    session = EmulatedSession(options.emulator_seed, options.step is None, lambda: canvas.projection, wifi=wifi)
+    live, things = options.step is None, options.emulated_things
+    session = EmulatedSession(options.emulator_seed, live, lambda: canvas.projection, wifi=wifi, things=things)
     canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
     settings.real = settings.real or [1, 2, 3, 4]

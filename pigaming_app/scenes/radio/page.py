@@ -135,8 +135,8 @@ class RadioPage:
             kind = next((kind for kind in KINDS if kind.key == chosen), None)
             if kind is None:
                 return ""
-            volts = self.context.words.decimal(f"{kind.warn_mv / 1000:.1f}")
-            return f"{kind.name}:  Ø {round(2 * kind.radius_mm)} mm,  {volts} V"
+            words, mm = self.context.words, round(2 * kind.radius_mm)
+            return words("arena_radio.fact", name=kind.name, mm=mm, volts=f"{kind.warn_mv / 1000:.1f}")
         return str(self.network)
 
     def _set_up(self, robot: int) -> str:
