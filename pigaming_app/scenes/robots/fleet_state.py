@@ -159,7 +159,7 @@ class FleetState:
         return self.rig is not None and self.rig.sense()[robot].age < SEEN
 
     def _name(self, robot: int) -> str:
-        """Name that the robot on a radio channel has announced, if it has Wi-Fi and is not just called by its number."""
+        """Name that a Wi-Fi robot on a radio channel has announced, unless it is just its number."""
         network = self.session.network
         ours = [found.announced for found in network.robots if found.status == "ours"] if network else []
         name = next((found.name for found in ours if found.address == robot + 1), "")
