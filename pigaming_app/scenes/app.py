@@ -20,7 +20,7 @@ from typing import IO, TYPE_CHECKING, Any
 import pygame
 
 from pigaming_app.hardware.messages import OperatorError
-from pigaming_app.hardware.session.real import RealSession
+from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
@@ -378,10 +378,12 @@ def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedS
         return RosSession(options.ros_width)
     if options.emulator_seed is None:
         return RealSession(settings, lambda: canvas.projection)
+    from pigaming_app.hardware.emulator.wifi.air import WifiChannel
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
     live, things = options.step is None, options.emulated_things
-    session = EmulatedSession(options.emulator_seed, live, lambda: canvas.projection, things=things)
+    wifi = WifiChannel() if settings.radio == UDP else None
+    session = EmulatedSession(options.emulator_seed, live, lambda: canvas.projection, wifi=wifi, things=things)
     canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
     settings.real = settings.real or [1, 2, 3, 4]

@@ -41,6 +41,7 @@ REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
 EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
 ROBOTS_H = 486  # px, height of the robots' frame
+MESSAGE = pygame.Rect(150, 854, 1620, 84)  # px, between description and prompts
 LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: description of the focused row
 
 log = logging.getLogger("pigaming")
@@ -150,10 +151,10 @@ class FleetPage:
         boxes = [
             pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
             pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
-            pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
+            pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, MESSAGE.top - LINE_Y + 34),
             pygame.Rect(left, self.navigation.prompts.y - 40, right - left, 80),
         ]
-        return [*boxes, pygame.Rect(150, 866, 1620, 84)] if self._message() else boxes
+        return [*boxes, MESSAGE] if self._message() else boxes
 
     def _message(self) -> str:
         """Fault, result of the last action, or warning about the camera."""
@@ -179,8 +180,9 @@ class FleetPage:
         for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
             line.draw(screen, dials.PANEL.x + 30, LINE_Y + LINE_PITCH * i)
         sentence = self._message()
-        for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
-            line.draw(screen, 960, 896 + 44 * i)
+        lines = paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else []
+        for i, line in enumerate(lines):
+            line.draw(screen, 960, MESSAGE.centery + 44 * i - 22 * (len(lines) - 1))
         self.navigation.prompts.draw(screen)
 
     # ---- readings
@@ -226,6 +228,8 @@ class FleetPage:
         heard = words(f"fleet.{key}", name=health.name, volts=volts, share=round(100 * health.share))
         if health.empty:
             return words("fleet.empty", volts=f"{health.battery:.1f}"), ALARM, words("fleet.charge"), MIST
+        if health.parked:
+            return words("fleet.parked"), FOCUS, words("fleet.press"), MIST
         if health.deaf:
             return words("fleet.deaf"), ALARM, seen, MIST
         weak = 0.0 < health.battery < health.kind.warn_mv / 1000 or health.share < WEAK
