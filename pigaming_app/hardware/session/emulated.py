@@ -49,6 +49,7 @@ class EmulatedSession:
     """
 
     emulated = True
+    radio = True
 
     def __init__(
         self,

@@ -31,6 +31,7 @@ class RealSession:
     """The robots of these settings. `projection` is `Canvas.projection`; None accepts a calibration of any display."""
 
     emulated = False
+    radio = True
 
     def __init__(self, settings: Settings, projection: Callable[[], str | None] = lambda: None) -> None:
         self.settings, self.projection = settings, projection

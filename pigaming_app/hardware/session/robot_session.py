@@ -35,6 +35,7 @@ class RobotSession(Protocol):
     """Robots on a mat with a camera, a radio and a projector."""
 
     emulated: bool
+    radio: bool  # False: cameras and radios are those of a ROS network, and the settings of the mat do not apply
     network: "WifiNetwork | None"  # of Wi-Fi robots, while the session is open
     expected: "ExpectedLight | None"  # the mat as scanned last, for the watch over its things
 

@@ -30,6 +30,7 @@ class RosSession:
     """Robots of an arena `width` mm wide."""
 
     emulated = False
+    radio = False
     quality: "CameraQuality | None" = None  # the cameras are those of the network
     network: "WifiNetwork | None" = None
     ground: "GroundPlane | None" = None

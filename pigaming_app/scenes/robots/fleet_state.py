@@ -28,8 +28,8 @@ log = logging.getLogger("pigaming")
 @dataclass(frozen=True)
 class RobotStatus:
     """Status of one robot: battery in V (0: not measured), share of reports received (0..1), visible, latency in s if
-    measured; its kind, why it cannot be driven, whether it reports that no commands arrive, that it refuses its motors
-    because of its battery, or that its button was pressed.
+    measured; its kind, why it cannot be driven, and whether it reports that no commands arrive, that it refuses its
+    motors because of its battery, or that its button was pressed.
     """
 
     battery: float | None
@@ -148,11 +148,10 @@ class FleetState:
         misfit = self.link.misfit(robot) if self.link is not None else None
         battery, latency = report.battery if report else None, self.latencies.get(robot)
         flags = report.flags if report else 0
-        empty = bool(flags & EMPTY) or 0.0 < (battery or 0.0) < kind.stop_mv / 1000
         deaf, parked = bool(flags & DEADMAN), bool(flags & PARKED)
-        return RobotStatus(
-            battery, share, self._seen(robot), latency, kind, misfit, deaf, empty, parked, self._name(robot)
-        )
+        empty = bool(flags & EMPTY) or 0.0 < (battery or 0.0) < kind.stop_mv / 1000
+        seen, name = self._seen(robot), self._name(robot)
+        return RobotStatus(battery, share, seen, latency, kind, misfit, deaf, empty, parked, name)
 
     # ---- inside
 
@@ -160,7 +159,7 @@ class FleetState:
         return self.rig is not None and self.rig.sense()[robot].age < SEEN
 
     def _name(self, robot: int) -> str:
-        """Name that the robot on a radio channel has announced by Wi-Fi, unless it is only its number."""
+        """Name that a Wi-Fi robot on a radio channel has announced, unless it is just its number."""
         network = self.session.network
         ours = [found.announced for found in network.robots if found.status == "ours"] if network else []
         name = next((found.name for found in ours if found.address == robot + 1), "")

@@ -16,7 +16,7 @@ from pigaming_app.hardware.control.moving_things import MovingThings, same_mud
 from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.scan.block_walls import BlockWalls
 from pigaming_app.hardware.scan.things import Layout
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, settings_problem
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of
 from pigaming_app.hardware.session.things_on_mat import save_layout
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
@@ -67,7 +67,7 @@ class RealMatch(MatchScene):
         rounds: Rounds | None = None,
         arena: Arena | None = None,
     ) -> None:
-        if reason := settings_problem(context.settings):
+        if reason := context.robots_problem:
             raise RobotsUnavailable(reason)
         rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}

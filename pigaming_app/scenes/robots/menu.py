@@ -22,6 +22,7 @@ from pigaming_app.ui.widgets.labels import black_out, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("robots", "radio", "calibrate", "check", "things", "blocks", "pin", "sheet")
+ROS_ROWS = ("robots", "pin")  # a ROS network has cameras and radios of its own
 SHEET = "markers.pdf"
 MESSAGE_SECONDS = 8.0  # s, display time of a message
 IDLE = 300.0  # s without input before the return to the title
@@ -34,7 +35,7 @@ class RobotsMenu:
 
     def __init__(self, context: Context) -> None:
         self.context = context
-        self.focus = Focus(dials.spots(ROWS))
+        self.focus = Focus(dials.spots(ROWS if context.session is None or context.session.radio else ROS_ROWS))
         hints = [(Button.FIRE, "robots.hint_ok"), (Button.BACK, "robots.hint_back")]
         self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 

@@ -27,7 +27,7 @@ def _micropython():
     try:
         interpreter()
     except NoMicroPython as reason:
-        pytest.skip(f"{reason}: apt-get install nodejs npm")
+        pytest.skip(str(reason))
 
 
 class Arcade:

@@ -26,7 +26,7 @@ def _micropython():
     try:
         interpreter()
     except NoMicroPython as reason:
-        pytest.skip(f"{reason}: apt-get install nodejs npm")
+        pytest.skip(str(reason))
 
 
 class Air:

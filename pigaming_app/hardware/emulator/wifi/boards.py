@@ -94,14 +94,14 @@ def interpreter() -> Path:
     """MicroPython's WebAssembly build, installed if necessary. Raises NoMicroPython."""
     node, npm = shutil.which("node"), shutil.which("npm")
     if not node:
-        raise NoMicroPython("Node.js is not installed")
+        raise NoMicroPython("Node.js is not installed (apt-get install nodejs npm)")
     folder = folders().cache / "micropython"
     lock = HERE / "package-lock.json"
     found, installed = folder / INTERPRETER, folder / lock.name
     if found.is_file() and installed.is_file() and installed.read_bytes() == lock.read_bytes():
         return found
     if not npm:
-        raise NoMicroPython("npm is not installed")
+        raise NoMicroPython("npm is not installed (apt-get install npm)")
     folder.mkdir(parents=True, exist_ok=True)
     for file in (HERE / "package.json", lock):
         shutil.copy(file, folder)
