@@ -1,5 +1,6 @@
 """Replays of matches of any robots. Those of real ones come with a recording, since they cannot be simulated again."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -8,6 +9,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.replay import Replay, ReplayError
 from pigaming_app.games.timeline import EVERY, Timeline
 from pigaming_app.sim.record import digest
+from pigaming_app.sim.things.spec import ThingSpec
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.control.match_recording import MatchRecorder, MatchRecording
@@ -31,6 +33,12 @@ def replay_of(match: Match) -> Replay | None:
         return None
     plain = replays.recorded(match)
     return RealReplay(**vars(plain), recording=recorder.recording(plain.length, match.state.robots))
+
+
+def shown_things(match: Match) -> "Sequence[ThingSpec] | None":
+    """The things in play now, if they may move during the match."""
+    things: Sequence[ThingSpec] | None = getattr(match.plant, "shown_things", None)
+    return things
 
 
 def pack(replay: Replay) -> bytes:
@@ -99,4 +107,5 @@ def _set_plant(match: Match, replay: Any) -> None:
     if isinstance(replay, RealReplay):
         from pigaming_app.hardware.control.recorded_plant import RecordedPlant
 
-        match.plant = RecordedPlant(match.state, replay.recording.track)
+        recording = replay.recording
+        match.plant = RecordedPlant(match.state, recording.track, recording.moves, len(match.arena.walls))

@@ -15,7 +15,7 @@ from pigaming_app.games.race.racing_line import fastest_line
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import decode, encode, to_match, verify
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.arena import ArenaError
+from pigaming_app.sim.arena import ArenaError, replace_things
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.convex import contains, distance
@@ -218,3 +218,19 @@ def test_a_match_with_things_is_replayed_bit_by_bit(game):
     assert verify(replay)
     again = to_match(replay)
     assert again.arena.things == arena.things
+
+
+def test_drivers_go_round_a_thing_that_was_put_on_their_line_during_the_race():
+    base = load("race", "classic")
+    match = match_of("race", base, "hand3", goal=3, minutes=3.0)
+    for _ in range(400):
+        match.tick()
+    things = (box(800, 130, 70, 60, 0.3),)
+    apply = games()["race"].reroute(base, match.state.rules, things)
+    replace_things(match.state, things, len(base.walls))
+    apply(match.state)
+    while not match.over:
+        match.tick()
+        assert all(distance(things[0].outline, robot.x, robot.y) > RADIUS - 2.0 for robot in match.state.robots)
+    assert [robot.score for robot in match.state.robots] == [3] * 4
+    assert match.seconds < 45.0

@@ -31,6 +31,7 @@ class Robot:
         self.linear = self.angular = 0.0
         self.seen, self.duplicate, self.battery, self.received = 0.0, False, 5.0, 0.0
         self.hidden = self.silent = False
+        self.flags = 0  # of its reports
 
     def roll(self):
         goal = twist(self.train, *self.command) if self.command else (0.0, 0.0)
@@ -128,7 +129,7 @@ class Mat:
     # link
     @property
     def telemetry(self):
-        return {i: Telemetry(i, robot.battery, 0, robot.received) for i, robot in enumerate(self.robots)}
+        return {i: Telemetry(i, robot.battery, robot.flags, robot.received) for i, robot in enumerate(self.robots)}
 
     def misfit(self, robot):
         return self.misfits.get(robot)

@@ -14,7 +14,7 @@ Robots start beside the things that stand on the course. Tape that is a line, an
 nearest of the four lines to it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from pigaming_app.games.game import ALONE, Setup, Variant, named
@@ -33,13 +33,14 @@ from pigaming_app.games.race.furniture import (
     taped,
 )
 from pigaming_app.games.race.laps import progress
-from pigaming_app.games.race.racing_line import line_round
+from pigaming_app.games.race.passages import Span
+from pigaming_app.games.race.racing_line import Line, line_round
 from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, Rules, TimingLine
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
 from pigaming_app.sim.record import copy
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.things.cover import Capsule
-from pigaming_app.sim.things.spec import read_things, wall_capsules
+from pigaming_app.sim.things.spec import ThingSpec, read_things, wall_capsules
 from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import DT, HZ, ROBOTS, WALLS
 
@@ -113,7 +114,7 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
     match.course = copy(track.course)
     match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
-    set_line(match, track, track.solid)
+    _set_line(match, line_round(track.course, match.rules.speed, match.rules.turn_rate, track.solid, track.lines))
     for line, along in zip(match.lines, track.lines, strict=True):
         _place_line(line, match.course, along)
     for robot, seat in zip(match.robots, setup.seats, strict=True):
@@ -131,10 +132,16 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
         _furnish(match, track)
 
 
-def set_line(match: Race, track: TrackPlan, solid: tuple[Capsule, ...]) -> None:
-    """Set the fastest line round things, and the passages beside them. Raises FieldError if robots cannot pass."""
-    rules = match.rules
-    (ideal, pace), spans = line_round(track.course, rules.speed, rules.turn_rate, solid, track.lines)
+def reroute(arena: Arena, rules: Rules, things: tuple[ThingSpec, ...]) -> Callable[[Race], None]:
+    """The fastest line round things that were moved; see `games.game.Reroute`. Raises FieldError."""
+    track: TrackPlan = arena.plan
+    found = line_round(track.course, rules.speed, rules.turn_rate, tuple(wall_capsules(things, WALLS)), track.lines)
+    return lambda match: _set_line(match, found)
+
+
+def _set_line(match: Race, found: tuple[Line, Sequence[Span]]) -> None:
+    """Set the fastest line, and the passages beside things."""
+    (ideal, pace), spans = found
     match.ideal[:], match.pace[:] = ideal, pace
     match.narrow = int(bool(spans))
     match.low[:], match.high[:] = zip(*spans, strict=True) if spans else ([0.0] * POINTS,) * 2

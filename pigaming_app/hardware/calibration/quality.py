@@ -1,10 +1,11 @@
 """Quality of the camera's picture at a calibration: exposure, size and blur of the robots' markers, and the prediction
 of the share of pictures in which a driving robot's marker is found.
 
-The prediction is a fit to the emulated arena, with robots at 0.35 m/s: `tests/bench/detection.py` prints the table that
-it was fitted to, and the fit.
+A marker is found if it is not smeared and if it is clear enough; the two shares multiply. Both are fits to the emulated
+arena, with robots at 0.35 m/s: `tests/bench/detection.py` prints the table that they were fitted to, and the fit.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, log
 
@@ -15,7 +16,8 @@ from pigaming_app.hardware.vision.exposure import LONGEST
 NEEDED = 0.95  # share of the pictures in which a marker must be found
 SMALL_EDGE = 20.0  # camera px, edge of a marker below which the wizard warns
 SPEED = 350.0  # mm/s, of a robot
-WEIGHTS = (1.66, 1.38, -24.28, -1.53)  # of `terms`; mean error of the predicted share 3 %
+MOTION = (17.63, -13.23)  # weights of `motion_terms`
+CLARITY = (-9.22, 5.84, -2.64, -14.5, -1.95)  # weights of `clarity_terms`; mean error of the predicted share 2 %
 CELLS, MARKER_MM = 6.0, 50.0  # cells across a marker; its edge
 
 
@@ -87,11 +89,21 @@ def predicted(marker_px: float, blur_px: float, exposure: float) -> float:
 
     `exposure`: s; 0, unknown, counts as LONGEST.
     """
-    logit = sum(weight * term for weight, term in zip(WEIGHTS, terms(marker_px, blur_px, exposure), strict=True))
+    return logistic(MOTION, motion_terms(exposure)) * logistic(CLARITY, clarity_terms(marker_px, blur_px, exposure))
+
+
+def motion_terms(exposure: float) -> tuple[float, float]:
+    """Terms of the share of markers that are not smeared: 1, motion in an exposure (s) in cells of a marker."""
+    return 1.0, SPEED * (exposure or LONGEST) / (MARKER_MM / CELLS)
+
+
+def clarity_terms(marker_px: float, blur_px: float, exposure: float) -> tuple[float, float, float, float, float]:
+    """Terms of the share of markers that are clear enough: 1, size (px); blur in px, and squared in cells; motion."""
+    blur, motion = blur_px / (marker_px / CELLS), motion_terms(exposure)[1]
+    return 1.0, log(marker_px), blur_px, blur**2, motion**2
+
+
+def logistic(weights: Sequence[float], values: Sequence[float]) -> float:
+    """A share, 0..1, by the weighted sum of terms."""
+    logit = sum(weight * value for weight, value in zip(weights, values, strict=True))
     return 1.0 / (1.0 + exp(-max(-30.0, min(30.0, logit))))
-
-
-def terms(marker_px: float, blur_px: float, exposure: float) -> tuple[float, float, float, float]:
-    """The terms of the logit: 1, size of the marker; blur, and motion in an exposure, as shares of a marker's cell."""
-    blur, motion = blur_px / (marker_px / CELLS), SPEED * (exposure or LONGEST) / (MARKER_MM / CELLS)
-    return 1.0, log(marker_px), blur**2, motion**4

@@ -62,7 +62,12 @@ class SafetyRule:
 
 def _disobeys(health: Health) -> bool:
     """True if motion contradicts the commands; a robot at rest without recent reports may just be switched off."""
-    return health.leaving or health.astray > 0.4 or (health.stuck > 0.4 and health.silence < 0.35)
+    return health.leaving or health.astray > 0.4 or (health.stuck > 0.399 and health.silence < 0.35)
+
+
+def _empty(health: Health) -> bool:
+    """True if the battery is empty, or the robot refuses its motors because it was."""
+    return health.battery < health.battery_empty or health.undervoltage
 
 
 RULES = (
@@ -78,7 +83,7 @@ RULES = (
     SafetyRule("disobeys", _disobeys, Response.STOP, pauses=True, latched=True),
     SafetyRule("unseen", lambda s: s.unseen > 0.250, Response.STOP),
     SafetyRule("unseen", lambda s: s.unseen > 0.100, Response.HALF),
-    SafetyRule("empty", lambda s: s.battery < s.battery_empty or s.undervoltage, Response.OFF, pauses=True),
+    SafetyRule("empty", _empty, Response.OFF, pauses=True),
     SafetyRule("old", lambda s: s.misfit == "old", Response.OFF, pauses=True),
     SafetyRule("no_arena", lambda s: s.misfit == "no_arena", Response.OFF, pauses=True),
     SafetyRule("foreign", lambda s: s.misfit == "foreign" and s.silence > 1.0, Response.OFF, pauses=True),
@@ -89,7 +94,7 @@ RULES = (
     SafetyRule("outside", lambda s: s.unseen > 1.000 and s.rejection == BEYOND, Response.STOP, pauses=True),
     SafetyRule("outside", lambda s: s.outside > 3.0, Response.INWARD, pauses=True),
     SafetyRule("outside", lambda s: s.outside > 0.0, Response.INWARD),
-    SafetyRule("low", lambda s: s.battery < s.battery_low, Response.WARN),
+    SafetyRule("low", lambda s: s.battery < s.battery_low and not _empty(s), Response.WARN),
     SafetyRule("drifts", lambda s: s.drift > 5.0, Response.WARN, everyone=True),
 )
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
+    from pigaming_app.hardware.scan.expected import ExpectedLight
     from pigaming_app.hardware.session.lighting import Lighting
     from pigaming_app.hardware.signals import CameraFrame
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -33,6 +34,7 @@ DARK = (1080, 1920)  # px, size of a black image
 FPS = 30.0  # frames/s of the emulated camera
 WHOLE, QUICK = 3, 30  # interval of complete renders, frames: in real and in simulated time
 EMULATED_KEY = bytes(range(16))  # of the emulated Wi-Fi robots
+FURNITURE = 5  # things put on an empty mat, to be scanned
 SEARCH = 10.0  # timeout for finding all robots, s
 
 
@@ -67,6 +69,7 @@ class EmulatedSession:
         self.mm = 0.0
         self.quality: CameraQuality | None = None
         self.network: WifiNetwork | None = None  # of robots with Wi-Fi
+        self.expected: ExpectedLight | None = None
         self._wifi = wifi
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._traits = traits
@@ -187,6 +190,7 @@ class EmulatedSession:
         """Advance the arena by `seconds`; returns the time that passed, less if this computer is too slow."""
         if self._rig is None:
             return seconds
+        self._render(self._rig)
         if self._time is None:
             self._light(self._rig)
             for _ in range(max(1, round(seconds / SLICE))):
@@ -196,6 +200,14 @@ class EmulatedSession:
         before, self._now = self._now, self.arena.clock()
         self._time.limit = self._now + seconds + AHEAD
         return self._now - before
+
+    def furnish(self) -> None:
+        """Put random things on the mat, away from the robots, unless there are some already."""
+        from pigaming_app.hardware.emulator.things.random_scene import some_things
+
+        if not self.arena.things:
+            self._things = some_things(self.seed, FURNITURE, self.arena.optics, self.arena.poses())
+            self.arena.furnish(self._things)
 
     def show(self, pixels: Callable[[], Any]) -> None:
         """Project the window on the mat, if there is one. `pixels` returns a BGRA image, (height, width, 4).
@@ -265,6 +277,10 @@ class EmulatedSession:
                 raise RobotsUnavailable(OperatorMessage("micropython", detail=error)) from error
             self.network = network
         return Link(self.network.open, self.arena.clock, WifiProtocol(self.network), "Wi-Fi")
+
+    def _render(self, rig: "Rig") -> None:
+        """Render complete pictures for those who look at more than the robots."""
+        self.arena.camera.painter.refresh = 1 if rig.viewers else WHOLE if self.live else QUICK
 
     def _light(self, rig: "Rig") -> None:
         """Project the floor, and a disc at each robot's predicted position when the light lands."""

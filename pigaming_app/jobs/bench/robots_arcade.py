@@ -6,17 +6,19 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from select import select
 
-from pigaming_app.hardware.calibration.ground_plane import GroundPlane, to_toml
+from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.proof.outside import OutsideArena
-from pigaming_app.jobs.bench.sabotage import PLAYING, ROOT
+from pigaming_app.jobs.bench.sabotage import PLAYING, ROOT, Sabotage
 from pigaming_app.storage.log import FILE
 from pigaming_app.storage.safe_files import write_atomic
+from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import english
 
 START = 120.0  # s until the robots have taken their places
@@ -29,6 +31,7 @@ class Arcade:
     def __init__(self, home: Path, feed: Path, port: str) -> None:
         sabotaged = [sys.executable, "-X", "pigaming", "-m", "pigaming_app.jobs.bench.sabotage", str(feed)]
         radio = ["--port", port, "--radio", "api2", "--camera", "0"]
+        self.log = home / "data" / FILE
         with (home / "arcade.log").open("ab") as log:
             self.process = subprocess.Popen(
                 [*sabotaged, *PLAY, *radio],
@@ -60,7 +63,8 @@ class Arcade:
         assert self.process.stdout
         ready = select([self.process.stdout], [], [], START)[0]
         if not ready or self.process.stdout.readline().decode().strip() != PLAYING:
-            raise RuntimeError("the match in the arcade did not begin")
+            last = self.log.read_text(encoding="utf-8").splitlines()[-1:] if self.log.exists() else []
+            raise RuntimeError(f"the match in the arcade did not begin; its log ends: {''.join(last) or 'nowhere'}")
 
     def order(self, word: str) -> None:
         """Hand it a word of `sabotage`."""
@@ -77,9 +81,14 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
     stops: dict[str, float] = {}
     with tempfile.TemporaryDirectory(dir=_memory()) as folder:
         home, feed = Path(folder), Path(folder, "camera")
-        log = home / "data" / FILE
+
+        def logged() -> list[str]:
+            """Lines of the arcade's log and of its standard error."""
+            files = (home / "data" / FILE, home / "arcade.log")
+            return [line for file in files for line in file.read_text(encoding="utf-8").splitlines()]
+
         with OutsideArena(seed, feed) as outside:
-            _save(outside.ground, home)
+            _set_up(outside, home)
 
             def run(*trials: Callable[[Arcade], None]) -> None:
                 """Play a match and try these faults on it."""
@@ -93,16 +102,20 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
                 begin: Callable[[Arcade], None],
                 end: Callable[[Arcade], None] = lambda _: None,
                 report: str = "",
+                raised: bool = False,
             ) -> Callable[[Arcade], None]:
-                """A trial; `report`: the fault that the arcade must show and log."""
+                """A trial. `report`: the fault that the arcade must show and log. `raised`: it must log an error."""
 
                 def trial(arcade: Arcade) -> None:
                     outside.settle(lambda: arcade.alive)
-                    before = len(log.read_text(encoding="utf-8"))
+                    before = Counter(logged())
                     stops[name] = outside.stopping(lambda: begin(arcade))
                     note(f"arcade, {name}: motors stood after {1e3 * stops[name]:.0f} ms")
-                    if report and english()(f"faults.{report}") not in log.read_text(encoding="utf-8")[before:]:
+                    news = "\n".join(Counter(logged()) - before)
+                    if report and english()(f"faults.{report}") not in news:
                         raise RuntimeError(f"{name}: the fault was not reported")
+                    if raised and Sabotage.__name__ not in news:
+                        raise RuntimeError(f"{name}: the exception was not logged")
                     end(arcade)
 
                 return trial
@@ -114,11 +127,17 @@ def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
                 fault("SIGSTOP", lambda one: one.signal(signal.SIGSTOP), lambda one: one.signal(signal.SIGCONT)),
                 fault("lock held", lambda one: one.order("lock"), lambda one: time.sleep(1.5)),
                 fault("camera frozen", lambda one: freeze(True), lambda one: freeze(False), "camera"),
-                fault("exception in the tracker", lambda one: one.order("tracker"), lambda one: one.order("mend")),
+                fault(
+                    "exception in the tracker",
+                    lambda one: one.order("tracker"),
+                    lambda one: one.order("mend"),
+                    "camera",
+                    raised=True,
+                ),
                 fault("kill -9", lambda one: one.signal(signal.SIGKILL)),
             )
-            run(fault("exception in the link", lambda one: one.order("link"), report="radio"))
-            run(fault("exception in a scene", lambda one: one.order("scene")))
+            run(fault("exception in the link", lambda one: one.order("link"), report="radio", raised=True))
+            run(fault("exception in a scene", lambda one: one.order("scene"), raised=True))
             run(fault("port pulled", lambda one: outside.pull(), report="radio"))
     return stops
 
@@ -130,8 +149,10 @@ def environment(home: Path) -> dict[str, str]:
     return {**os.environ, **dummies}
 
 
-def _save(ground: GroundPlane, home: Path) -> None:
-    """Save the calibration for the projection of the arcade's window."""
+def _set_up(outside: OutsideArena, home: Path) -> None:
+    """Save the arena number of the robots, and the calibration for the projection of the arcade's window."""
+    (home / "config").mkdir(parents=True, exist_ok=True)
+    Settings(arena_id=outside.arena.arena_id).save(home / "config")
     code = (
         "from pigaming_app.storage.settings import Settings\nfrom pigaming_app.ui.window import Canvas\n"
         "print(Canvas.open(Settings(), None, None, False).projection)"
@@ -142,8 +163,8 @@ def _save(ground: GroundPlane, home: Path) -> None:
     if found.returncode:
         raise RuntimeError("a window could not be opened")
     display = found.stdout.decode().splitlines()[-1]
-    (home / "config").mkdir(parents=True, exist_ok=True)
-    write_atomic(home / "config" / "calibration.toml", to_toml(replace(ground, display=display)).encode())
+    ground = replace(outside.ground, display=display)
+    write_atomic(home / "config" / "calibration.toml", to_toml(ground).encode())
 
 
 def _memory() -> str | None:

@@ -3,12 +3,30 @@
 import pygame
 
 from pigaming_app.hardware.calibration.solver import MAX_MM, Residuals
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HAIR, ICE, LINE, MIST, STEEL, SUB, THIN, Color, cut_box, dim, panel
+from pigaming_app.ui.draw import (
+    ALARM,
+    BODY,
+    FOCUS,
+    HAIR,
+    ICE,
+    LINE,
+    MIST,
+    STEEL,
+    SUB,
+    THIN,
+    Color,
+    cut_box,
+    dim,
+    panel,
+    text_width,
+)
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size
 
 AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the plot
 SIDE = pygame.Rect(span(8, 4)[0] + 24, 226, span(8, 4)[1] - 24, 600)  # of the numbers beside it
+GAP = 20  # px, between a name and its value
 SCALE = 0.47  # plot px per canvas px
 MAX_LENGTH = 40.0  # px, length of the longest arrow
 TIMES = (2, 5, 10, 20, 50, 100, 200, 500, 1000)
@@ -45,7 +63,7 @@ def figure(name: str, value: str, share: float, limit: str) -> LitImage:
     """One error as a number and a bar, full at twice the limit; `share` of the limit. Upper left corner at (0, 0)."""
     layer = Layer(0, -20, SIDE.w, 160)
     color: Color = ICE if share <= 1.0 else ALARM
-    layer.canvas.body(name, 0, 14, MIST)
+    layer.canvas.body(name, 0, 14, MIST, size=fit_size(name, BODY, SIDE.w - text_width(value, SUB - 8) - GAP, "body"))
     layer.canvas.text(value, SUB - 8, SIDE.w, 14, color, "head", "r")
     bar = SIDE.w
     layer.glow.line(cut_box(0, 54, bar, 22, 7), STEEL, THIN, True)
@@ -59,6 +77,7 @@ def figure(name: str, value: str, share: float, limit: str) -> LitImage:
 def fact(name: str, value: str, color: Color = ICE) -> LitImage:
     """A quantity without a limit: name on the left, value on the right, on the line y = 0."""
     layer = Layer(0, -30, SIDE.w, 60)
-    layer.canvas.body(name, 0, 0, MIST, size=BODY - 4)
+    room = SIDE.w - text_width(value, BODY - 4, "body") - GAP
+    layer.canvas.body(name, 0, 0, MIST, size=fit_size(name, BODY - 4, room, "body"))
     layer.canvas.body(value, SIDE.w, 0, color, "r", BODY - 4)
     return layer.render()

@@ -21,7 +21,7 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.pixels import grey_surface
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.text import fit_size, paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
@@ -58,7 +58,7 @@ class CalibrationPage:
         self.measures = self._initial_measures()
         self.preview: CameraPreview | None = None
         self.cameras = self.site.cameras()
-        self.state = ""
+        self.state, self.anyway = "", False  # of the calibration; saved despite its picture
         self._state_of: tuple[int, int] = (0, 0)
         self.since_scan = 0.0  # s since the last scan for cameras
         self.repeats = 0
@@ -110,7 +110,7 @@ class CalibrationPage:
     def draw(self, screen: pygame.Surface) -> None:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
-        heading(words("calibrate.title"), self.state).draw(screen)
+        heading(words("calibrate.title"), self.state, right_color=FOCUS if self.anyway else MIST).draw(screen)
         black_out(screen, dials.PANEL)
         dials.draw(
             screen, self.context.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
@@ -134,7 +134,7 @@ class CalibrationPage:
         preview, words = self.preview, self.context.words
         if preview is None:
             return
-        room, below = dials.PANEL.w - 40, PICTURE.bottom + 40
+        room, below = dials.PANEL.w - 40, PICTURE.bottom + 30
         if preview.fault is not None or preview.small is None:
             sentence = preview.fault or OperatorMessage("yet")
             lines = paragraph(words.sentence(sentence), room - 40, 5, align="c")
@@ -148,10 +148,11 @@ class CalibrationPage:
             screen.blit(self._picture, self._picture.get_rect(center=PICTURE.center))
         w, h = preview.size
         caption = words("calibrate.rate", width=w, height=h, rate=round(preview.rate)) if preview.rate else f"{w} × {h}"
+        size = fit_size(caption, BODY, room, "body")
+        text(caption, size, MIST, "body", "l").draw(screen, PICTURE.x, below)
         if preview.exposure.bound:
             exposed = words("calibrate.exposed", time=exposure_text(words, preview.exposure))
-            text(exposed, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below + 44)
-        text(caption, BODY, MIST, "body", "l", room).draw(screen, PICTURE.x, below)
+            text(exposed, size, MIST, "body", "l").draw(screen, PICTURE.x, below + 38)
 
     def _load_state(self, size: tuple[int, int]) -> None:
         """Show the state of the calibration for this camera and display."""
@@ -160,10 +161,12 @@ class CalibrationPage:
             file = store.calibration_file(self.site.name)
             ground = store.load(file, self.context.canvas.projection, size)
             self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
-            if ground.quality.anyway:
+            self.anyway = ground.quality.anyway
+            if self.anyway:
                 self.state = words.sentence(used_anyway(ground.quality))
         except CalibrationError as trouble:
             log.warning("%s", english().long_sentence(trouble.message))
+            self.anyway = False
             self.state = words.sentence(trouble.message)
 
     # ---- rows

@@ -126,6 +126,8 @@ class RadioPage:
     def _fact(self) -> str:
         """The command that flashes a robot, the network, or the size of a kind of robot."""
         if (name := self.focus.name) == "arena":
+            if self.context.settings.radio == "udp":
+                return "python3 main.py robots --wifi-config 1"
             return f"make flash ADDRESS=1 ARENA={self.arena}"
         if name == "module" and self.module:
             return f"make flash ADDRESS={self.module} ARENA={self.arena}"
@@ -134,8 +136,8 @@ class RadioPage:
             kind = next((kind for kind in KINDS if kind.key == chosen), None)
             if kind is None:
                 return ""
-            volts = self.context.words.decimal(f"{kind.warn_mv / 1000:.1f}")
-            return f"{kind.name}:  Ø {round(2 * kind.radius_mm)} mm,  {volts} V"
+            words, mm = self.context.words, round(2 * kind.radius_mm)
+            return words("arena_radio.fact", name=kind.name, mm=mm, volts=f"{kind.warn_mv / 1000:.1f}")
         return str(self.network)
 
     def _say(self, key: str) -> None:

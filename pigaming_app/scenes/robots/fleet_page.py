@@ -33,6 +33,7 @@ BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "udp", "stock")
 EMULATED = ("pair", "latency")
 ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
+REMEDIES = {"foreign": "elsewhere", "key": "copy"}  # text of the remedy by the reason of a misfit; else "flash"
 WEAK = 0.7  # share of reports below which a robot is marked
 IDLE = 600.0  # s without input before the return to the title
 MESSAGE_SECONDS = 8.0  # s, display time of a message
@@ -214,19 +215,17 @@ class FleetPage:
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.context.words, self.check.health(robot)
         late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
-        named = f"{health.name}  ·  " if health.name else ""
         seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
         if health.misfit is not None:
             reason, arena = health.misfit.reason, health.misfit.arena
-            remedy = words("fleet.elsewhere" if reason == "foreign" else "fleet.flash", arena=arena)
-            return words(f"fleet.{reason}"), ALARM, remedy, MIST
+            return words(f"fleet.{reason}"), ALARM, words(f"fleet.{REMEDIES.get(reason, 'flash')}", arena=arena), MIST
         if health.battery is None:
             return words("fleet.silent"), MIST, seen, MIST
-        heard = named + words(
-            "fleet.heard" if health.battery else "fleet.heard_only",
-            volts=f"{health.battery:.1f}",
-            share=round(100 * health.share),
-        )
+        key = "heard_named" if health.name else "heard" if health.battery else "heard_only"
+        volts = words("fleet.volts", volts=f"{health.battery:.1f}") if health.battery else "–"
+        heard = words(f"fleet.{key}", name=health.name, volts=volts, share=round(100 * health.share))
+        if health.empty:
+            return words("fleet.empty", volts=f"{health.battery:.1f}"), ALARM, words("fleet.charge"), MIST
         if health.deaf:
             return words("fleet.deaf"), ALARM, seen, MIST
         weak = 0.0 < health.battery < health.kind.warn_mv / 1000 or health.share < WEAK

@@ -9,7 +9,7 @@ from pigaming_app.hardware.commissioning.latency import LatencyTest
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, PairingFinding
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.packets import DEADMAN
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
@@ -28,7 +28,8 @@ log = logging.getLogger("pigaming")
 @dataclass(frozen=True)
 class RobotStatus:
     """Status of one robot: battery in V (0: not measured), share of reports received (0..1), visible, latency in s if
-    measured; its kind, why it cannot be driven, and whether it reports that no commands arrive.
+    measured; its kind, why it cannot be driven, and whether it reports that no commands arrive, or refuses its motors
+    because of its battery.
     """
 
     battery: float | None
@@ -38,6 +39,7 @@ class RobotStatus:
     kind: RobotKind
     misfit: Misfit | None
     deaf: bool
+    empty: bool
     name: str  # announced by a Wi-Fi robot, or empty
 
 
@@ -144,8 +146,11 @@ class FleetState:
         kind = robot_kind(self.settings.kinds[robot], self.link.boards.get(robot) if self.link is not None else None)
         misfit = self.link.misfit(robot) if self.link is not None else None
         battery, latency = report.battery if report else None, self.latencies.get(robot)
-        deaf = report is not None and bool(report.flags & DEADMAN)
-        return RobotStatus(battery, share, self._seen(robot), latency, kind, misfit, deaf, self._name(robot))
+        flags = report.flags if report else 0
+        empty = bool(flags & EMPTY) or 0.0 < (battery or 0.0) < kind.stop_mv / 1000
+        return RobotStatus(
+            battery, share, self._seen(robot), latency, kind, misfit, bool(flags & DEADMAN), empty, self._name(robot)
+        )
 
     # ---- inside
 

@@ -19,10 +19,15 @@ def fit_size(text: str, size: int, width: float, face: str = "head") -> int:
     return size if wide <= width else int(size * width / wide)
 
 
+def parts(text: str) -> list[str]:
+    """The parts of a text between which a line may break: not at a no-break space."""
+    return [part for part in text.replace("\n", " ").split(" ") if part]
+
+
 def wrap(text: str, size: int, width: float, face: str = "body") -> list[str]:
     """Break a text into lines at most `width` px wide."""
     lines = [""]
-    for part in text.split():
+    for part in parts(text):
         longer = f"{lines[-1]} {part}".strip()
         if lines[-1] and text_width(longer, size, face) > width:
             lines.append(part)
@@ -33,9 +38,9 @@ def wrap(text: str, size: int, width: float, face: str = "body") -> list[str]:
 
 def wrap_balanced(text: str, count: int, size: int = BODY, face: str = "body") -> list[str]:
     """Break a text into at most `count` lines, the longest as short as possible."""
-    parts = text.split()
+    words = parts(text)
     widths = {
-        text_width(" ".join(parts[i:j]), size, face) for i in range(len(parts)) for j in range(i + 1, len(parts) + 1)
+        text_width(" ".join(words[i:j]), size, face) for i in range(len(words)) for j in range(i + 1, len(words) + 1)
     }
     return next((lines for w in sorted(widths) if len(lines := wrap(text, size, w, face)) <= count), [])
 

@@ -49,14 +49,14 @@ def dimmed(lit: LitImage, share: float) -> LitImage:
 
 @cached
 @resumable
-def heading(title: str, right: str = "", color: Color = ICE) -> Steps[LitImage]:
+def heading(title: str, right: str = "", color: Color = ICE, right_color: Color = MIST) -> Steps[LitImage]:
     """A page heading: title, a line below it, and an optional text at the right end."""
     layer = Layer(LEFT, 54, RIGHT - LEFT, 130)
     size = fit_size(title, TITLE, 1000)
     layer.canvas.text(title, size, LEFT, 112, color)
     if right:
         room = RIGHT - LEFT - 60 - text_width(title, size)
-        layer.canvas.body(right, RIGHT, 112, MIST, "r", fit_size(right, BODY, room, "body"))
+        layer.canvas.body(right, RIGHT, 112, right_color, "r", fit_size(right, BODY, room, "body"))
     layer.glow.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], color, LINE)
     yield
     return (yield from layer.render_steps())

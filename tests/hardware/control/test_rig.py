@@ -8,6 +8,7 @@ import pytest
 
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.signals import CameraFrame, WheelCommand
 from tests.hardware.mat import Mat
 
@@ -157,3 +158,34 @@ def test_a_battery_that_is_not_measured_is_no_empty_one():
     mat = Mat()
     mat.robots[0].battery = 0.0
     assert mat.rig.health({0: 0.0}, mat.rig.snapshot())[0].battery > 5.0
+
+
+def test_commands_that_are_lost_on_the_air_explain_a_robot_that_stands():
+    """A robot that is held is stuck; one whose reports cease, or tell of its deadman, is not, and is judged anew."""
+    mat = Mat()
+    held, free = mat.robots[:2]
+    held.roll = lambda: None
+    ahead = WheelCommand(0.4, 0.4)
+
+    def stuck(seconds):
+        """Verdict on the held robot after so many seconds of commands; the greatest one on the way."""
+        found = []
+        for _ in range(round(seconds / 0.02)):
+            mat.rig.send([ahead, ahead, None, None])
+            mat.pass_time(0.02)
+            health = mat.rig.health({0: 0.0, 1: 0.0}, mat.rig.snapshot())
+            assert health[1].stuck == 0.0
+            found.append(health[0].stuck)
+        return found[-1], max(found)
+
+    assert stuck(1.2)[0] > 0.399
+    held.silent = True
+    assert stuck(1.0)[0] == 0.0
+    held.silent = False
+    assert stuck(0.3) == (0.0, 0.0), "what was lost explains nothing, but is no evidence either"
+    assert stuck(0.9)[0] > 0.399, "commands reach it again, and it still stands"
+    held.flags = DEADMAN
+    assert stuck(0.1)[0] == 0.0
+    held.flags = 0
+    assert stuck(0.3) == (0.0, 0.0)
+    assert free.x > 200.0

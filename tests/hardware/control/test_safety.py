@@ -49,12 +49,12 @@ def judged(sign, others=GOOD, now=1.0):
         (GOOD._replace(battery=3.4, battery_low=3.3, battery_empty=3.0), Response.WARN, Response.WARN, []),
         (GOOD._replace(battery=4.41), Response.WARN, Response.WARN, []),
         (GOOD._replace(battery=4.39), Response.WARN, Response.WARN, [("low", 0, False)]),
-        (GOOD._replace(battery=3.99), Response.OFF, Response.WARN, [("empty", 0, True), ("low", 0, False)]),
+        (GOOD._replace(battery=3.99), Response.OFF, Response.WARN, [("empty", 0, True)]),
         (
             GOOD._replace(battery=4.2, undervoltage=True),
             Response.OFF,
             Response.WARN,
-            [("empty", 0, True), ("low", 0, False)],
+            [("empty", 0, True)],
         ),
         (GOOD._replace(deadman_seconds=0.001), Response.WARN, Response.WARN, [("deadman", 0, False)]),
         (GOOD._replace(deadman_seconds=0.6), Response.STOP, Response.WARN, [("deadman", 0, True)]),
@@ -70,7 +70,7 @@ def test_every_line_of_the_table(sign, own, others, faults):
 def test_of_two_faults_the_stricter_holds_and_both_are_said():
     own, _, faults = judged(GOOD._replace(unseen=0.15, battery=3.9))
     assert own == Response.OFF
-    assert [name for name, _, _ in faults] == ["unseen", "empty", "low"]
+    assert [name for name, _, _ in faults] == ["unseen", "empty"]
 
 
 def test_a_match_goes_on_only_when_the_fault_has_been_gone_for_a_moment():
@@ -129,10 +129,7 @@ def test_a_fault_is_a_plain_sentence():
     safety = Safety()
     safety.judge([GOOD, GOOD._replace(battery=3.9)], 1.0)
     texts = [Words("en")(f"faults.{fault.name}", robot=fault.robot + 1) for fault in safety.faults]
-    assert texts == [
-        "The battery of robot 2 is empty: change it. Its motors stay off until then.",
-        "The battery of robot 2 is low: change it soon.",
-    ]
+    assert texts == ["The battery of robot 2 is empty: change it. Its motors stay off until then."]
 
 
 def test_a_robot_that_is_no_real_one_any_more_takes_its_faults_along():

@@ -8,7 +8,7 @@ from pigaming_app.hardware.emulator.arena import ARENA_ID, EmulatedArena
 from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.radio import TRANSPARENT, RadioChannel
 from pigaming_app.hardware.radio.link import Link
-from pigaming_app.hardware.radio.packets import drive_packet
+from pigaming_app.hardware.radio.packets import EMPTY, LOW, drive_packet
 from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
 from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.corruption import corrupt_packets
@@ -83,6 +83,16 @@ def test_a_robot_that_cannot_be_driven_is_named_and_stands(fault, reason, arena)
     run([pair], 1.0, [AHEAD])
     assert link.misfit(1) is None
     assert 1 in link.telemetry
+
+
+def test_an_empty_battery_keeps_the_motors_off_until_it_is_charged_and_the_computer_reads_why():
+    pair = arena, link = linked(12)
+    for volts, drives, flags in ((5.0, True, 0), (3.9, False, LOW | EMPTY), (4.2, False, LOW | EMPTY), (4.5, True, 0)):
+        arena.robots[1].battery = volts
+        run([pair], 0.5, [AHEAD])
+        assert (arena.clock() - arena.last_driven[1] < 0.1) == drives
+        assert link.telemetry[1].flags & (LOW | EMPTY) == flags
+        assert arena.clock() - arena.last_driven[0] < 0.1, "the others drive on"
 
 
 def moved_by(count, seed=1):

@@ -50,7 +50,7 @@ def test_an_exposure_that_is_short_enough_stays():
 def test_a_driver_that_sets_no_shorter_one_is_read_back_and_named():
     control, _ = controlled(TRAITS["stubborn"])
     assert control.state.seconds == pytest.approx(1 / 30, rel=0.01)
-    assert "1/30 s" in sentence(warning_of(control.state))
+    assert "1/30\u00a0s" in sentence(warning_of(control.state))
 
 
 @pytest.mark.parametrize(("fps", "warned"), [(30.0, True), (60.0, False)])
@@ -60,7 +60,7 @@ def test_without_a_figure_the_interval_of_the_pictures_is_the_bound(fps, warned)
     assert control.state.bound == pytest.approx(1 / fps)
     warning = warning_of(control.state)
     assert (warning is not None) == warned
-    assert not warned or "may be 1/30 s" in sentence(warning)
+    assert not warned or "may be 1/30\u00a0s" in sentence(warning)
 
 
 def test_a_picture_that_gets_too_dark_gets_gain():

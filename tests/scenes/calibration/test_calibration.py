@@ -193,7 +193,7 @@ def test_a_long_exposure_is_warned_about_though_the_calibration_is_accurate(
 ) -> None:
     result = concluded(arcade, with_picture(made, 1 / 45, 0.8))
     assert result.finding.good
-    assert "1/45 s" in result._warning(result.finding.ground.quality)[0]
+    assert "1/45\u00a0s" in result._warning(result.finding.ground.quality)[0]
     arcade.picture()
     arcade.press(Button.FIRE)
     kept = store.load(store.calibration_file(arcade.site.name)).quality

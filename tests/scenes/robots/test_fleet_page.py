@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.scenes.robots.avoid_discs import hit
@@ -68,7 +69,7 @@ def test_the_exposure_is_shown_and_a_long_one_or_a_poor_calibration_warned_about
     mat.arena.camera.manual = 1 / 30  # the driver has forgotten it
     page.check.rig.camera._control._read()  # type: ignore[union-attr]
     assert page._state().endswith("1/30 s")
-    assert "smear at 1/30 s" in page._message()
+    assert "smear at 1/30\u00a0s" in page._message()
     mat.quality, mat.arena.camera.manual = quality, 0.006
 
 
@@ -76,6 +77,7 @@ def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSes
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)
     mat.arena.faults.switch("old_firmware", True, 1)
+    mat.arena.faults.switch("battery_low", True, 3)
     arcade.wait(4.0, fps=50)
     page = arcade.shown(FleetPage)
     heard, _, seen, _ = page.lines[0]
@@ -84,10 +86,30 @@ def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSes
     assert seen == "seen  ·  Pololu 3pi"
     assert page.lines[1][::2] == ("old firmware", "flash it anew")
     assert page.lines[2][0] == "no signal"
+    assert page.lines[3][0] == "battery empty: 3.9 V"
+    mat.arena.faults.switch("battery_low", False, 3)
+    arcade.wait(2.0, fps=50)
     assert page.lines[3][2] == "not seen  ·  Pololu 3pi"
-    mat.arena.faults.switch("robot_off", False, 2)
-    mat.arena.faults.switch("old_firmware", False, 1)
-    mat.arena.faults.switch("marker_covered", False, 3)
+    for name, robot in mat.arena.faults.on():
+        mat.arena.faults.switch(name, False, robot)
+
+
+def test_why_a_robot_cannot_drive_is_shown_with_its_remedy(
+    arcade: Arcade, mat: EmulatedSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = arcade.shown(FleetPage)
+    fine = page.check.health(0)
+    lines = {
+        "key": ("another key", "copy its config.py anew"),
+        "no_arena": ("no arena number", "flash it anew"),
+        "foreign": ("no signal", "only from arena 78"),
+    }
+    states = [(replace(fine, misfit=Misfit(reason, 78, 0.0)), shown) for reason, shown in lines.items()]
+    states.append((replace(fine, battery=3.9, empty=True), ("battery empty: 3.9 V", "change it")))
+    states.append((replace(fine, deaf=True), ("receives no commands", "seen")))
+    for state, shown in states:
+        monkeypatch.setattr(page.check, "health", lambda robot, state=state: state)
+        assert page._read(0)[::2] == shown
 
 
 def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSession) -> None:
