@@ -24,6 +24,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 
 TURNS = 360  # headings of a sprite
 REACH = 48  # px of light beyond an outline, besides its margin
+RIM = 8  # px of light beyond the margin of a wall that covers the ground
 BUILD = 0.002  # s a frame for building sprites
 GLOW = 0.9
 Shape = tuple[Point, ...]  # corners, whole px from their mean, with the longest side along x
@@ -39,6 +40,7 @@ class Placed(NamedTuple):
     turn: int
     margin: int
     dark: Shape  # canvas px; empty for flat things
+    bed: Shape  # canvas px, the area from which its light replaces the ground
 
 
 class ThingsOnMat:
@@ -71,14 +73,21 @@ class ThingsOnMat:
             if sprite and sprite[0] == thing.shape:
                 put(batch, sprite[1], thing.x, thing.y)
 
+    def clear(self, screen: pygame.Surface) -> None:
+        """Black out the ground below all things and the light on their edges, within the arena."""
+        _black_out(screen, [thing.bed for thing in self.placed])
+
     def cover(self, screen: pygame.Surface) -> None:
         """Black out all things that light must not fall on, within the arena."""
-        before = screen.get_clip()
-        screen.set_clip(before.clip(pygame.Rect(LEFT, TOP, int(WIDTH), int(HEIGHT))))
-        for thing in self.placed:
-            if thing.dark:
-                pygame.draw.polygon(screen, BLACK, thing.dark)
-        screen.set_clip(before)
+        _black_out(screen, [thing.dark for thing in self.placed if thing.dark])
+
+
+def _black_out(screen: pygame.Surface, areas: Sequence[Shape]) -> None:
+    before = screen.get_clip()
+    screen.set_clip(before.clip(pygame.Rect(LEFT, TOP, int(WIDTH), int(HEIGHT))))
+    for area in areas:
+        pygame.draw.polygon(screen, BLACK, area)
+    screen.set_clip(before)
 
 
 @lru_cache(maxsize=64)
@@ -91,10 +100,13 @@ def place(thing: ThingSpec) -> Placed:
     angle = math.atan2(by - ay, bx - ax)
     c, s = math.cos(angle), math.sin(angle)
     shape = tuple((float(round(c * px + s * py)), float(round(c * py - s * px))) for px, py in corners)
-    margin = math.ceil(thing.margin) if thing.use is Use.WALL else 0
-    dark = grown([(LEFT + px, TOP + py) for px, py in thing.outline], margin) if thing.use is Use.WALL else ()
     turn = round(angle / math.tau * TURNS) % TURNS
-    return Placed(LEFT + x, TOP + y, thing.use, shape, turn, margin, tuple(dark))
+    on_canvas = [(LEFT + px, TOP + py) for px, py in thing.outline]
+    if thing.use is not Use.WALL:
+        return Placed(LEFT + x, TOP + y, thing.use, shape, turn, 0, (), tuple(on_canvas))
+    margin = math.ceil(thing.margin)
+    dark, bed = tuple(grown(on_canvas, margin)), tuple(grown(on_canvas, margin + RIM))
+    return Placed(LEFT + x, TOP + y, thing.use, shape, turn, margin, dark, bed)
 
 
 @cached
