@@ -28,6 +28,7 @@ from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.ai.race import steering_help
 from pigaming_app.ai.registry import make_brain
+from pigaming_app.games import starts
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
 from pigaming_app.games.factory import pedestrians as walker
@@ -36,7 +37,7 @@ from pigaming_app.games.factory import stars, state
 from pigaming_app.games.factory.start import Rules as FactoryRules
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks import state as pitanks
-from pigaming_app.games.race import circuit, furniture, party, recovery
+from pigaming_app.games.race import circuit, furniture, party, passages, recovery
 from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race import state as race_state
 from pigaming_app.games.registry import games
@@ -45,6 +46,7 @@ from pigaming_app.scenes.results import initials
 from pigaming_app.sim import action, angles, arena, contact, drivetrain, world
 from pigaming_app.sim import robot as robots
 from pigaming_app.sim.record import fields_of
+from pigaming_app.sim.things import mud, spec
 from pigaming_app.storage.scores import table
 
 race = import_module("pigaming_app.games.race.start")  # the package's own name `start` is a function
@@ -56,6 +58,7 @@ CONSTANTS = {  # by section of docs/games.md, the modules in which its constants
     "PiTanks": (pitanks, arena),
     "Robot Factory": (state, walker, factory_rules, stars),
     "Robot Race": (race, race_rules, race_state, furniture, party, recovery),
+    "Things": (mud, passages, race, starts, spec),
     "Results and tables of best scores": (table, initials),
     "Arena files": (world, arena, race, circuit, floor),
 }

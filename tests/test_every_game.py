@@ -11,14 +11,24 @@ import pytest
 
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, make_brain
-from pigaming_app.games.arenas import arenas
+from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import digest, numbers
+from pigaming_app.sim.things.spec import ThingSpec, written
 from tests.cases import one_in
 
+SQUARE = ((0.0, 0.0), (50.0, 0.0), (50.0, 50.0), (0.0, 50.0))
 EVERY_ARENA = [(game, arena) for game in games() for arena in arenas(game)]
+THINGS = {
+    game: [ThingSpec(use, tuple((x + u, y + v) for u, v in SQUARE), 4.0) for use, x, y in things]
+    for game, things in {
+        "pitanks": (("wall", 300, 450), ("mud", 800, 640), ("line", 500, 300)),
+        "factory": (("wall", 800, 380), ("mud", 420, 120), ("line", 500, 800)),
+        "race": (("wall", 790, 110), ("mud", 300, 180), ("line", 1300, 780)),
+    }.items()
+}
 TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
 
 
@@ -42,6 +52,13 @@ def company(game):
     """Brains for the four seats: the best one, a machine by hand, if any, and random ones."""
     kinds = BRAINS[game]
     return [kinds.get("hard", kinds["random"]), kinds["random"], kinds.get("fsm", kinds["random"]), kinds["random"]]
+
+
+def with_things(game, folder):
+    """The file of the game's first arena with a box, mud and a line on it."""
+    path = folder / "things.toml"
+    path.write_text(load(game, arenas(game)[0]).source + written(THINGS[game]), encoding="utf-8")
+    return path
 
 
 def played(setup, brains=("random",) * 4):
@@ -69,8 +86,8 @@ def test_a_random_match_ends_when_its_time_is_up(game, arena):
 
 
 @pytest.mark.parametrize("game", one_in(3, games()))  # compiling takes long
-def test_both_bodies_play_the_same_match_to_the_last_bit(game):
-    names = arenas(game)
+def test_both_bodies_play_the_same_match_to_the_last_bit(game, tmp_path):
+    names = [*arenas(game), str(with_things(game, tmp_path))]
     variants = [*games()[game].variants] * 2
     setups = [
         setup(game, name, seed, variant, minutes=60.0)

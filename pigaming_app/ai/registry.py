@@ -23,6 +23,7 @@ from pigaming_app.ai.race.steering_help import with_help
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import ChoiceError, require_one_of
+from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import ROBOTS
 
@@ -120,9 +121,12 @@ def make_brain(game: str, name: str, seed: int) -> BrainPlayer:
     return BrainPlayer(find_brain(game, name), seed)
 
 
-def new_match(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant) -> Match:
-    """A match with an AI player on every seat that names a brain; all other seats stay idle. Raises ChoiceError."""
-    match = Match(setup, plant)
+def new_match(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant, arena: Arena | None = None) -> Match:
+    """A match with an AI player on every seat that names a brain; all other seats stay idle. Raises ChoiceError.
+
+    `arena`: in place of that of the setup.
+    """
+    match = Match(setup, plant, arena)
     for i, seat in enumerate(setup.seats):
         if is_brain(setup.game, seat.brain):
             match.sit(i, make_brain(setup.game, seat.brain, setup.seed * ROBOTS + i))

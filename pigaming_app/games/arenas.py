@@ -1,12 +1,14 @@
 """Loading of arenas: files under assets/arenas/GAME/, parsed by the game they belong to, and arenas from a seed."""
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_arena
+from pigaming_app.sim.things.spec import ThingSpec, written
 
 MAX_BYTES = 100_000  # per file; replays contain a copy
 SURPRISE = re.compile(r"surprise-(\d{1,9})")  # name of an arena that is made from this seed
@@ -48,3 +50,8 @@ def _read(path: Path) -> str:
 def parse(game: str, source: str, file: str) -> Arena:
     """Parse and validate an arena file of a game. Raises ArenaError, with `file`, key and reason."""
     return parse_arena(source, file, games()[game].read)
+
+
+def with_things(game: str, arena: Arena, things: Sequence[ThingSpec]) -> Arena:
+    """An arena of a game with real things on it. Raises ArenaError if it cannot be played with them."""
+    return parse(game, arena.source + written(things), f"{arena.name}.toml") if things else arena

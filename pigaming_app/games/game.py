@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pigaming_app.sim.arena import Arena, Layout
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.toml_table import TomlTable
 
 FREE, ALONE, PAIRS, ALLIES = "free", "alone", "pairs", "allies"
@@ -80,6 +81,11 @@ class Variant:
     feats: tuple[str, ...] = ()  # names of its high-score tables; empty: all of the game
 
 
+Reroute = Callable[[Arena, Any, tuple[ThingSpec, ...]], Callable[[Any], None]]
+"""reroute(arena, rules, things), once things have moved: the slow part of a new plan, for any thread. Its result is to
+be called with the match, between two ticks. Raises FieldError if robots cannot pass the things."""
+
+
 @dataclass(frozen=True)
 class Game:
     """The functions and properties of one game. `judge` and `observe` are kernels: they run plain and compiled."""
@@ -102,6 +108,7 @@ class Game:
     goal: str = ""  # unit of `goals`: laps, pallets
     rounds: tuple[int, ...] = (1,)  # the choices: the number of rounds of which most decide a match
     surprise: Callable[[int], str] | None = None  # the text of an arena file, from a seed
+    reroute: Reroute | None = None  # for AIs that do not plan from the walls alone
 
     def records_of(self, variant: str) -> tuple[RecordKind, ...]:
         """The high-score tables of a variant; of an unknown one, those of the default."""

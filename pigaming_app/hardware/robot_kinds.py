@@ -1,7 +1,7 @@
 """Kinds of robots: battery limits, size and radio of each.
 
 A robot on Wi-Fi announces its board; that of any other is a setting, by default the 3pi. Battery limits are for four
-rechargeable cells, or three in a micro:bit robot; the firmware of a robot applies its own limits in addition.
+rechargeable cells; the firmware of a robot applies its own limits in addition.
 """
 
 from typing import NamedTuple
@@ -25,7 +25,7 @@ KINDS = (
     RobotKind("pico_w", "Pico W", ("wifi", "xbee"), (2,), 4400, 4000, 60.0),
     RobotKind("3pi_2040", "Pololu 3pi+ 2040", ("xbee",), (3,), 4400, 4000, 49.0),
     RobotKind("zumo_2040", "Pololu Zumo 2040", ("xbee",), (), 4400, 4000, 70.0),  # 99 mm square: half its diagonal
-    RobotKind("microbit", "micro:bit", ("relay",), (4,), 3300, 3000, 60.0),  # three cells
+    RobotKind("microbit", "micro:bit", ("relay",), (4,), 4600, 4400, 60.0),  # its motor board needs 4.5 V
 )
 DEFAULT = KINDS[0]
 

@@ -4,8 +4,8 @@ import argparse
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING
 
-from pigaming_app.jobs.terminal.options import display, integer, mat_options, mat_settings, shared
-from pigaming_app.jobs.terminal.refusal import refused, require
+from pigaming_app.jobs.terminal.options import decimal, display, integer, mat_options, mat_settings, shared
+from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 
 if TYPE_CHECKING:
     from pigaming_app.scenes.app import Options
@@ -15,6 +15,7 @@ def options(parser: ArgumentParser) -> None:
     parser.usage = "%(prog)s [JOB] [OPTIONS]"
     shared(parser, "--kiosk", "--display")
     mat_options(parser)
+    ros_options(parser)
     parser.add_argument("--frames", type=integer(), help=argparse.SUPPRESS)
 
 
@@ -30,9 +31,33 @@ def run(arguments: Namespace) -> int:
             display=display(arguments),
             frames=arguments.frames,
             emulator_seed=arguments.emulate,
+            ros_width=ros_width(arguments),
+            emulated_things=arguments.things,
             changed_settings=mat_settings(arguments),
         )
     )
+
+
+def ros_options(parser: ArgumentParser) -> None:
+    """Declare the robots of a ROS network."""
+    parser.add_argument("--plant", choices=["own", "ros"], default="own", help="ros: robots of a ROS network")
+    parser.add_argument("--width", type=decimal(500.0, 10_000.0), metavar="MM", help="ros: width of the arena; 2112")
+
+
+def ros_width(arguments: Namespace) -> float | None:
+    """Width of the arena of a ROS network, mm; None: it is not asked for. Raises Refusal without ROS."""
+    from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
+    from pigaming_app.hardware.session.ros import WIDTH_MM
+
+    if arguments.plant != "ros":
+        if arguments.width is not None:
+            raise Refusal("--width: only for --plant ros; `calibrate` measures a mat")
+        return None
+    if arguments.emulate is not None:
+        raise Refusal("--plant ros: goes without --emulate")
+    with refused(RosUnavailable):
+        require_roscore()
+    return float(arguments.width or WIDTH_MM)
 
 
 def show(options: "Options") -> int:

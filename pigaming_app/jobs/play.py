@@ -18,7 +18,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import BEST_OF, ROUND_MINUTES, Rounds
 from pigaming_app.games.setup import ChoiceError, make_setup
-from pigaming_app.jobs.arcade import show
+from pigaming_app.jobs.arcade import ros_options, ros_width, show
 from pigaming_app.jobs.terminal.options import (
     DEFAULT_GAME,
     MATCH,
@@ -67,9 +67,8 @@ def options(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--robots", type=path, metavar="FILE", help="simulate these measured robots (see fidelity)")
     parser.add_argument("--real", metavar="SEATS", help="seats with real robots, such as 1,3, or all")
-    parser.add_argument("--plant", choices=["own", "ros"], default="own", help="ros: robots of a ROS network")
-    parser.add_argument("--width", type=decimal(500.0, 10_000.0), metavar="MM", help="ros: width of the arena; 2112")
     mat_options(parser)
+    ros_options(parser)
     shared(parser, "--kiosk", "--display", "--json")
 
 
@@ -92,9 +91,8 @@ def _play(arguments: Namespace) -> int:
     setup = make_setup(arguments.game, seats, arena, minutes, seed, variant, _teams(arguments.teams), names, wanted)
     speed = _speed(arguments.speed)
     real_seats = _real_seats(arguments, setup, speed)
-    if arguments.plant == "ros":
-        _check_ros()
-    elif real_seats:
+    width = ros_width(arguments)
+    if real_seats and width is None:
         _check_radio(chosen)
     plant = _plant(arguments, real_seats)
     _check_targets(arguments.record, arguments.screenshot)
@@ -102,7 +100,7 @@ def _play(arguments: Namespace) -> int:
         require("hardware")
     if arguments.headless and not real_seats:
         return _headless(arguments, setup, speed, plant, rounds)
-    return _on_screen(arguments, setup, min(speed, FASTEST), real_seats, plant, chosen, rounds)
+    return _on_screen(arguments, setup, min(speed, FASTEST), real_seats, plant, chosen, rounds, width)
 
 
 def _game(game: str | None, named: str | None) -> str:
@@ -169,10 +167,8 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
         raise Refusal(f"--real: {quote(text)}; numbers such as 1,3, or all, are needed") from None
     if stray := [seat + 1 for seat in seats if seat not in taken]:
         raise Refusal(f"--real: nobody sits on seat {quote(stray[0])}")
-    if arguments.plant == "ros" and (arguments.headless or arguments.emulate is not None or arguments.robots):
-        raise Refusal("--plant ros: goes without --headless, --emulate and --robots")
-    if arguments.width is not None and arguments.plant != "ros":
-        raise Refusal("--width: only for --plant ros; `calibrate` measures a mat")
+    if arguments.plant == "ros" and (arguments.headless or arguments.robots):
+        raise Refusal("--plant ros: goes without --headless and --robots")
     if seats and speed != 1.0 and not arguments.headless:
         raise Refusal("--speed: real robots drive in real time")
     if seats and arguments.headless and arguments.emulate is None:
@@ -189,14 +185,6 @@ def _check_radio(chosen: dict[str, Any]) -> None:
     settings.radio = chosen.get("radio", settings.radio)
     if reason := settings_problem(settings):
         raise Refusal(f"--radio: {english().long_sentence(reason)}")
-
-
-def _check_ros() -> None:
-    """Raises Refusal without ROS or without a roscore."""
-    from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
-
-    with refused(RosUnavailable):
-        require_roscore()
 
 
 def _speed(text: str) -> float:
@@ -288,9 +276,9 @@ def _on_screen(
     plant: Callable[[Any], Plant],
     chosen: dict[str, Any],
     rounds: Rounds | None,
+    width: float | None,
 ) -> int:
     """Play in a window; with --headless and emulated robots without one, as fast as possible."""
-    from pigaming_app.hardware.session.ros import WIDTH_MM
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.flow.context import Context
     from pigaming_app.scenes.flow.stack import Scene
@@ -343,7 +331,8 @@ def _on_screen(
             step=DT if arguments.headless else None,
             should_close=over,
             emulator_seed=arguments.emulate,
-            ros_width=(arguments.width or WIDTH_MM) if arguments.plant == "ros" else None,
+            emulated_things=arguments.things,
+            ros_width=width,
             changed_settings=chosen,
         )
     )

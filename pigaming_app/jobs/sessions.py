@@ -1,5 +1,6 @@
 """The robots of a job: the real ones of the settings, or the emulated arena in simulated time."""
 
+from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.storage.settings import Settings, folders
 
@@ -25,8 +26,6 @@ def emulated_session(seed: int, wifi: bool = False) -> RobotSession:
 
 def real_session(camera: int | None = None, port: str | None = None, radio: str | None = None) -> RobotSession:
     """A session with the robots of the settings, not yet open; `camera`, `port` and `radio` override the settings."""
-    from pigaming_app.hardware.session.real import RealSession
-
     settings, _ = Settings.load(folders().config)
     settings.camera = settings.camera if camera is None else camera
     settings.port = port or settings.port
@@ -36,4 +35,6 @@ def real_session(camera: int | None = None, port: str | None = None, radio: str 
 
 def new_session(emulate: int | None, camera: int | None, port: str | None, radio: str | None = None) -> RobotSession:
     """The emulated session of a seed, or the real one. Raises RobotsUnavailable."""
-    return emulated_session(emulate, radio == "udp") if emulate is not None else real_session(camera, port, radio)
+    if emulate is None:
+        return real_session(camera, port, radio)
+    return emulated_session(emulate, (radio or Settings.load(folders().config)[0].radio) == UDP)

@@ -20,7 +20,7 @@ from typing import IO, TYPE_CHECKING, Any
 import pygame
 
 from pigaming_app.hardware.messages import OperatorError
-from pigaming_app.hardware.session.real import RealSession
+from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
@@ -71,6 +71,7 @@ class Options:
     should_close: Callable[[], bool] = lambda: False  # close after this picture if true
     ros_width: float | None = None  # mm, width of the arena of robots in a ROS network
     emulator_seed: int | None = None  # seed of an emulated arena instead of the real one
+    emulated_things: int = 0  # real things on its mat
     changed_settings: Mapping[str, object] = field(default_factory=dict)  # settings to store
 
 
@@ -374,21 +375,31 @@ class App:
 def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedSession | RealSession | RosSession":
     """The robot session: real or emulated. The emulator is imported late, so that the title appears at once."""
     if options.ros_width is not None:
-        return RosSession(options.ros_width)
+        network = RosSession(options.ros_width)
+        _make_ready(network, settings)
+        return network
     if options.emulator_seed is None:
         return RealSession(settings, lambda: canvas.projection)
+    from pigaming_app.hardware.emulator.wifi.air import WifiChannel
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
-    session = EmulatedSession(options.emulator_seed, options.step is None, lambda: canvas.projection)
+    wifi = WifiChannel() if settings.radio == UDP else None
+    live, things = options.step is None, options.emulated_things
+    session = EmulatedSession(options.emulator_seed, live, lambda: canvas.projection, wifi=wifi, things=things)
     canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
     print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
+    _make_ready(session, settings)
+    return session
+
+
+def _make_ready(session: "EmulatedSession | RosSession", settings: Settings) -> None:
+    """Open a session whose robots every lobby offers, while no picture is waiting; the first match reopens it."""
     settings.real = settings.real or [1, 2, 3, 4]
     try:
-        session.open()  # now, while no picture is waiting; reopened by the first match
+        session.open()
         session.close()
     except RobotsUnavailable as trouble:
         print(f"PiGaming: {english().long_sentence(trouble.message)}", file=sys.stderr)
-    return session
 
 
 def _sticks(session: RosSession) -> Callable[[int, bool], StickState | None]:

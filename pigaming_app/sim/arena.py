@@ -17,9 +17,11 @@ to = [300, 420]
 thick = 30               # px
 health = 5               # bullets it takes, default 5
 solid = true             # instead of health: indestructible
+
+Real things on the mat follow as [[thing]], see things/spec.py.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi, radians, sqrt
 from typing import Any
@@ -28,11 +30,13 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.grid import block_rim, wall_on_grid
 from pigaming_app.sim.robot import GAIN, RADIUS
+from pigaming_app.sim.things.spec import ThingSpec, mud_capsules, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable, quote
-from pigaming_app.sim.world import ROBOTS, SOLID, WALLS, World
+from pigaming_app.sim.world import MUDS, ROBOTS, SOLID, WALLS, World
 
 LANGUAGES = ("en", "pt")
 HEALTH = 5
+BUILT = 24  # walls in a file; things need the rest of WALLS
 MAX_TITLE = 40  # characters
 
 
@@ -63,11 +67,12 @@ class StartPose:
 
 @dataclass(frozen=True)
 class Layout:
-    """The parts of a file that the game parses: walls, four starts, and the game's own plan."""
+    """The parts of a file that the game parses: walls, four starts, the game's own plan, and things."""
 
     walls: tuple[WallSpec, ...]
     starts: tuple[StartPose, ...]
     plan: Any = None
+    things: tuple[ThingSpec, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -80,6 +85,7 @@ class Arena:
     starts: tuple[StartPose, ...]
     source: str
     plan: Any = None
+    things: tuple[ThingSpec, ...] = ()
 
 
 def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
@@ -88,7 +94,9 @@ def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
         table = TomlTable.parse(source)
         title = _title(table)
         layout = read(table)
-        arena = Arena(file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan)
+        arena = Arena(
+            file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan, layout.things
+        )
         _check_starts(arena)
     except FieldError as error:
         raise ArenaError(f"{file}: {error}") from None
@@ -96,26 +104,56 @@ def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
 
 
 def build(world: World, arena: Arena) -> None:
-    """Put an arena's walls into a fresh world and robots on its starts. The game sets `present`."""
-    world.wall_count = len(arena.walls)
+    """Put an arena's walls and things into a fresh world and robots on its starts. The game sets `present`.
+
+    Raises FieldError if there are more things than fit.
+    """
     block_rim(world)
-    for wall, spec in zip(world.walls, arena.walls, strict=False):
-        wall.ax, wall.ay, wall.bx, wall.by = spec.ax, spec.ay, spec.bx, spec.by
-        wall.half, wall.health, wall.initial_health = spec.half, spec.health, spec.health
-        edge = spec.half + RADIUS
-        wall.left, wall.right = min(spec.ax, spec.bx) - edge, max(spec.ax, spec.bx) + edge
-        wall.top, wall.bottom = min(spec.ay, spec.by) - edge, max(spec.ay, spec.by) + edge
-        wall_on_grid(world, wall, 1)
+    for spec in arena.walls:
+        _add_wall(world, spec)
+    add_things(world, arena.things)
+    for mud, part in zip(world.muds, mud_capsules(arena.things, MUDS), strict=False):
+        mud.ax, mud.ay, mud.bx, mud.by, mud.half = part
+        world.mud_count += 1
     for robot, start in zip(world.robots, arena.starts, strict=False):
         robot.x, robot.y, robot.heading = start.x, start.y, start.heading
         robot.gain, robot.turbo = GAIN, 1.0
 
 
+def add_things(world: World, things: Sequence[ThingSpec]) -> None:
+    """Add the walls of things after those of the world. Raises FieldError if there are more than fit."""
+    for part in wall_capsules(things, WALLS - world.wall_count):
+        _add_wall(world, WallSpec(*part, SOLID))
+
+
+def replace_things(world: World, things: Sequence[ThingSpec], first: int) -> None:
+    """Replace all walls from index `first` on by those of things that were moved. Raises FieldError as `add_things`."""
+    parts = wall_capsules(things, WALLS - first)
+    for wall in world.walls[first : world.wall_count]:
+        if wall.health:
+            wall_on_grid(world, wall, -1)
+    world.wall_count = first
+    world.shifts += 1
+    for part in parts:
+        _add_wall(world, WallSpec(*part, SOLID))
+
+
+def _add_wall(world: World, spec: WallSpec) -> None:
+    wall = world.walls[world.wall_count]
+    wall.ax, wall.ay, wall.bx, wall.by = spec.ax, spec.ay, spec.bx, spec.by
+    wall.half, wall.health, wall.initial_health = spec.half, spec.health, spec.health
+    edge = spec.half + RADIUS
+    wall.left, wall.right = min(spec.ax, spec.bx) - edge, max(spec.ax, spec.bx) + edge
+    wall.top, wall.bottom = min(spec.ay, spec.by) - edge, max(spec.ay, spec.by) + edge
+    wall_on_grid(world, wall, 1)
+    world.wall_count += 1
+
+
 def read_walls(table: TomlTable) -> tuple[WallSpec, ...]:
     """Parse the tables [[wall]]. Raises FieldError."""
     walls = tuple(_wall(entry) for entry in table.tables("wall"))
-    if len(walls) > WALLS:
-        raise table.error("wall", f"{len(walls)} walls, but at most {WALLS} are possible")
+    if len(walls) > BUILT:
+        raise table.error("wall", f"{len(walls)} walls, but at most {BUILT} are possible")
     return walls
 
 

@@ -28,7 +28,7 @@ class Route:
     waypoint_y: float
     straight: int  # 1: it is the goal itself
     root: int  # the node from which the field was built; 0: there is no field
-    walls: int  # number of walls standing at that time
+    walls: int  # number of walls standing at that time, and how often they were replaced before
     reach: Annotated[list[int], NODES_PADDED, "h"]  # steps to the root, 1 at the root, 0 not reached
     queue: Annotated[list[int], NODES_PADDED, "h"]  # frontier of the breadth-first search
 
@@ -128,7 +128,7 @@ def update_route(world: Any, route: Any, x: float, y: float) -> None:
     node = free_node(world, x, y)
     if root == 0 or node == 0:
         return
-    standing = 0
+    standing = 64 * world.shifts
     for i in range(world.wall_count):
         if world.walls[i].health:
             standing += 1

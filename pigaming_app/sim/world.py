@@ -2,13 +2,14 @@
 
 from typing import Annotated
 
-from pigaming_app.sim.record import added, record
+from pigaming_app.sim.record import added, grown, record
 
 HZ = 50  # ticks per second
 DT = 1.0 / HZ  # s
 WIDTH, HEIGHT = 1600.0, 900.0  # px, of the arena
 ROBOTS = 4
-WALLS = 24
+WALLS = 63  # what six bits of the grid count
+MUDS = 16
 CELL = 50.0  # px between the nodes of the grid
 COLUMNS, ROWS = 33, 19  # nodes at 0, 50 .. 1600 and 0, 50 .. 900 px; those on the rim are never free
 NODES = COLUMNS * ROWS
@@ -59,6 +60,17 @@ SOLID = -1
 
 
 @record
+class Mud:
+    """Ground on which robots are slow: all points within `half` px of the segment from (ax, ay) to (bx, by)."""
+
+    ax: float
+    ay: float
+    bx: float
+    by: float
+    half: float
+
+
+@record
 class Action:
     """Input of one seat: stick and buttons. The stick has steps of 1/64, which a replay file stores exactly."""
 
@@ -79,5 +91,8 @@ class World:
     robots: Annotated[list[Robot], ROBOTS]
     actions: Annotated[list[Action], ROBOTS]
     wall_count: int
-    walls: Annotated[list[Wall], WALLS]
+    walls: Annotated[list[Wall], WALLS] = grown(24)
     grid: Annotated[list[int], NODES_PADDED, "h"]  # see grid.py: walls that block a node, and walls near it
+    mud_count: int = added()
+    muds: Annotated[list[Mud], MUDS] = added()
+    shifts: int = added()  # how often walls were replaced during the match (real things that are moved)

@@ -177,6 +177,7 @@ class Settings:
     radio_channel: int = _setting(0, Range(0, 26))  # of the XBees, 11 to 26; 0: follows from the arena id
     radio_pan: int = _setting(0, Range(0, 65534))  # of the XBees; 0: follows from the arena id
     mat: bool = _setting(False, Boolean())  # real robots are selectable
+    blocks: bool = _setting(False, Boolean())  # things on the mat are blocks with markers, for a mat without projector
     real: list[int] = field(
         default_factory=list, metadata={"validator": SeatNumbers()}
     )  # seats with real robots, last chosen

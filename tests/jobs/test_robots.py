@@ -234,3 +234,11 @@ def test_the_configuration_of_a_wifi_robot_has_the_arena_and_a_key_drawn_once(ca
     assert (values["ROBOT"], values["ARENA"], values["NAME"]) == (2, 77, "Robot 2")
     assert values["KEY"] == settings.wifi_key
     assert len(bytes.fromhex(settings.wifi_key)) == 16
+
+
+def test_the_programs_of_micro_bits_have_the_number_of_the_arena(capsys):
+    for number, line in ((0, "ARENA = 77  #"), (2, "ROBOT, ARENA = 2, 77  #")):
+        assert main(["robots", "--microbit", str(number), "--arena", "77"]) == 0
+        text = capsys.readouterr().out
+        compile(text, "main.py", "exec")
+        assert line in text

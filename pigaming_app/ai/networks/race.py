@@ -149,6 +149,9 @@ def encode_course(match: Any, robot: Any, along: float, ahead_x: float, ahead_y:
         inputs[n + 2] = whole((ahead_x * ey - ahead_y * ex) / course.step)
         inputs[n + 3] = whole((half - ideal) / 200.0)
         inputs[n + 4] = whole((half + ideal) / 200.0)
+        if match.narrow:
+            inputs[n + 3] = whole((match.high[k] - ideal) / 200.0)
+            inputs[n + 4] = whole((ideal - match.low[k]) / 200.0)
         inputs[n + 5] = whole(match.pace[k])
         n += 6
 

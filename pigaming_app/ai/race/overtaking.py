@@ -42,6 +42,8 @@ def choose_lane(obs: Any, mind: Any) -> None:
         room, away = mark.half - EDGE, OWN + abs(obs.turn)
         for i in range(LANES):
             lane = room * (2.0 * i / (LANES - 1) - 1.0)
+            if mark.narrow and (lane < mark.low or lane > mark.high):
+                continue
             cost = lane_cost(obs, mind, lane) + away * abs(lane - wanted) + STEADY * abs(lane - mind.lane)
             if cost < least:
                 best, least = lane, cost

@@ -125,6 +125,8 @@ def race(obs: Any, mind: Any, action: Any) -> int:
     keep = obs.aside - obs.ideal + mark.ideal  # the lane that keeps the present distance to the fastest line
     lane = keep + shift if lane > keep + shift else keep - shift if lane < keep - shift else lane
     lane = room if lane > room else -room if lane < -room else lane
+    if mark.narrow:
+        lane = mark.high if lane > mark.high else mark.low if lane < mark.low else lane
     x, y = mark.x + (lane - mark.ideal) * mark.right_x, mark.y + (lane - mark.ideal) * mark.right_y
     pursue(obs, mind, action, x, y)
     return RACE

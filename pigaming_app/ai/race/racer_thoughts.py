@@ -119,7 +119,8 @@ def _goal(obs: Any, mind: Any) -> tuple[float, float]:
         return obs.return_x, obs.return_y
     mark = obs.ahead
     room = mark.half - EDGE
-    aside = min(room, max(-room, racer.aimed_lane(mind))) - mark.ideal
+    lane = min(room, max(-room, racer.aimed_lane(mind)))
+    aside = (min(mark.high, max(mark.low, lane)) if mark.narrow else lane) - mark.ideal
     return mark.x + aside * mark.right_x, mark.y + aside * mark.right_y
 
 

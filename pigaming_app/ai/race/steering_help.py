@@ -70,6 +70,8 @@ def _stick_to_line(match: Any, seat: int, place: CoursePosition) -> tuple[float,
     heading = robot.heading + LATE * robot.angular
     room = max(0.0, mark.half - INSIDE)
     shift = max(-room, min(room, mark.ideal)) - mark.ideal
+    if mark.narrow:
+        shift = max(mark.low, min(mark.high, mark.ideal + shift)) - mark.ideal
     x, y = mark.x + shift * mark.right_x, mark.y + shift * mark.right_y
     dx = x - robot.x - LATE * robot.linear * cos(heading)
     dy = y - robot.y - LATE * robot.linear * sin(heading)

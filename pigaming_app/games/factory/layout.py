@@ -22,7 +22,7 @@ at = [800, 450]
 at = [740, 130]
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 from pigaming_app.games.factory.state import (
@@ -44,11 +44,14 @@ from pigaming_app.games.factory.state import (
     A,
     B,
 )
+from pigaming_app.games.starts import clear_starts, free_place
 from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, read_starts
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, expand, free_node
+from pigaming_app.sim.things.cover import from_capsule
+from pigaming_app.sim.things.spec import read_things, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WIDTH, World
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WALLS, WIDTH, World
 
 WAYS = {"right": (1, 0), "left": (-1, 0), "down": (0, 1), "up": (0, -1)}
 TEAM_NAMES = {"ice": ICE, "fire": FIRE}
@@ -56,6 +59,7 @@ KINDS = {"entry": ENTRY, "exit": EXIT}
 BODY = 66.0  # px from a machine's centre to its sides
 ROUND = 36.0  # px, radius of a body's corners
 SLOT_AT, SPOT_AT = 126.0, 114.0  # px from a machine's centre to its slots, and to its worker
+PALLET = 30.0  # px, half a pallet
 SHELF = 88.0  # px between slots of a warehouse
 
 
@@ -94,7 +98,7 @@ class Floor:
 
 def read(table: TomlTable) -> Layout:
     """Parse a floor: warehouses, machines, aisle and workers. Raises FieldError."""
-    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared")
+    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared", "thing")
     starts = read_starts(table)
     machines = tuple(_machine(entry) for entry in table.tables("machine"))
     if sorted(machine.kind for machine in machines) != [A, A, B, B]:
@@ -103,8 +107,14 @@ def read(table: TomlTable) -> Layout:
     if len(homes) != WORKERS:
         raise table.error("worker", f"{len(homes)} workers, but there must be {WORKERS}")
     slots = (*_shelves(table), *_machine_slots(machines), *_shared_slots(table))
+    bodies = tuple(wall for machine in machines for wall in _body(machine))
+    layout = Layout(bodies, starts, things=read_things(table))
+    if layout.things:
+        layout = replace(layout, starts=clear_starts(layout))
+        machines, homes = _beside_things(layout, machines, homes)
+        _check_slots(layout, slots)
     floor = Floor(slots, machines, homes, _aisle(table.table("aisle")))
-    layout = Layout(tuple(wall for machine in machines for wall in _body(machine)), starts, floor)
+    layout = replace(layout, plan=floor)
     _check_reachable(layout, floor)
     return layout
 
@@ -181,10 +191,32 @@ def _body(machine: MachineSpec) -> tuple[WallSpec, WallSpec]:
     return upper, lower
 
 
+def _beside_things(
+    layout: Layout, machines: tuple[MachineSpec, ...], homes: tuple[tuple[float, float], ...]
+) -> tuple[tuple[MachineSpec, ...], tuple[tuple[float, float], ...]]:
+    """Machines whose workers stand on the free side, and resting places, both clear of things. Raises FieldError."""
+    world = World()
+    build(world, Arena("", {}, layout.walls, layout.starts, "", things=layout.things))
+    sides = []
+    for spec in machines:
+        other = replace(spec, spot_x=2 * spec.x - spec.spot_x, spot_y=2 * spec.y - spec.spot_y)
+        open_ones = [one for one in (spec, other) if not in_wall(world, one.spot_x, one.spot_y)]
+        sides.append((open_ones or [spec])[0])
+    return tuple(sides), tuple(home if not in_wall(world, *home) else free_place(world, *home) for home in homes)
+
+
+def _check_slots(layout: Layout, slots: tuple[SlotSpec, ...]) -> None:
+    """Raises FieldError if a thing covers a slot."""
+    for one in wall_capsules(layout.things, WALLS - len(layout.walls)):
+        for slot in slots:
+            if from_capsule(one, slot.x, slot.y) < PALLET:
+                raise FieldError("thing", f"one covers the slot at ({slot.x:g}, {slot.y:g})")
+
+
 def _check_reachable(layout: Layout, floor: Floor) -> None:
     """Raises FieldError unless robots can reach every slot, people every machine, and no slots overlap."""
     world = World()
-    build(world, Arena("", {}, layout.walls, layout.starts, "", floor))
+    build(world, Arena("", {}, layout.walls, layout.starts, "", floor, layout.things))
     field = Route()
     expand(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
     free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]

@@ -39,6 +39,7 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.games.factory.workers import fits, run_machines_and_workers
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
+from pigaming_app.sim.things.mud import SLOW, in_mud
 from pigaming_app.sim.world import ROBOTS
 
 APART = 6.0  # px of hysteresis: a touch ends at this distance beyond contact
@@ -259,5 +260,7 @@ def steer(match: Any, k: int) -> None:
     use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
     if robot.boosting:
         speed *= rules.turbo_factor
+    if match.mud_count and in_mud(match, robot.x, robot.y):
+        speed *= SLOW
     robot.requested_linear = action.linear * speed
     robot.requested_angular = action.angular * rules.turn_rate

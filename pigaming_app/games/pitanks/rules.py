@@ -22,6 +22,7 @@ from pigaming_app.sim.grid import NEAR_UNIT, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
 from pigaming_app.sim.sweep import ROUNDING, bounds_contact, disc_contact, offset_from_wall, wall_contact
+from pigaming_app.sim.things.mud import SLOW, in_mud
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
 
 ALL_POWERS = len(POWERS)
@@ -84,6 +85,8 @@ def steer(match: Any, k: int) -> None:
             speed *= rules.turbo_factor
     if match.tanks[k].powers[SPEED]:
         speed *= rules.speed_factor
+    if match.mud_count and in_mud(match, robot.x, robot.y):
+        speed *= SLOW
     robot.requested_linear = action.linear * speed
     robot.requested_angular = action.angular * rules.turn_rate
 

@@ -1,11 +1,14 @@
 """PiTanks: initial state of a match, its variants, and its statistics."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from pigaming_app.games.game import Setup, Variant, named
 from pigaming_app.games.pitanks.state import PiTanks, Rules
+from pigaming_app.games.starts import clear_starts
 from pigaming_app.sim.arena import Arena, Layout, build, read_starts, read_walls
 from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.things.spec import read_things
 from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HZ
 
@@ -21,8 +24,9 @@ VARIANTS = named(
 
 def read(table: TomlTable) -> Layout:
     """Parse an arena: walls and starts. Raises FieldError."""
-    table.only("title", "start", "wall")
-    return Layout(read_walls(table), read_starts(table))
+    table.only("title", "start", "wall", "thing")
+    layout = Layout(read_walls(table), read_starts(table), things=read_things(table))
+    return replace(layout, starts=clear_starts(layout))
 
 
 def start(match: PiTanks, arena: Arena, setup: Setup) -> None:

@@ -3,7 +3,7 @@
 from pigaming_app.games.game import Game, RecordKind
 from pigaming_app.games.race.observation import Observation, Senses, observe
 from pigaming_app.games.race.rules import judge
-from pigaming_app.games.race.start import VARIANTS, ranking_key, read, records, start, stats, times
+from pigaming_app.games.race.start import VARIANTS, ranking_key, read, records, reroute, start, stats, times
 from pigaming_app.games.race.state import Race
 
 RACE = Game(
@@ -23,4 +23,5 @@ RACE = Game(
     records=records,
     times=times,
     goal="laps",
+    reroute=reroute,
 )

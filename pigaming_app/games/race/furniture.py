@@ -8,17 +8,29 @@ from collections.abc import Sequence
 from itertools import accumulate
 from math import atan2, hypot, tau
 
-from pigaming_app.games.race.course import POINTS, Course, half_width_at, point_at, segment_at
+from pigaming_app.games.race.course import (
+    POINTS,
+    Course,
+    CoursePosition,
+    half_width_at,
+    locate,
+    point_at,
+    segment_at,
+)
+from pigaming_app.games.race.passages import Span
 from pigaming_app.games.race.state import BOXES, PADS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import StartPose
 from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.things.spec import ThingSpec, Use
+from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import ROBOTS
 
 BEHIND = 55.0  # px between a robot's start and its line
 ROW, FARTHEST_ROW = 110, 300  # px between the rows of the grid: on a straight, and the limit in bends
 COLUMN = 46.0  # px from the middle of the course to either column
 SPACE = 6.0  # px, least gap between robots on the grid; virtual walls of real robots need 4
+STEP_BACK = 10  # px between tried places on the grid
 PAD_RUN = 300.0  # px of straight wanted after a pad
 PAD_ASIDE, BOX_ASIDE = 0.4, 0.5  # of half the width
 LINE_SPACE = 120.0  # px from a line to a pad or a box
@@ -40,6 +52,32 @@ def pose_at(course: Course, along: float, aside: float = 0.0) -> StartPose:
     return StartPose(x, y, heading_at(course, along))
 
 
+def clear_pose(course: Course, along: float, aside: float, spans: Sequence[Span]) -> StartPose:
+    """The pose at (along, aside), moved aside to where robots can pass; `spans` are empty if there are no things."""
+    if spans:
+        low, high = spans[segment_at(course, along)[0]]
+        aside = min(max(aside, low), high)
+    return pose_at(course, along, aside)
+
+
+def taped(course: Course, things: Sequence[ThingSpec]) -> list[float]:
+    """Where lines of tape lie across the course, px along it."""
+    found = []
+    for thing in things:
+        (x, y), place = thing.middle, CoursePosition()
+        locate(course, x, y, place)
+        along = [x * place.tangent_x + y * place.tangent_y for x, y in thing.outline]
+        aside = [y * place.tangent_x - x * place.tangent_y for x, y in thing.outline]
+        if thing.use is Use.LINE and place.on and max(along) - min(along) < max(aside) - min(aside):
+            found.append(place.along)
+    return found
+
+
+def separation(course: Course, a: float, b: float) -> float:
+    """Distance between two places along the course, the shorter way, px."""
+    return min((a - b) % course.length, (b - a) % course.length)
+
+
 def common_line(course: Course, lines: Sequence[float]) -> int:
     """Index of the line with the straightest approach: start and finish of everybody in `party`."""
     between = Bends(course).between
@@ -47,8 +85,13 @@ def common_line(course: Course, lines: Sequence[float]) -> int:
     return bends.index(min(bends))
 
 
-def grid(course: Course, line: float) -> tuple[StartPose, ...]:
-    """Four start poses in two rows behind a line at `line` px; the rows are as far apart as a bend requires."""
+def grid(course: Course, line: float, spans: Sequence[Span] = ()) -> tuple[StartPose, ...]:
+    """Four start poses in two rows behind a line at `line` px; the rows are as far apart as a bend requires.
+
+    Where things stand, each is the next place behind the line, in its column, where robots can pass.
+    """
+    if spans:
+        return _grid_beside(course, line, spans)
     poses: list[StartPose] = []
     for row in range(ROW, FARTHEST_ROW, 10):
         poses = []
@@ -58,6 +101,21 @@ def grid(course: Course, line: float) -> tuple[StartPose, ...]:
             poses.append(pose_at(course, along, aside if place % 2 else -aside))
         if min(hypot(a.x - b.x, a.y - b.y) for a in poses[:2] for b in poses[2:]) >= 2 * RADIUS + SPACE:
             break
+    return tuple(poses)
+
+
+def _grid_beside(course: Course, line: float, spans: Sequence[Span]) -> tuple[StartPose, ...]:
+    """Four start poses behind a line, beside things. Raises FieldError if there is no room within half a lap."""
+    poses: list[StartPose] = []
+    for back in range(round(BEHIND), round(course.length / 2), STEP_BACK):
+        half = half_width_at(course, *segment_at(course, line - back))
+        for side in (-1.0, 1.0):
+            pose = clear_pose(course, line - back, side * min(COLUMN, half - RADIUS), spans)
+            free = all(hypot(pose.x - other.x, pose.y - other.y) >= 2 * RADIUS + SPACE for other in poses)
+            if free and len(poses) < ROBOTS:
+                poses.append(pose)
+    if len(poses) < ROBOTS:
+        raise FieldError("thing", "no room for four robots behind the line")
     return tuple(poses)
 
 
@@ -71,9 +129,14 @@ def pad_aside(course: Course, along: float, ideal: float) -> float:
     return across(course, along, -PAD_ASIDE if ideal > 0.0 else PAD_ASIDE)
 
 
-def place_boxes(course: Course, lines: Sequence[float], pads: Sequence[float]) -> tuple[tuple[float, float], ...]:
-    """Item boxes, each at (along, aside) px, in rows across the course."""
+def place_boxes(
+    course: Course, lines: Sequence[float], pads: Sequence[float], spans: Sequence[Span] = ()
+) -> tuple[tuple[float, float], ...]:
+    """Item boxes, each at (along, aside) px, in rows across the course, or across the passage beside things."""
     rows = _spots(course, lines, pads, BOXES // ABREAST, -80.0, 80.0)
+    if spans:
+        passes = [(along, *spans[segment_at(course, along)[0]]) for along in rows]
+        return tuple((along, low + share * (high - low)) for along, low, high in passes for share in (0.25, 0.75))
     return tuple((along, across(course, along, side)) for along in rows for side in (-BOX_ASIDE, BOX_ASIDE))
 
 
@@ -96,18 +159,13 @@ def _spots(
     for _ in range(count):
         costs = [
             cost
-            + CROWDED * sum(_gap(course, along, other) < LINE_SPACE for other in lines)
-            + CROWDED * sum(_gap(course, along, other) < PAD_SPACE for other in pads)
-            + CROWDED * sum(_gap(course, along, other) < course.length / (count + 2) for other in found)
+            + CROWDED * sum(separation(course, along, other) < LINE_SPACE for other in lines)
+            + CROWDED * sum(separation(course, along, other) < PAD_SPACE for other in pads)
+            + CROWDED * sum(separation(course, along, other) < course.length / (count + 2) for other in found)
             for along, cost in zip(places, bends, strict=True)
         ]
         found.append(places[costs.index(min(costs))])
     return sorted(found)
-
-
-def _gap(course: Course, a: float, b: float) -> float:
-    """Distance between two places along the course, the shorter way, px."""
-    return min((a - b) % course.length, (b - a) % course.length)
 
 
 class Bends:

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from pigaming_app.games.race.course import CoursePosition, distance_ahead, locate, point_at, segment_at
 from pigaming_app.games.race.laps import stretch
+from pigaming_app.games.race.passages import clear_aside
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import added, record
@@ -17,6 +18,7 @@ from pigaming_app.sim.world import ROBOTS
 OTHERS = ROBOTS - 1
 BACK = 160.0  # px, longest step on the way back to a missed line
 PACE = 40.0  # px of lookahead for the pace of the fastest line
+PASSAGE = 8  # points of the course before a point, which count for the passage to it
 SIGHT = 400.0  # px along the course, within which features are observed
 SLICKS = 2
 RUN_UP = 70.0  # px before a line, as a run-up to cross it
@@ -41,6 +43,9 @@ class TrackPoint:
     right_y: float
     ideal: float  # px aside of the centre line
     half: float  # px from the centre line to the edges
+    narrow: int = added()  # 1: things stand there, and from here to there robots pass between these two offsets, px
+    low: float = added()
+    high: float = added()
 
 
 @record
@@ -174,6 +179,24 @@ def observe_mark(match: Any, along: float, mark: Any) -> None:
     mark.half = course.half[k]
     mark.x = ax + share * ex + mark.ideal * mark.right_x
     mark.y = ay + share * ey + mark.ideal * mark.right_y
+    mark.narrow = match.narrow
+    if match.narrow:
+        observe_passage(match, k, mark)
+
+
+@kernel
+def observe_passage(match: Any, last: int, mark: Any) -> None:
+    """Fill in the passage up to the point `last` of the course."""
+    count = match.course.count
+    k = (last - PASSAGE + count) % count
+    mark.low, mark.high = match.low[k], match.high[k]
+    for _ in range(PASSAGE):
+        k = k + 1 if k + 1 < count else 0
+        low, high = match.low[k], match.high[k]
+        if low > mark.high or high < mark.low:
+            return
+        mark.low = low if low > mark.low else mark.low
+        mark.high = high if high < mark.high else mark.high
 
 
 @kernel
@@ -188,7 +211,8 @@ def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
     if racer.finished:
         obs.past = -course.length
     back = obs.past + RUN_UP if obs.past > 0.0 else RUN_UP
-    obs.return_x, obs.return_y = point_at(course, along - (back if back < BACK else BACK), 0.0)
+    before = along - (back if back < BACK else BACK)
+    obs.return_x, obs.return_y = point_at(course, before, clear_aside(match, before))
 
 
 @kernel

@@ -11,7 +11,9 @@ from functools import lru_cache
 from math import atan2, hypot, sqrt
 
 from pigaming_app.games.race.course import POINTS, Course
+from pigaming_app.games.race.passages import Span, passages
 from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.things.cover import Capsule
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 MARGIN = 3.0  # px between the line and the edges
@@ -25,12 +27,37 @@ MIN_GAIN = 1e-3  # s saved in a round, below which the search stops
 EASE = 2  # points over which a lower pace is widened
 
 
+Line = tuple[tuple[float, ...], tuple[float, ...]]
+
+
 @lru_cache(maxsize=32)
-def fastest_line(course: Course, speed: float, turn_rate: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def fastest_line(course: Course, speed: float, turn_rate: float) -> Line:
     """For each point of the course: offset of the line in px, positive to the right, and the share of full speed."""
-    band: list[float] = []
+    return _search(course, speed, turn_rate, (), ())
+
+
+@lru_cache(maxsize=32)
+def line_round(
+    course: Course, speed: float, turn_rate: float, capsules: tuple[Capsule, ...], lines: tuple[float, ...]
+) -> tuple[Line, tuple[Span, ...]]:
+    """The fastest line that goes round things, and the passages that it takes; none if there are no things.
+
+    `lines`: px along the course, see `passages`.
+
+    Raises FieldError if there is no way past them.
+    """
+    line = fastest_line(course, speed, turn_rate)
+    if not capsules:
+        return line, ()
+    spans = passages(course, capsules, line[0], lines)
+    return _search(course, speed, turn_rate, line[0], spans), spans
+
+
+def _search(course: Course, speed: float, turn_rate: float, initial: Sequence[float], spans: Sequence[Span]) -> Line:
+    """The fastest line within `spans`, one for each point of the course; empty: within its edges."""
+    band = list(initial[:: LEVELS[0][0]])
     for every, breadths, heights, rounds in LEVELS:
-        line = ElasticBand(course, every, speed, turn_rate)
+        line = ElasticBand(course, every, speed, turn_rate, spans)
         line.initialise(band)
         for _ in range(rounds):
             if sum(line.push(breadth, height) for breadth in breadths for height in heights) < MIN_GAIN:
@@ -42,11 +69,14 @@ def fastest_line(course: Course, speed: float, turn_rate: float) -> tuple[tuple[
 class ElasticBand:
     """A line around the course, with a control point (post) at every `every`-th point of the course."""
 
-    def __init__(self, course: Course, every: int, speed: float, turn_rate: float) -> None:
+    def __init__(self, course: Course, every: int, speed: float, turn_rate: float, spans: Sequence[Span] = ()) -> None:
         self.count = POINTS // every
         self.speed, self.turn_rate = speed, turn_rate
         self.posts = [_post(course, i * every) for i in range(self.count)]
         self.room = [_room(course.half[i * every], post) for i, post in enumerate(self.posts)]
+        if spans:
+            near = [[spans[k % POINTS] for k in range((i - 1) * every, (i + 1) * every + 1)] for i in range(self.count)]
+            self.room = [_within(room, some) for room, some in zip(self.room, near, strict=True)]
         self.aside = [0.0] * self.count
         self.xs, self.ys = [0.0] * self.count, [0.0] * self.count
         self.costs = [0.0] * self.count
@@ -116,6 +146,14 @@ def _room(half: float, post: tuple[float, float, float, float]) -> tuple[float, 
             room -= 1.0
         sides.append(side * max(0.0, room))
     return sides[0], sides[1]
+
+
+def _within(room: Span, spans: Sequence[Span]) -> Span:
+    """The part of `room` in all spans; where there is none, as near to all as possible."""
+    low, high = max(span[0] for span in spans), min(span[1] for span in spans)
+    low, high = (low, high) if low <= high else (0.5 * (low + high), 0.5 * (low + high))
+    inner = max(room[0], low), min(room[1], high)
+    return inner if inner[0] <= inner[1] else (low, high)  # beside the course
 
 
 def _interpolate(band: Sequence[float], i: int, share: float) -> float:

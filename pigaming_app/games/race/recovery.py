@@ -2,8 +2,8 @@
 
 It is lost off the course, facing the wrong way, after missing a line, or stuck. The rules move no robot: they request a
 pose (`Robot.recover`), which a simulated plant fulfils at once and a real robot drives to. It lies on the middle of the
-course, a little before the place where the robot left it or before the missed line, and always past the last line that
-counts, so that no line has to be crossed twice.
+course, or beside the thing that stands there, a little before the place where the robot left it or before the missed
+line, and always past the last line that counts, so that no line has to be crossed twice.
 """
 
 from math import atan2, cos, sin
@@ -11,6 +11,7 @@ from typing import Any
 
 from pigaming_app.games.race.course import distance_ahead, point_at, segment_at
 from pigaming_app.games.race.laps import stretch
+from pigaming_app.games.race.passages import clear_aside, in_passage
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, STUCK, WRONG_WAY
 from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import is_free
@@ -48,7 +49,7 @@ def detect_lost(match: Any, k: int) -> None:
         return
     if racer.missed:
         racer.lost = MISSED_LINE
-    elif not racer.place.on:
+    elif not racer.place.on and not in_passage(match, racer.place):
         racer.lost = OFF_COURSE
     elif racer.backward >= BACKWARD_TICKS:
         racer.lost = WRONG_WAY
@@ -65,7 +66,7 @@ def update_request(match: Any, k: int) -> None:
     for _ in range(STEPS):
         way = way if way > MARGIN else MARGIN
         along = (here + way) % course.length
-        x, y = point_at(course, along, 0.0)
+        x, y = point_at(course, along, clear_aside(match, along))
         if way == MARGIN or is_free(match, k, x, y):
             break
         way -= STEP

@@ -18,6 +18,7 @@ from pigaming_app.games.race.recovery import detect_lost, update_request
 from pigaming_app.games.race.state import LINES
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import stop, stop_all, use_turbo
+from pigaming_app.sim.things.mud import in_mud
 from pigaming_app.sim.world import ROBOTS
 
 AGAINST = 40.0  # px/s above which driving against the direction of the course counts
@@ -128,7 +129,7 @@ def steer(match: Any, k: int) -> None:
     if racer.surge:
         racer.surge -= 1
         speed *= rules.surge_factor
-    if not racer.place.on:
+    if not racer.place.on or (match.mud_count and in_mud(match, robot.x, robot.y)):
         speed *= rules.mud
     robot.requested_linear = action.linear * speed
     robot.requested_angular = action.angular * rules.turn_rate

@@ -9,23 +9,40 @@ lines = [0.2, 0.46, 0.71, 0.97]  # the four lines, in driving order, as fraction
 at = [112, 116]          # px
 radius = 215             # px, of the arc that rounds it
 width = 200              # px, of the course
+
+Robots start beside the things that stand on the course. Tape that is a line, and lies across the course, moves the
+nearest of the four lines to it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from pigaming_app.games.game import ALONE, Setup, Variant, named
 from pigaming_app.games.race.circuit import read_course
-from pigaming_app.games.race.course import Course, half_width_at, locate, point_at, segment_at
-from pigaming_app.games.race.furniture import BEHIND, common_line, grid, pad_aside, place_boxes, place_pads, pose_at
+from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
+from pigaming_app.games.race.furniture import (
+    BEHIND,
+    clear_pose,
+    common_line,
+    grid,
+    pad_aside,
+    place_boxes,
+    place_pads,
+    pose_at,
+    separation,
+    taped,
+)
 from pigaming_app.games.race.laps import progress
-from pigaming_app.games.race.racing_line import fastest_line
+from pigaming_app.games.race.passages import Span
+from pigaming_app.games.race.racing_line import Line, line_round
 from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, Rules, TimingLine
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
 from pigaming_app.sim.record import copy
 from pigaming_app.sim.rng import seeded, uniform
+from pigaming_app.sim.things.cover import Capsule
+from pigaming_app.sim.things.spec import ThingSpec, read_things, wall_capsules
 from pigaming_app.sim.toml_table import TomlTable
-from pigaming_app.sim.world import DT, HZ, ROBOTS
+from pigaming_app.sim.world import DT, HZ, ROBOTS, WALLS
 
 LAPS = Rules().laps  # the default goal
 GOALS = tuple(range(1, MAX_LAPS + 1))
@@ -35,6 +52,7 @@ VARIANTS = named(
     Variant("standard", (10,), 10, GOALS, LAPS, ALONE), Variant("party", (10,), 10, GOALS, PARTY_LAPS, ALONE)
 )
 APART = 300.0  # px, least distance between two lines
+LEEWAY = 400.0  # px by which tape moves a line, at most
 
 
 @dataclass(frozen=True)
@@ -47,21 +65,26 @@ class TrackPlan:
     grid: tuple[StartPose, ...]
     pads: tuple[float, ...]  # px along the course
     boxes: tuple[tuple[float, float], ...]  # (along, aside) px
+    solid: tuple[Capsule, ...] = ()  # things that are walls
 
 
 def read(table: TomlTable) -> Layout:
     """Parse a track: a course and four lines. Raises FieldError."""
-    table.only("title", "track", "corner")
-    course = read_course(table)
-    lines = _lines(table.table("track"), course)
-    starts = tuple(pose_at(course, line - BEHIND) for line in lines)
+    table.only("title", "track", "corner", "thing")
+    course, things = read_course(table), read_things(table)
+    lines = _lines(table.table("track"), course, taped(course, things))
+    solid = tuple(wall_capsules(things, WALLS))
+    spans = line_round(course, Rules().speed, Rules().turn_rate, solid, lines)[1]
+    starts = tuple(clear_pose(course, line - BEHIND, 0.0, spans) for line in lines)
     common, pads = common_line(course, lines), place_pads(course, lines)
-    boxes = place_boxes(course, lines, pads)
-    return Layout((), starts, TrackPlan(course, lines, common, grid(course, lines[common]), pads, boxes))
+    boxes = place_boxes(course, lines, pads, spans)
+    return Layout(
+        (), starts, TrackPlan(course, lines, common, grid(course, lines[common], spans), pads, boxes, solid), things
+    )
 
 
-def _lines(table: TomlTable, course: Course) -> tuple[float, ...]:
-    """Positions of the lines, px along the course. Raises FieldError."""
+def _lines(table: TomlTable, course: Course, tapes: Sequence[float]) -> tuple[float, ...]:
+    """Positions of the lines, px along the course, after each tape has moved the nearest one. Raises FieldError."""
     table.only("lines")
     shares = table.numbers("lines", LINES, 0.0, 1.0)
     gaps = [(shares[(i + 1) % LINES] - shares[i]) % 1.0 for i in range(LINES)]
@@ -73,7 +96,15 @@ def _lines(table: TomlTable, course: Course) -> tuple[float, ...]:
         if gap * course.length < APART:
             reason = f"{gap * course.length:.0f} px to the next, but at least {APART:g} px are needed"
             raise table.error(f"lines[{i + 1}]", reason)
-    return tuple(share * course.length for share in shares)
+    lines = [share * course.length for share in shares]
+    for tape in tapes:
+        moved = min(range(LINES), key=lambda i: separation(course, lines[i], tape))
+        others = [line for i, line in enumerate(lines) if i != moved]
+        if separation(course, lines[moved], tape) < LEEWAY and all(
+            separation(course, other, tape) >= APART for other in others
+        ):
+            lines[moved] = tape
+    return tuple(lines)
 
 
 def start(match: Race, arena: Arena, setup: Setup) -> None:
@@ -83,7 +114,7 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
     match.course = copy(track.course)
     match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
-    match.ideal[:], match.pace[:] = fastest_line(track.course, match.rules.speed, match.rules.turn_rate)
+    _set_line(match, line_round(track.course, match.rules.speed, match.rules.turn_rate, track.solid, track.lines))
     for line, along in zip(match.lines, track.lines, strict=True):
         _place_line(line, match.course, along)
     for robot, seat in zip(match.robots, setup.seats, strict=True):
@@ -101,6 +132,21 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
         _furnish(match, track)
 
 
+def reroute(arena: Arena, rules: Rules, things: tuple[ThingSpec, ...]) -> Callable[[Race], None]:
+    """The fastest line round things that were moved; see `games.game.Reroute`. Raises FieldError."""
+    track: TrackPlan = arena.plan
+    found = line_round(track.course, rules.speed, rules.turn_rate, tuple(wall_capsules(things, WALLS)), track.lines)
+    return lambda match: _set_line(match, found)
+
+
+def _set_line(match: Race, found: tuple[Line, Sequence[Span]]) -> None:
+    """Set the fastest line, and the passages beside things."""
+    (ideal, pace), spans = found
+    match.ideal[:], match.pace[:] = ideal, pace
+    match.narrow = int(bool(spans))
+    match.low[:], match.high[:] = zip(*spans, strict=True) if spans else ([0.0] * POINTS,) * 2
+
+
 def _dealt(match: Race, party: bool) -> list[int]:
     """All seats in random order; on a common grid those without a robot come last."""
     seats = list(range(ROBOTS))
@@ -113,7 +159,9 @@ def _dealt(match: Race, party: bool) -> list[int]:
 def _furnish(match: Race, track: TrackPlan) -> None:
     """Put pads and boxes on the course."""
     for pad, along in zip(match.pads, track.pads, strict=True):
-        aside = pad_aside(track.course, along, match.ideal[segment_at(track.course, along)[0]])
+        k, _ = segment_at(track.course, along)
+        aside = pad_aside(track.course, along, match.ideal[k])
+        aside = min(max(aside, match.low[k]), match.high[k]) if match.narrow else aside
         pose = pose_at(track.course, along, aside)
         pad.x, pad.y, pad.heading, pad.along, pad.aside = pose.x, pose.y, pose.heading, along, aside
     for box, (along, aside) in zip(match.boxes, track.boxes, strict=True):

@@ -145,3 +145,6 @@ class Race(World):
     pads: Annotated[list[Pad], PADS] = added()  # party only
     boxes: Annotated[list[Box], BOXES] = added()
     oils: Annotated[list[Oil], OILS] = added()
+    narrow: int = added()  # 1: there are things, and robots pass them between these two offsets at each point, px
+    low: Annotated[list[float], POINTS] = added()
+    high: Annotated[list[float], POINTS] = added()

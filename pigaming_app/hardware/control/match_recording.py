@@ -2,7 +2,7 @@
 
 The file is a zip archive. Part `match.replay` is a replay file like that of simulated robots; `robots.bin` is a
 RobotTrack, with which the rules are judged again to the same end; `faults.json` has the faults; `run.jsonl.gz` is a run
-(see recordings).
+(see recordings). `things.json` has the moves of things on the mat, if there were any.
 """
 
 import json
@@ -12,24 +12,30 @@ from dataclasses import asdict, dataclass
 from io import BytesIO
 from typing import Any, NamedTuple
 
+from pigaming_app.hardware.control.moving_things import ThingsMove
 from pigaming_app.hardware.control.recorded_plant import ROW, SIZE, RobotTrack
 from pigaming_app.hardware.control.safety import RULES, Fault
 from pigaming_app.hardware.run_writer import RUN_PART, RunInMemory
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.things.spec import read_things, wall_capsules
+from pigaming_app.sim.toml_table import FieldError, TomlTable
+from pigaming_app.sim.world import ROBOTS, WALLS
 from pigaming_app.storage.parsing import parse_json
 
 MAX_TICKS = 180_000  # an hour
 MAX_SECONDS = 86_400.0  # s of a fault
 MAX_FAULTS = 10_000
 MAGIC = b"PK\x03\x04"
-REPLAY, ROBOTS_PART, FAULTS = "match.replay", "robots.bin", "faults.json"
+REPLAY, ROBOTS_PART, FAULTS, MOVES = "match.replay", "robots.bin", "faults.json", "things.json"
 LIMITS = {  # bytes of a part, unpacked
     REPLAY: 8_000_000,
     ROBOTS_PART: ROW * SIZE * (MAX_TICKS + 1),
     FAULTS: 1_000_000,
     RUN_PART: 100_000_000,
+    MOVES: 50_000_000,
 }
+OPTIONAL = {MOVES}
 MAX_BYTES = sum(LIMITS.values())
+MAX_MOVES = 60 * 60 * 30
 NAMES = frozenset(rule.name for rule in RULES)
 
 
@@ -54,6 +60,7 @@ class MatchRecording(NamedTuple):
     track: RobotTrack
     faults: tuple[RecordedFault, ...] = ()
     run: bytes = b""  # JSONL, compressed
+    moves: tuple[ThingsMove, ...] = ()
 
 
 class MatchRecorder:
@@ -63,6 +70,7 @@ class MatchRecorder:
         self.track = RobotTrack()
         self.run = RunInMemory(mm, emulated)
         self.faults: list[RecordedFault] = []
+        self.moves: list[ThingsMove] = []
         self._present: dict[tuple[str, int | None], RecordedFault] = {}
 
     def record_faults(self, tick: int, now: float, faults: Sequence[Fault]) -> None:
@@ -81,7 +89,8 @@ class MatchRecorder:
         """The recording of the first ticks, after which the robots of the world are as they are now."""
         track = self.track.first(ticks)
         track.add(robots)
-        return MatchRecording(track, tuple(self.faults), self.run.compressed())
+        moves = tuple(move for move in self.moves if move.tick <= ticks)
+        return MatchRecording(track, tuple(self.faults), self.run.compressed(), moves)
 
 
 def pack(replay: bytes, recording: MatchRecording) -> bytes:
@@ -93,8 +102,10 @@ def pack(replay: bytes, recording: MatchRecording) -> bytes:
             (ROBOTS_PART, recording.track.pack()),
             (FAULTS, json.dumps([asdict(fault) for fault in recording.faults]).encode()),
             (RUN_PART, recording.run),
+            (MOVES, json.dumps([asdict(move) for move in recording.moves]).encode()),
         ):
-            archive.writestr(zipfile.ZipInfo(name), part)
+            if name != MOVES or recording.moves:
+                archive.writestr(zipfile.ZipInfo(name), part)
     return file.getvalue()
 
 
@@ -103,11 +114,11 @@ def unpack(raw: bytes) -> dict[str, bytes]:
     try:
         with zipfile.ZipFile(BytesIO(raw)) as archive:
             sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
-            if sizes.keys() != LIMITS.keys() or len(archive.infolist()) != len(LIMITS):
+            if sizes.keys() | OPTIONAL != LIMITS.keys() or len(archive.infolist()) != len(sizes):
                 raise MatchFileError("not a recording of a match")
             if any(size > LIMITS[name] for name, size in sizes.items()):
                 raise MatchFileError("not a recording of a match: a part of it is too big")
-            return {name: archive.read(name) for name in LIMITS}
+            return {name: archive.read(name) for name in sizes}
     except MatchFileError:
         raise
     except Exception:  # zipfile raises many kinds of exceptions for damaged files
@@ -121,9 +132,27 @@ def recording_of(parts: Mapping[str, bytes], ticks: int) -> MatchRecording:
         faults = parse_json(parts[FAULTS])
         if not isinstance(faults, list) or len(faults) > MAX_FAULTS:
             raise ValueError("faults")
-        return MatchRecording(track, tuple(_fault(one, ticks) for one in faults), parts[RUN_PART])
-    except (ValueError, KeyError, TypeError, OverflowError) as error:
+        moves = parse_json(parts.get(MOVES, b"[]"))
+        if not isinstance(moves, list) or len(moves) > MAX_MOVES:
+            raise ValueError("moves")
+        return MatchRecording(
+            track,
+            tuple(_fault(one, ticks) for one in faults),
+            parts[RUN_PART],
+            tuple(_move(one, ticks) for one in moves),
+        )
+    except (ValueError, KeyError, TypeError, OverflowError, FieldError) as error:
         raise MatchFileError(f"not a valid recording ({type(error).__name__}: {str(error)[:80]!a})") from None
+
+
+def _move(entry: Any, ticks: int) -> ThingsMove:
+    """Parse a move of things. Raises KeyError, TypeError, ValueError or FieldError."""
+    things = read_things(TomlTable({"thing": entry["things"]}))
+    move = ThingsMove(int(entry["tick"]), things, entry["routed"] is True)
+    if not 0 <= move.tick <= ticks:
+        raise ValueError("time of a move")
+    wall_capsules(move.things, WALLS)
+    return move
 
 
 def _fault(entry: Any, ticks: int) -> RecordedFault:

@@ -8,10 +8,12 @@ from collections.abc import Iterable, Sequence
 from math import hypot
 from typing import Any
 
+from pigaming_app.hardware.control.moving_things import MovingThings, Things
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.sim.contact import MOVED, ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
-from pigaming_app.sim.plant import Pose, Twist
+from pigaming_app.sim.plant import Pose, Sighting, Twist
 from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH, World
@@ -25,6 +27,24 @@ class MixedPlant(RealPlant):
     def __init__(self, world: World, rig: Rig, real: Iterable[int] = ()) -> None:
         super().__init__(world, rig, real)
         self.arriving: set[int] = set()  # real robots that will take over
+        self.things: MovingThings | None = None  # on the mat, if they may be moved
+
+    @property
+    def shown_things(self) -> Things | None:
+        """The things in play now; None: those of the arena."""
+        return self.things.shown if self.things else None
+
+    def sense(self) -> list[Sighting]:
+        self._move_things()
+        return super().sense()
+
+    def watch(self) -> list[Fault]:
+        self._move_things()
+        return super().watch()
+
+    def sense_all(self) -> dict[int, Pose]:
+        self._move_things()
+        return super().sense_all()
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         """Drive real robots within walls and safety, and simulate the others."""
@@ -69,6 +89,15 @@ class MixedPlant(RealPlant):
         super().start_from_here()
         self.real |= self.arriving
         self.arriving.clear()
+
+    def _move_things(self) -> None:
+        """Replace the walls of things that have moved, between two ticks; after the match they stay."""
+        if self.things is None or self.world.over:
+            return
+        simulated = [robot for i, robot in enumerate(self.world.robots) if robot.present and i not in self.real]
+        moves = self.things.update(self.rig.clock(), simulated)
+        if self.recorder:
+            self.recorder.moves += moves
 
 
 def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:

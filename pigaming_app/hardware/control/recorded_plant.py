@@ -3,11 +3,16 @@
 import sys
 import zlib
 from array import array
+from collections import deque
 from collections.abc import Sequence
+from contextlib import suppress
 from math import isfinite
 from typing import Any
 
+from pigaming_app.hardware.control.moving_things import Reroute, ThingsMove
+from pigaming_app.sim.arena import replace_things
 from pigaming_app.sim.plant import Pose, Sighting, Twist
+from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import ROBOTS, World
 
 FIELDS = ("x", "y", "heading", "linear", "angular", "requested_linear", "requested_angular", "recover")
@@ -79,20 +84,47 @@ class RobotTrack:
 
 
 class RecordedPlant:
-    """Robots that repeat a track, row by row with the ticks of the world."""
+    """Robots that repeat a track, row by row with the ticks of the world, among things that move as they did.
 
-    def __init__(self, world: World, track: RobotTrack) -> None:
+    `moves`: of the things, in order; `first`: index of their first wall; `reroute`: see MovingThings.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        track: RobotTrack,
+        moves: Sequence[ThingsMove] = (),
+        first: int = 0,
+        reroute: Reroute | None = None,
+    ) -> None:
         self.world: Any = world
-        self.track = track
+        self.track, self.first, self.reroute = track, first, reroute
+        walls, done = [move for move in moves if not move.routed], self.world.shifts
+        self.shown_things = walls[done - 1].things if 0 < done <= len(walls) else None  # None: those of the arena
+        self._moves = deque(walls[done:])
+        self._routes = deque(move for move in moves if move.routed and move.tick >= self.world.tick)
         track.apply(world, self.world.tick)
 
     def sense(self) -> list[Sighting]:
+        self._move_things()
         self.track.apply(self.world, self.world.tick)
         return [Sighting(robot.x, robot.y, robot.heading, 0.0) for robot in self.world.robots]
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
-        """The rules have counted the tick: the robots are where the next one begins."""
+        """The rules have counted the tick: robots and things are where the next one begins."""
+        self._move_things()
         self.track.apply(self.world, self.world.tick)
 
     def place(self, poses: Sequence[Pose]) -> None:
         """No effect: the track has the places."""
+
+    def _move_things(self) -> None:
+        while self._moves and self._moves[0].tick <= self.world.tick:
+            self.shown_things = self._moves.popleft().things
+            with suppress(FieldError):  # too many for this arena: an edited file
+                replace_things(self.world, self.shown_things, self.first)
+        while self._routes and self._routes[0].tick <= self.world.tick:
+            things = self._routes.popleft().things
+            if self.reroute is not None:
+                with suppress(FieldError):
+                    self.reroute(things)(self.world)

@@ -17,7 +17,7 @@ from pigaming_app.hardware.control.motion_check import MotionCheck
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Fix, Image, Telemetry, WheelCommand
@@ -241,6 +241,7 @@ class Rig:
                 battery_low=kind.warn_mv / 1000,
                 battery_empty=kind.stop_mv / 1000,
                 undervoltage=report is not None and bool(report.flags & EMPTY),
+                parked=report is not None and bool(report.flags & PARKED),
                 deadman_seconds=self._deaf(robot, report),
                 astray=contradictions[robot].astray,
                 stuck=contradictions[robot].stuck if robot in reached else 0.0,

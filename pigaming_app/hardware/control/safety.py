@@ -42,6 +42,7 @@ class Health(NamedTuple):
     battery_low: float = 4.4  # V, limits of its kind: see robot_kinds
     battery_empty: float = 4.0
     undervoltage: bool = False  # its battery was empty; it keeps its motors off until the battery has recovered
+    parked: bool = False  # stopped by the button on it
     deadman_seconds: float = 0.0  # s of reports that its deadman stopped it
     unlinked: bool = False  # no radio
     drift: float = 0.0  # mm, drift of the corner markers
@@ -84,6 +85,7 @@ RULES = (
     SafetyRule("unseen", lambda s: s.unseen > 0.250, Response.STOP),
     SafetyRule("unseen", lambda s: s.unseen > 0.100, Response.HALF),
     SafetyRule("empty", _empty, Response.OFF, pauses=True),
+    SafetyRule("parked", lambda s: s.parked, Response.OFF, pauses=True),
     SafetyRule("old", lambda s: s.misfit == "old", Response.OFF, pauses=True),
     SafetyRule("no_arena", lambda s: s.misfit == "no_arena", Response.OFF, pauses=True),
     SafetyRule("foreign", lambda s: s.misfit == "foreign" and s.silence > 1.0, Response.OFF, pauses=True),

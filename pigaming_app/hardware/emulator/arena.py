@@ -20,6 +20,7 @@ from pigaming_app.hardware.emulator.optics import CANVAS, Floats, Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.renderer import CameraScene, SceneRenderer
 from pigaming_app.hardware.emulator.robots import STEP, EmulatedRobot, push_apart, random_parameters
+from pigaming_app.hardware.emulator.things.contact import Obstacle, obstacles, push_off
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
@@ -68,6 +69,7 @@ class EmulatedArena:
         self.camera = EmulatedCamera(painter, timing or FrameTiming(), self.clock, seed, traits)
         self.faults = FaultInjector(self)
         self.things: tuple[Prism, ...] = ()  # on the mat
+        self._obstacles: list[Obstacle] = []  # those that stop robots
         self.gain = 1.0  # exposure
         self.cleared = False  # True if the robots are off the mat, out of view
         self.last_driven = [float("-inf")] * len(self.robots)  # s, when a robot's motors last ran
@@ -117,6 +119,7 @@ class EmulatedArena:
     def furnish(self, things: Sequence[Prism]) -> None:
         """Put these things on the mat, in place of all that stand on it."""
         self.things = tuple(things)
+        self._obstacles = obstacles(self.things)
         self.camera.painter.furnish(self.things)
 
     def outline(self, thing: Prism) -> Floats:
@@ -139,6 +142,7 @@ class EmulatedArena:
             if robot.left or robot.right:
                 self.last_driven[i] = now
         push_apart(self.robots)
+        push_off(self.robots, self._obstacles)
         with self._queue:
             while self._pending and self._pending[0][0] <= now:
                 self._shown = self._pending.popleft()[1]

@@ -80,14 +80,22 @@ class EmulatedCalibrationSite:
         self.projector.project(pixels)
 
     def clear(self, off: bool) -> None:
-        """Take the robots off the mat, or put them back. A cleared mat is rendered completely in every picture."""
+        """Take robots and things off the mat, or put the robots back. A cleared mat is rendered completely in every
+        picture.
+        """
+        self._remove_things()
         self.arena.cleared = off
         self.arena.camera.painter.refresh = 1 if off else self._refresh
 
     def stand(self, x: float, y: float) -> None:
-        """Place the first robot there; the others are parked."""
+        """Place the first robot there; the others are parked, things are taken away."""
+        self._remove_things()
         for robot, (left, top) in enumerate(ASIDE):
             self.arena.place(robot, (x, y, HEADING) if robot == 0 else (left, top, 0.0))
+
+    def _remove_things(self) -> None:
+        if self.arena.things:
+            self.arena.furnish(())
 
     def close(self) -> None:
         if self._live is not None:

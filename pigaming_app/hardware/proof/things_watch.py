@@ -33,7 +33,7 @@ class WatchedMatch:
         self.arena = self.bed.arena
         self.trail = FigureEight(self.bed)
         self.arena.furnish(BETWEEN)
-        self.scan = self._scanned()
+        self.scan = scanned(self.bed)
         assert self.scan.expected is not None
         self.watch = ThingsWatch(self.scan.expected, self.arena.clock)
         self.bed.rig.viewers.append(self._view)
@@ -59,23 +59,24 @@ class WatchedMatch:
     def _view(self, frame: CameraFrame) -> None:
         self.watch.process(frame, [(seen.x, seen.y) for seen in self.bed.rig.tracker.sense(frame.captured)])
 
-    def _scanned(self) -> Scan:
-        """Scan with the rig's frames, while the robots stand."""
-        arena, rig = self.arena, self.bed.rig
-        arena.camera.painter.refresh = 1
-        for _ in range(HZ):
-            rig.send([None] * 4)
-            arena.advance(DT)
-        scan = Scan(self.bed.ground, arena.clock)
-        rig.viewers.append(scan.process)
-        while (pattern := scan.pattern) is not None:
-            arena.project(pattern.picture())
-            scan.mark_shown(pattern)
-            arena.advance(DT)
-            rig.pump()
-        rig.viewers.remove(scan.process)
-        while scan.computing:
-            scan.compute()
-        if scan.layout is None:
-            raise RuntimeError(f"the scan failed: {scan.fault}")
-        return scan
+
+def scanned(bed: Testbed) -> Scan:
+    """Scan the mat with the rig's frames, while the robots stand. Raises RuntimeError."""
+    arena, rig = bed.arena, bed.rig
+    arena.camera.painter.refresh = 1
+    for _ in range(HZ):
+        rig.send([None] * 4)
+        arena.advance(DT)
+    scan = Scan(bed.ground, arena.clock)
+    rig.viewers.append(scan.process)
+    while (pattern := scan.pattern) is not None:
+        arena.project(pattern.picture())
+        scan.mark_shown(pattern)
+        arena.advance(DT)
+        rig.pump()
+    rig.viewers.remove(scan.process)
+    while scan.computing:
+        scan.compute()
+    if scan.layout is None:
+        raise RuntimeError(f"the scan failed: {scan.fault}")
+    return scan

@@ -22,7 +22,7 @@ SEQUENCE = 128  # sequence numbers run from 0 to 127 and wrap; robots ignore a p
 NO_ARENA, LAST_ARENA = 0, 16383  # ids of arenas are 1 to LAST_ARENA; a robot without one neither drives nor is driven
 VERSION = 2  # of firmware that speaks this protocol
 
-DEADMAN, LOW, EMPTY, RESTARTED = 1, 2, 4, 8  # flags of a report, see RobotReport
+DEADMAN, LOW, EMPTY, RESTARTED, PARKED = 1, 2, 4, 8, 16  # flags of a report, see RobotReport
 
 
 class RobotReport(NamedTuple):
@@ -32,7 +32,8 @@ class RobotReport(NamedTuple):
     address: int  # 1 to 4
     version: int  # of the firmware
     seq: int  # sequence number of the last drive packet received
-    flags: int  # DEADMAN: stopped by it; LOW battery; EMPTY battery, motors off; RESTARTED by the watchdog
+    flags: int  # DEADMAN: stopped by it; LOW battery; EMPTY battery, motors off; RESTARTED by the watchdog;
+    # PARKED by the button on it, motors off
     millivolts: int
 
 

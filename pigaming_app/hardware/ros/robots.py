@@ -6,6 +6,7 @@ a new one for 0.1 s, and five times at the end, the speeds are zero.
 
 import atexit
 import threading
+from collections import deque
 from collections.abc import Mapping, Sequence
 from math import isfinite
 
@@ -13,6 +14,7 @@ import numpy as np
 
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.link import BEAT, FAREWELLS, PATIENCE
+from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.ros.node import Pose, RosNode
 from pigaming_app.hardware.ros.units import ArenaFrame
 from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureState, Fix, Telemetry, WheelCommand
@@ -21,7 +23,10 @@ from pigaming_app.sim.drivetrain import Drivetrain, twist
 from pigaming_app.sim.plant import Twist
 from pigaming_app.sim.world import ROBOTS
 
-BATTERY = 9.9  # V: none is reported
+BATTERY = 0.0  # V: none is reported
+POSES = 20  # a second and robot, at least, for a share of 100 %
+WINDOW = 2.0  # s over which poses are counted
+ABSENT = 1.0  # s without any pose after which the network is reported
 OUTSIDE = 5000.0  # px, poses farther off are refused
 NO_PICTURE = np.zeros((0, 0), np.uint8)
 REST: Twist = (0.0, 0.0)
@@ -37,6 +42,8 @@ class RosPoses(PoseFilters):
         self.last_captured = float("-inf")
         self.rejections: Mapping[int, str] = {}
         self.received = [float("-inf")] * ROBOTS  # s, newest pose of each robot
+        self._arrived = [deque[float](maxlen=round(POSES * WINDOW)) for _ in range(ROBOTS)]  # s, by robot
+        self._begun = clock()
         self._lock = threading.Lock()
         self._waiting: list[Fix] = []
         self._frames = 0
@@ -45,7 +52,13 @@ class RosPoses(PoseFilters):
 
     @property
     def fault(self) -> OperatorMessage | None:
-        return self.node.fault
+        """Fault of the node, or no poses at all."""
+        silent = self.clock() - max(self._begun, *self.received) > ABSENT
+        return self.node.fault or (OperatorMessage("ros_poses") if silent else None)
+
+    def share(self, robot: int) -> float:
+        """Poses of the last WINDOW s as a share of POSES a second, at most 1."""
+        return min(1.0, sum(self.clock() - time < WINDOW for time in tuple(self._arrived[robot])) / (POSES * WINDOW))
 
     @property
     def exposure(self) -> ExposureState:
@@ -81,6 +94,7 @@ class RosPoses(PoseFilters):
         captured = self.clock() - age
         with self._lock:
             self.received[robot] = max(self.received[robot], captured)
+            self._arrived[robot].append(self.clock())
             self._waiting.append(Fix(robot, x, y, heading, captured))
 
 
@@ -104,6 +118,10 @@ class RosLink:
     def fault(self) -> OperatorMessage | None:
         dead = self._thread is not None and not self._thread.is_alive() and not self._closing.is_set()
         return OperatorMessage("ros_gone") if dead else self.node.fault
+
+    def quality(self, robot: int) -> LinkQuality:
+        """Reception of a robot's poses."""
+        return LinkQuality(self.poses.share(robot), None, None)
 
     @property
     def boards(self) -> dict[int, int]:

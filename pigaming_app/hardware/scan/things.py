@@ -4,13 +4,15 @@ The file is kept beside the calibration. It also holds the projector's place, so
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
+from pigaming_app.hardware.scan.hull import hull
+from pigaming_app.sim.things.spec import MAX_MARGIN, ThingSpec, Use
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
@@ -30,12 +32,32 @@ class ThingKind(StrEnum):
 
 @dataclass(frozen=True)
 class Thing:
-    """A thing on the mat. `outline`: its footprint; `margin_px`: by how far it may extend beyond the outline."""
+    """A thing on the mat. `outline`: its footprint; `margin_px`: by how far it may extend beyond the outline.
+
+    `mud`: a flat one slows robots down, by the operator's choice; else it is only a line.
+    """
 
     kind: ThingKind
     outline: tuple[tuple[float, float], ...]  # arena px
     height_mm: float
     margin_px: float
+    mud: bool = False
+
+    @property
+    def use(self) -> Use:
+        """What it is in a game: everything tall is a wall."""
+        if self.kind is ThingKind.TALL:
+            return Use.WALL
+        return Use.MUD if self.mud else Use.LINE
+
+    def as_mud(self, mud: bool) -> "Thing":
+        """A flat thing as mud, or as a line."""
+        return replace(self, mud=mud and self.kind is ThingKind.FLAT)
+
+    @property
+    def spec(self) -> ThingSpec:
+        """The thing as arenas have it."""
+        return ThingSpec(self.use, hull(self.outline), min(self.margin_px, MAX_MARGIN))
 
     @property
     def points(self) -> Outline:
@@ -80,6 +102,10 @@ class Layout:
         """The layout with one thing removed, as the player does by hand."""
         return Layout(tuple(other for other in self.things if other is not thing), self.projector)
 
+    def replaced(self, thing: Thing, new: Thing) -> "Layout":
+        """The layout with another thing in the place of one."""
+        return Layout(tuple(new if other is thing else other for other in self.things), self.projector)
+
 
 class LayoutError(OperatorError):
     """A file of things that cannot be used."""
@@ -114,6 +140,7 @@ def to_toml(layout: Layout) -> str:
             "outline": [[round(x, 2), round(y, 2)] for x, y in thing.outline],
             "height_mm": round(thing.height_mm, 1),
             "margin_px": round(thing.margin_px, 2),
+            "use": str(thing.use),
         }
         for thing in layout.things
     ]
@@ -148,7 +175,7 @@ def _layout(table: TomlTable) -> Layout:
 
 
 def _thing(entry: TomlTable) -> Thing:
-    entry.only("kind", "outline", "height_mm", "margin_px")
+    entry.only("kind", "outline", "height_mm", "margin_px", "use")
     points = entry.entries.get("outline")
     if not isinstance(points, list) or not 3 <= len(points) <= CORNERS:
         raise entry.error("outline", f"3 to {CORNERS} points are needed")
@@ -157,11 +184,14 @@ def _thing(entry: TomlTable) -> Thing:
     if not _is_convex(np.array(outline)):
         raise entry.error("outline", "not convex")
     kind = ThingKind(entry.word("kind", [str(kind) for kind in ThingKind]))
+    uses = (Use.WALL,) if kind is ThingKind.TALL else (Use.LINE, Use.MUD)
+    use = entry.word("use", [str(use) for use in uses]) if "use" in entry else uses[0]  # 1.8.0 wrote none
     return Thing(
         kind,
         outline,
         entry.number("height_mm", None, 0.0, 1000.0, " mm"),
         entry.number("margin_px", None, 0.0, 100.0, " px"),
+        use == Use.MUD,
     )
 
 

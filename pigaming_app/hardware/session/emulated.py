@@ -17,10 +17,12 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.emulator.paced import PacedArena
     from pigaming_app.hardware.emulator.radio import RadioChannel
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
+    from pigaming_app.hardware.emulator.things.prism import Prism
     from pigaming_app.hardware.emulator.wifi.air import WifiChannel
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
+    from pigaming_app.hardware.scan.expected import ExpectedLight
     from pigaming_app.hardware.session.lighting import Lighting
     from pigaming_app.hardware.signals import CameraFrame
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -32,6 +34,7 @@ DARK = (1080, 1920)  # px, size of a black image
 FPS = 30.0  # frames/s of the emulated camera
 WHOLE, QUICK = 3, 30  # interval of complete renders, frames: in real and in simulated time
 EMULATED_KEY = bytes(range(16))  # of the emulated Wi-Fi robots
+FURNITURE = 5  # things put on an empty mat, to be scanned
 SEARCH = 10.0  # timeout for finding all robots, s
 
 
@@ -42,10 +45,11 @@ class EmulatedSession:
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
     `show`. `timing`, `traits`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
     camera and radio. With `wifi` the robots are boards on such a network and run their own program, else they have
-    XBees.
+    XBees. `things`: number of random real things on the mat, at most 8; the wizard takes them away.
     """
 
     emulated = True
+    radio = True
 
     def __init__(
         self,
@@ -60,14 +64,18 @@ class EmulatedSession:
         tracker: "type[Tracker] | None" = None,
         traits: "CameraTraits | None" = None,
         wifi: "WifiChannel | None" = None,
+        things: int = 0,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
         self.mm = 0.0
         self.quality: CameraQuality | None = None
         self.network: WifiNetwork | None = None  # of robots with Wi-Fi
+        self.expected: ExpectedLight | None = None
         self._wifi = wifi
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._traits = traits
+        self._count = things
+        self._things: list[Prism] = []  # to stand on the mat
         self._arena: EmulatedArena | None = None
         self._made = ground
         self._rig: Rig | None = None
@@ -135,6 +143,8 @@ class EmulatedSession:
 
             arena, ground = self.arena, self.ground
             arena.cleared = False
+            if self._things and not arena.things:
+                arena.furnish(self._things)
             self._now, self.mm, self.quality = arena.clock(), ground.mm, ground.quality
             link = (
                 self._wifi_link(self._wifi)
@@ -181,6 +191,7 @@ class EmulatedSession:
         """Advance the arena by `seconds`; returns the time that passed, less if this computer is too slow."""
         if self._rig is None:
             return seconds
+        self._render(self._rig)
         if self._time is None:
             self._light(self._rig)
             for _ in range(max(1, round(seconds / SLICE))):
@@ -190,6 +201,14 @@ class EmulatedSession:
         before, self._now = self._now, self.arena.clock()
         self._time.limit = self._now + seconds + AHEAD
         return self._now - before
+
+    def furnish(self) -> None:
+        """Put random things on the mat, away from the robots, unless there are some already."""
+        from pigaming_app.hardware.emulator.things.random_scene import some_things
+
+        if not self.arena.things:
+            self._things = some_things(self.seed, FURNITURE, self.arena.optics, self.arena.poses())
+            self.arena.furnish(self._things)
 
     def show(self, pixels: Callable[[], Any]) -> None:
         """Project the window on the mat, if there is one. `pixels` returns a BGRA image, (height, width, 4).
@@ -221,7 +240,7 @@ class EmulatedSession:
     def _new_arena(self) -> "EmulatedArena":
         import numpy as np
 
-        from pigaming_app.hardware.emulator.arena import EmulatedArena
+        from pigaming_app.hardware.emulator.arena import STARTS, EmulatedArena
         from pigaming_app.hardware.emulator.camera import FrameTiming
         from pigaming_app.hardware.emulator.radio import MODERATE
 
@@ -235,6 +254,11 @@ class EmulatedSession:
             traits=self._traits,
         )
         self._made = self._made or calibrated(arena)
+        if self._count:
+            from pigaming_app.hardware.emulator.things.random_scene import some_things
+
+            self._things = some_things(self.seed, self._count, arena.optics, STARTS)
+            arena.furnish(self._things)
         arena.project(np.zeros(DARK, np.uint8))  # until the window renders
         return arena
 
@@ -254,6 +278,10 @@ class EmulatedSession:
                 raise RobotsUnavailable(OperatorMessage("micropython", detail=error)) from error
             self.network = network
         return Link(self.network.open, self.arena.clock, WifiProtocol(self.network), "Wi-Fi")
+
+    def _render(self, rig: "Rig") -> None:
+        """Render complete pictures for those who look at more than the robots."""
+        self.arena.camera.painter.refresh = 1 if rig.viewers else WHOLE if self.live else QUICK
 
     def _light(self, rig: "Rig") -> None:
         """Project the floor, and a disc at each robot's predicted position when the light lands."""

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
+    from pigaming_app.hardware.scan.expected import ExpectedLight
     from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
 
 STOCK, UDP = "stock", "udp"  # radio settings: a robot with factory firmware on a cable; Wi-Fi robots
@@ -30,6 +31,7 @@ class RealSession:
     """The robots of these settings. `projection` is `Canvas.projection`; None accepts a calibration of any display."""
 
     emulated = False
+    radio = True
 
     def __init__(self, settings: Settings, projection: Callable[[], str | None] = lambda: None) -> None:
         self.settings, self.projection = settings, projection
@@ -37,6 +39,8 @@ class RealSession:
         self.quality: CameraQuality | None = None
         self._rig: Rig | None = None
         self.network: WifiNetwork | None = None
+        self.ground: GroundPlane | None = None
+        self.expected: ExpectedLight | None = None
         self._link: Link | None = None
         self._next = time.monotonic()  # s, time of the next tick
 
@@ -80,7 +84,7 @@ class RealSession:
             except (DrivetrainError, ImportError) as error:
                 raise RobotsUnavailable(OperatorMessage("robots_file", detail=error)) from error
             rig.channels = tuple(radio - 1 for radio in self.settings.radios)
-            self.mm, self.quality, self._rig = ground.mm, ground.quality, rig.start()
+            self.mm, self.quality, self.ground, self._rig = ground.mm, ground.quality, ground, rig.start()
         return self._rig
 
     def open_link(self) -> "Link | None":

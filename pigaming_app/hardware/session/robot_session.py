@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.link import Link
     from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
+    from pigaming_app.hardware.scan.expected import ExpectedLight
     from pigaming_app.hardware.signals import CameraSource, Clock
     from pigaming_app.hardware.tracking.tracker import Tracker
     from pigaming_app.sim.drivetrain import Drivetrain
@@ -34,7 +35,9 @@ class RobotSession(Protocol):
     """Robots on a mat with a camera, a radio and a projector."""
 
     emulated: bool
+    radio: bool  # False: cameras and radios are those of a ROS network, and the settings of the mat do not apply
     network: "WifiNetwork | None"  # of Wi-Fi robots, while the session is open
+    expected: "ExpectedLight | None"  # the mat as scanned last, for the watch over its things
 
     @property
     def fault(self) -> OperatorMessage | None:
@@ -55,6 +58,10 @@ class RobotSession(Protocol):
     @property
     def quality(self) -> "CameraQuality | None":
         """Quality of the calibrated picture, valid while the session is open; None before."""
+
+    @property
+    def ground(self) -> "GroundPlane | None":
+        """The calibration, valid while the session is open; None if the camera is not the arcade's own."""
 
     def open(self) -> "Rig":
         """Start camera, tracker and radio, or return the running rig. Raises RobotsUnavailable."""

@@ -10,6 +10,7 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault
 from pigaming_app.sim.world import DT, ROBOTS
 
 if TYPE_CHECKING:
+    from pigaming_app.hardware.calibration.ground_plane import GroundPlane
     from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.ros.node import RosNode
+    from pigaming_app.hardware.scan.expected import ExpectedLight
 
 WIDTH_MM = 2112.0  # of the nominal arena
 STICK_AGE = 0.5  # s, after which a joystick message no longer counts
@@ -28,8 +30,11 @@ class RosSession:
     """Robots of an arena `width` mm wide."""
 
     emulated = False
+    radio = False
     quality: "CameraQuality | None" = None  # the cameras are those of the network
     network: "WifiNetwork | None" = None
+    ground: "GroundPlane | None" = None
+    expected: "ExpectedLight | None" = None
 
     def __init__(self, width: float = WIDTH_MM) -> None:
         self.width, self.mm = width, 0.0

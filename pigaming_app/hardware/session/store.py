@@ -21,7 +21,6 @@ from pigaming_app.storage.parsing import ParseError, describe_error, read_text
 from pigaming_app.storage.safe_files import NotSaved, write_with_backup
 from pigaming_app.storage.settings import Settings, folders
 
-CONFIG = Path(__file__).parents[1] / "firmware" / "micropython" / "config_example.py"
 log = logging.getLogger("pigaming")
 
 
@@ -103,13 +102,6 @@ def wifi_key(settings: Settings) -> bytes:
     """The key of the Wi-Fi robots of these settings, 16 bytes; on first use it is drawn at random and saved."""
     _draw(settings, "wifi_key", lambda: secrets.token_hex(16))
     return bytes.fromhex(settings.wifi_key)
-
-
-def robot_config(robot: int, arena: int, key: bytes) -> str:
-    """`config.py` of a Wi-Fi robot (1 to 4): the example with the values of this arena."""
-    text = CONFIG.read_text("utf-8")
-    text = text.replace("ROBOT = 1", f"ROBOT = {robot}").replace("Robot 1", f"Robot {robot}")
-    return text.replace("ARENA = 0", f"ARENA = {arena}").replace("0" * 32, key.hex())
 
 
 def _draw(settings: Settings, name: str, draw: Callable[[], object]) -> None:

@@ -6,12 +6,14 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.packets import DEADMAN
+from pigaming_app.hardware.radio.packets import DEADMAN, PARKED
+from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.jobs.robots import radio_setup, wifi_setup
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
+from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
 if TYPE_CHECKING:
@@ -51,6 +53,9 @@ def run(arguments: Namespace) -> int:
     settings = radio_setup.save_arena(arguments)
     if arguments.wifi_config is not None:
         print(wifi_setup.config(arguments.wifi_config, settings), end="")
+        return 0
+    if arguments.microbit is not None:
+        print(wifi_setup.microbit(arguments.microbit, settings), end="")
         return 0
     if arguments.wheels is not None:
         return _turn_wheels(arguments)
@@ -141,6 +146,7 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
         "heard": report is not None and quality.share > 0.0,
         "misfit": misfit.reason if misfit else None,
         "deaf": report is not None and bool(report.flags & DEADMAN),
+        "parked": report is not None and bool(report.flags & PARKED),
         "battery": round(report.battery, 2) if report else None,
         "share": round(quality.share, 2),
         "strength": quality.strength,
@@ -208,9 +214,8 @@ def _print(status: dict[str, Any]) -> None:
 
 def _set_up(robot: int, status: dict[str, Any]) -> str:
     """The command that sets up a robot."""
-    if status["network"] is not None:
-        return wifi_setup.config_command(robot)
-    return radio_setup.flash_command(robot, status["arena"])
+    radio, kinds = "udp" if status["network"] is not None else "", Settings.load(folders().config)[0].kinds
+    return set_up_command(robot, status["arena"], radio, kinds[robot - 1])
 
 
 def _described(robot: dict[str, Any], status: dict[str, Any]) -> str:
@@ -221,5 +226,5 @@ def _described(robot: dict[str, Any], status: dict[str, Any]) -> str:
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"
     echo = "" if robot["echo_ms"] is None else f", answers in {robot['echo_ms']} ms"
     where = f", seen at {robot['at'][0]:.0f}, {robot['at'][1]:.0f}" if robot["seen"] else ", not seen"
-    deaf = ", receives no commands" if robot["deaf"] else ""
+    deaf = ", stopped by its button" if robot["parked"] else ", receives no commands" if robot["deaf"] else ""
     return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}{deaf}"

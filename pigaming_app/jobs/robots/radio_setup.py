@@ -7,6 +7,7 @@ from typing import Any
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.radio.packets import LAST_ARENA, ROBOTS
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
+from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import hexadecimal, integer
@@ -50,11 +51,6 @@ def save_arena(arguments: Namespace) -> Settings:
     return settings
 
 
-def flash_command(robot: int, arena: int) -> str:
-    """The command that writes firmware, number and arena into robot 1 to 4."""
-    return f"make flash ADDRESS={robot} ARENA={arena}"
-
-
 def set_up(arguments: Namespace, settings: Settings) -> int:
     """Write one XBee and read it back. Raises Refusal."""
     from pigaming_app.hardware.radio.xbee_setup import XBeeSetup, network_of, parameters
@@ -79,5 +75,5 @@ def set_up(arguments: Namespace, settings: Settings) -> int:
         whose = "this computer" if number == 0 else f"robot {number}"
         print(f"The radio of {whose}: {', '.join(f'{name} {value:X}' for name, value in wanted.items())}, saved.")
         if number:
-            print(f"Its robot: {flash_command(number, arena)}")
+            print(f"Its robot: {set_up_command(number, arena, settings.radio)}")
     return 0

@@ -1,10 +1,11 @@
-"""Wi-Fi robots in the job `robots`: their configuration, the robots on the network, and a first turn of the wheels."""
+"""Robots with MicroPython in the job `robots`: their files, the robots on the network, a first turn of the wheels."""
 
 import time
 from argparse import ArgumentParser
 from typing import Any
 
 from pigaming_app.hardware.radio.packets import ROBOTS
+from pigaming_app.hardware.robot_files import RELAY, microbit_program, robot_config
 from pigaming_app.hardware.robot_kinds import robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.jobs.terminal.options import integer
@@ -26,20 +27,28 @@ def options(parser: ArgumentParser) -> None:
         "--wifi-config", type=integer(1, ROBOTS), metavar="ROBOT", help="print the config.py of a Wi-Fi robot, 1 to 4"
     )
     parser.add_argument(
+        "--microbit",
+        type=integer(RELAY, ROBOTS),
+        metavar="NUMBER",
+        help="print the program of a micro:bit: 0 for the relay, 1 to 4 for a robot",
+    )
+    parser.add_argument(
         "--wheels", type=integer(1, ROBOTS), metavar="ROBOT", help="turn the wheels of a robot that stands on blocks"
     )
 
 
 def config(robot: int, settings: Settings) -> str:
     """`config.py` of a Wi-Fi robot of these settings."""
-    from pigaming_app.hardware.session.store import arena_id, robot_config, wifi_key
+    from pigaming_app.hardware.session.store import arena_id, wifi_key
 
     return robot_config(robot, arena_id(settings), wifi_key(settings))
 
 
-def config_command(robot: int) -> str:
-    """The command that prints `config.py`."""
-    return f"main.py robots --wifi-config {robot}"
+def microbit(number: int, settings: Settings) -> str:
+    """Program of a micro:bit of these settings."""
+    from pigaming_app.hardware.session.store import arena_id
+
+    return microbit_program(number, arena_id(settings))
 
 
 def network(session: RobotSession) -> list[dict[str, Any]] | None:

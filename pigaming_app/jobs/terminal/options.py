@@ -100,6 +100,12 @@ SHARED: dict[str, dict[str, Any]] = {
         "metavar": "SEED",
         "help": "emulated robots, camera and projector, no hardware; default seed 1",
     },
+    "--things": {
+        "type": integer(0, 8),
+        "metavar": "NUMBER",
+        "default": 0,
+        "help": "with --emulate: boxes, cups, books and tape on the mat, at most 8; placed by its seed",
+    },
     "--camera": {"type": integer(0), "metavar": "NUMBER", "help": "camera above the mat, from 0"},
     "--port": {"type": word, "help": "serial port of the radio; empty: the first one"},
     "--baud": {"type": integer(), "metavar": "NUMBER", "help": "baud rate of the radio"},
@@ -137,7 +143,7 @@ def duel_options(parser: ArgumentParser) -> None:
 def mat_options(parser: ArgumentParser) -> None:
     """Declare camera and radio of the real robots, for jobs that save them."""
     group = parser.add_argument_group("real robots", "Camera and radio are saved in the settings.")
-    shared(group, "--emulate", "--camera", "--port", "--baud", "--radio")
+    shared(group, "--emulate", "--things", "--camera", "--port", "--baud", "--radio")
 
 
 def goal(arguments: Namespace) -> int | None:
@@ -162,6 +168,8 @@ def mat_settings(arguments: Namespace) -> dict[str, Any]:
     """The requested settings of camera and radio. Raises Refusal for an invalid value."""
     from pigaming_app.storage.settings import Settings
 
+    if getattr(arguments, "things", 0) and arguments.emulate is None:
+        raise Refusal("--things: real things are yours to put down; for emulated ones add --emulate")
     given = {name: getattr(arguments, name, None) for name in ("camera", "port", "baud", "radio")}
     given = {name: value for name, value in given.items() if value is not None}
     for name, value in given.items():

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.robot_session import settings_problem
 from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.scenes.recordings.highlights import Highlights
@@ -53,7 +55,13 @@ class Context:
     @property
     def robots(self) -> bool:
         """True if matches with real robots are available."""
-        return self.session is not None and (self.session.emulated or self.settings.mat)
+        session = self.session
+        return session is not None and (session.emulated or not session.radio or self.settings.mat)
+
+    @property
+    def robots_problem(self) -> OperatorMessage | None:
+        """Why the settings forbid matches with real robots, or None."""
+        return settings_problem(self.settings) if self.session is None or self.session.radio else None
 
     def prompts(
         self,

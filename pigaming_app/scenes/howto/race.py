@@ -7,9 +7,10 @@ import pygame
 from pigaming_app.scenes.howto.animation import Loop, add, drive_by, drive_round
 from pigaming_app.scenes.views.race.lines import LineFrame, draw_line
 from pigaming_app.scenes.views.race.sprites import clods
-from pigaming_app.scenes.views.race.track import EDGE, MUD
+from pigaming_app.scenes.views.race.track import EDGE
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
+from pigaming_app.scenes.views.things.styles import MUD
 from pigaming_app.ui.draw import ALARM, ICE, PLAYERS, SUB, THIN, Color, GlowCanvas, badge, dim, mix
 from pigaming_app.ui.draw.frame_budget import run_to_end
 from pigaming_app.ui.draw.layers import LitImage

@@ -24,6 +24,7 @@ from pigaming_app.scenes.results.high_score_tables import contest, format_score,
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
@@ -57,7 +58,10 @@ class MatchSetupPage:
         self.clock, self.slide, self.direction = 0.0, SLIDE_SECONDS, 1
         self.access = Access(context, seats.devices)
         self.going = False  # start requested, waiting for the preloader
-        hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), (Button.BACK, "setup.hint_back")]
+        self.things: tuple[ThingSpec, ...] = ()  # on the mat, for a match with real robots
+        build = [(Button.Y, "things.hint_build")] if self._on_mat else []
+        hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), *build]
+        hints.append((Button.BACK, "setup.hint_back"))
         self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
         self.navigation = Navigation(context, self.focus, hints, IDLE, device=lambda: self.access.hint_device)
 
@@ -65,6 +69,10 @@ class MatchSetupPage:
         """Reset on first display and on return from the results."""
         self.clock, self.going = 0.0, False
         self.context.sounds.music(True)
+        if self._on_mat and self.context.session is not None:
+            from pigaming_app.hardware.session.things_on_mat import things_in_play
+
+            self.things = () if self.context.settings.blocks else things_in_play(self.context.session)
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Change a value, start or go back."""
@@ -77,6 +85,11 @@ class MatchSetupPage:
                 self._change(self.focus.name, 1 if event.button is Button.RIGHT else -1)
             case Button.FIRE | Button.START:
                 return self._go() if self.clock > INPUT_LOCKOUT else None
+            case Button.Y if self._on_mat:
+                from pigaming_app.scenes.things.arena_page import ArenaPage
+
+                self.context.sounds.play("accept")
+                return Push(ArenaPage(self.context, self.seats.devices))
             case Button.CLICK:
                 self.focus.handle(event)
                 return self._click(event)
@@ -111,6 +124,11 @@ class MatchSetupPage:
         self.navigation.prompts.draw(screen)
 
     # ---- inside
+
+    @property
+    def _on_mat(self) -> bool:
+        """True if real robots play."""
+        return self.context.session is not None and bool(self.seats.real())
 
     def _go(self) -> StackOperation:
         self._save_selection()
@@ -263,6 +281,7 @@ class MatchSetupPage:
         picture(self.game.name, self.chosen.arena, allies).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
+        choice.draw_things(screen, self.things, (x0 + dx, y0), k)
         starts = start_positions(self._setup())
         for i, _ in self._lineup():
             stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)

@@ -1,10 +1,13 @@
 """Rows and small widgets of the match setup page."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import pygame
 
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.ui.draw import (
+    BLACK,
     BODY,
     FOCUS,
     ICE,
@@ -187,3 +190,11 @@ def _layer(sizes: RowSizes, name: str, height: int) -> Layer:
     layer.glow.line(cut_box(0, 0, W, height, 16), STEEL, THIN, True)
     layer.canvas.body(name, PAD, sizes.name, MIST, "l", sizes.small)
     return layer
+
+
+def draw_things(screen: pygame.Surface, things: Sequence[ThingSpec], at: tuple[float, float], scale: float) -> None:
+    """Draw the things on the mat over the preview of an arena, whose upper left corner is `at`."""
+    for thing in things:
+        points = [(at[0] + scale * x, at[1] + scale * y) for x, y in thing.outline]
+        pygame.draw.polygon(screen, BLACK, points)
+        pygame.draw.polygon(screen, FOCUS, points, 3)

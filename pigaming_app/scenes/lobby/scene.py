@@ -14,7 +14,6 @@ from pigaming_app.ai import registry
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.session.robot_session import settings_problem
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
@@ -48,7 +47,7 @@ class Lobby:
             context.settings.strength, team_mode=team_mode, rivals=registry.RIVALS[game], mat=context.robots
         )
         for seat, place in enumerate(self.seats.places):
-            place.real = seat + 1 in context.settings.real and not settings_problem(context.settings)
+            place.real = seat + 1 in context.settings.real and not context.robots_problem
         for seat, driver in enumerate(drivers):
             if driver is not None:
                 self.seats.seat(seat, driver)
@@ -267,7 +266,7 @@ class Lobby:
 
     def _swap(self, seat: int) -> None:
         """Toggle between the real and the simulated robot of a seat, and save it as the default."""
-        if reason := settings_problem(self.context.settings):
+        if reason := self.context.robots_problem:
             self._say(self.context.words.sentence(reason), "error")
             return
         self.seats.swap(seat)

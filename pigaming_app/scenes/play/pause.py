@@ -16,6 +16,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.views.sprites.effects import timer_ring
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.ui.draw import (
     ALARM,
     FOCUS,
@@ -34,6 +35,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, word
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, Y, overlay
@@ -54,6 +56,10 @@ class PausedMatch(Protocol):
     context: Context
     devices: list[Device | None]
     restart_allowed: bool
+
+    @property
+    def things(self) -> Sequence[ThingSpec]:
+        """The things on the mat that are in play."""
 
     def picture(self) -> pygame.Surface:
         """The match as drawn behind a page."""
@@ -199,8 +205,15 @@ class Pause:
         words = self.context.words
         text = words("pause.paused") if self.player is None else words("pause.by", player=self.player + 1)
         sheet_title(layer, self.player, text, ICE, RING[0] - 80)
+        if self.match.things:
+            layer.canvas.body(things_line(words, len(self.match.things)), X + 72, HEAD - 24, MIST, "l", 34)
         for spot in self.focus.spots:
             layer.canvas.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+
+
+def things_line(words: Words, count: int) -> str:
+    """The number of things in play."""
+    return words("things.one_in_play" if count == 1 else "things.in_play", count=count)
 
 
 def menu_spots(names: Sequence[str] = ITEMS) -> list[FocusSpot]:

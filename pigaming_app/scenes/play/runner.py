@@ -17,10 +17,12 @@ from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.last_hit import LastHit
+from pigaming_app.scenes.real_replays import shown_things
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.view import SoundCue
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
@@ -51,6 +53,7 @@ class MatchRunner:
             self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
         self.brain = BrainOverlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
+        self.things: Sequence[ThingSpec] = match.arena.things  # in the view
         self.undrawn = 0.0  # seconds of real time since the last picture
         self.second = TICK_SOUNDS + 1
         self.last_hit: LastHit | None = None  # recorder, if the scene repeats the last hit
@@ -87,6 +90,10 @@ class MatchRunner:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the match, interpolated between its last two ticks."""
+        things = shown_things(self.match)
+        if things is not None and things is not self.things:
+            self.things = things
+            self.view.show_things(things)
         blend = 1.0 if self.match.over else self.timestep.blend
         undrawn, self.undrawn = self.undrawn, 0.0
         with self._tag_sprites():

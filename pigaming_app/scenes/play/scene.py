@@ -34,7 +34,9 @@ from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.scene import Results, SceneFactory
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.views.rumble import Rumble
+from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, LABEL, PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
@@ -55,8 +57,9 @@ class MatchScene:
 
     `humans`: seats of people, present or away; `ai_assisted`: those for whom an AI has driven for a while;
     `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see `Results`. `rounds`: the rounds
-    before this one, in a match of several; None: it is the only one. `after`: makes the scene that follows in place of
-    the results; nobody then joins the match or restarts it.
+    before this one, in a match of several; None: it is the only one. `arena`: that of the setup with things on it; its
+    results are no records. `after`: makes the scene that follows in place of the results; nobody then joins the match
+    or restarts it.
     """
 
     def __init__(
@@ -69,12 +72,13 @@ class MatchScene:
         game_choice: SceneFactory | None = None,
         rounds: Rounds | None = None,
         after: "Callable[[MatchScene], AfterMatch] | None" = None,
+        arena: Arena | None = None,
     ) -> None:
         self.context, self.setup, self.speed, self.game_choice = context, setup, speed, game_choice
-        self.rounds, self.plant_factory, self.after = rounds, plant, after
+        self.rounds, self.plant_factory, self.after, self.arena = rounds, plant, after, arena
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
-        self.match = new_match(setup, plant)
+        self.match = new_match(setup, plant, arena)
         self.runner = MatchRunner(context, self.match, rumble=self._rumble)
         self.countdown = Countdown(lead=LEAD_SECONDS)
         self.countdown_at = CENTRE
@@ -91,7 +95,7 @@ class MatchScene:
         self.join_allowed = self.restart_allowed = after is None
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
-        if self.humans:
+        if self.humans and arena is None:
             self.runner.view.enable_persistence(folders().data)
 
     # ---- lifecycle
@@ -216,6 +220,11 @@ class MatchScene:
             text(line, LABEL, FOCUS, "head", room=box.w).draw(screen, box.centerx, 80 + 58 * i - 29 * (len(lines) - 1))
 
     # ---- interface for the pages above
+
+    @property
+    def things(self) -> tuple[ThingSpec, ...]:
+        """The things on the mat that are in play."""
+        return self.arena.things if self.arena else ()
 
     @property
     def unplugged_seats(self) -> list[int]:
@@ -380,8 +389,11 @@ class MatchScene:
 
     @property
     def _without_records(self) -> Collection[int]:
-        """Seats whose results are no records: an AI has helped, or the match was not played in real time."""
-        return self.ai_assisted if self.speed == 1.0 else range(len(self.devices))
+        """Seats whose results are no records: an AI has helped, the match was not played in real time, or things stood
+        in the arena.
+        """
+        plain = self.speed == 1.0 and self.arena is None and not self.match.state.shifts
+        return self.ai_assisted if plain else range(len(self.devices))
 
     def _begin_round(self) -> StackOperation:
         scene = self.next_round()

@@ -10,6 +10,7 @@ from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import BAUD
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
 from pigaming_app.hardware.radio.xbee_setup import Network, Steps, XBeeSetup, network_of, parameters
+from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
@@ -124,13 +125,11 @@ class RadioPage:
     # ---- inside
 
     def _fact(self) -> str:
-        """The command that flashes a robot, the network, or the size of a kind of robot."""
+        """The command that sets up a robot, the network, or the size of a kind of robot."""
         if (name := self.focus.name) == "arena":
-            if self.context.settings.radio == "udp":
-                return "python3 main.py robots --wifi-config 1"
-            return f"make flash ADDRESS=1 ARENA={self.arena}"
+            return self._set_up(1)
         if name == "module" and self.module:
-            return f"make flash ADDRESS={self.module} ARENA={self.arena}"
+            return self._set_up(self.module)
         if name in KIND_ROWS:
             chosen = self.context.settings.kinds[self.robot - 1]
             kind = next((kind for kind in KINDS if kind.key == chosen), None)
@@ -139,6 +138,10 @@ class RadioPage:
             words, mm = self.context.words, round(2 * kind.radius_mm)
             return words("arena_radio.fact", name=kind.name, mm=mm, volts=f"{kind.warn_mv / 1000:.1f}")
         return str(self.network)
+
+    def _set_up(self, robot: int) -> str:
+        settings = self.context.settings
+        return set_up_command(robot, self.arena, settings.radio, settings.kinds[robot - 1])
 
     def _say(self, key: str) -> None:
         self.navigation.show_message(

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.radio.serial_line import ports
-from pigaming_app.hardware.session.robot_session import camera_warning, settings_problem
+from pigaming_app.hardware.session.robot_session import camera_warning
 from pigaming_app.hardware.vision.discovery import cameras
 from pigaming_app.scenes.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.flow.context import Context
@@ -31,8 +31,8 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "udp", "stock")
-EMULATED = ("pair", "latency")
-ROWS = ("mat", "camera", "port", "baud", "radio", *EMULATED)
+DEEDS = ("pair", "latency")
+ROWS = ("mat", "camera", "port", "baud", "radio", *DEEDS)
 REMEDIES = {"foreign": "elsewhere", "key": "copy"}  # text of the remedy by the reason of a misfit; else "flash"
 WEAK = 0.7  # share of reports below which a robot is marked
 IDLE = 600.0  # s without input before the return to the title
@@ -41,6 +41,7 @@ REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
 EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
 ROBOTS_H = 486  # px, height of the robots' frame
+MESSAGE = pygame.Rect(150, 858, 1620, 80)  # px, between description and prompts
 LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: description of the focused row
 
 log = logging.getLogger("pigaming")
@@ -57,10 +58,10 @@ class FleetPage:
         self.flood.level = 0.0
         self.names = (
             ROWS
-            if not context.session.emulated
-            else ("radio", *EMULATED)
-            if settings_problem(context.settings)
-            else EMULATED
+            if context.session.radio and not context.session.emulated
+            else ("radio", *DEEDS)
+            if context.robots_problem
+            else DEEDS
         )
         self.focus = Focus(dials.spots(self.names), "pair")
         self.reopen_in, self.age = 0.0, EVERY
@@ -150,10 +151,10 @@ class FleetPage:
         boxes = [
             pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
             pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
-            pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, 3 * LINE_PITCH + 16),
+            pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, MESSAGE.top - LINE_Y + 34),
             pygame.Rect(left, self.navigation.prompts.y - 40, right - left, 80),
         ]
-        return [*boxes, pygame.Rect(150, 866, 1620, 84)] if self._message() else boxes
+        return [*boxes, MESSAGE] if self._message() else boxes
 
     def _message(self) -> str:
         """Fault, result of the last action, or warning about the camera."""
@@ -179,15 +180,16 @@ class FleetPage:
         for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
             line.draw(screen, dials.PANEL.x + 30, LINE_Y + LINE_PITCH * i)
         sentence = self._message()
-        for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
-            line.draw(screen, 960, 896 + 44 * i)
+        lines = paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else []
+        for i, line in enumerate(lines):
+            line.draw(screen, 960, MESSAGE.centery + 44 * i - 22 * (len(lines) - 1))
         self.navigation.prompts.draw(screen)
 
     # ---- readings
 
     def _line(self) -> str:
         """Description of the focused row, or the reason why matches reject its value."""
-        reason = settings_problem(self.context.settings) if self.focus.name == "radio" else None
+        reason = self.context.robots_problem if self.focus.name == "radio" else None
         return self.context.words.sentence(reason) if reason else self.context.words(f"fleet.{self.focus.name}_line")
 
     def _state(self) -> str:
@@ -195,6 +197,8 @@ class FleetPage:
         words, check = self.context.words, self.check
         if check.rig is None:
             return words.sentence(check.refusal) if check.refusal else words("fleet.no_camera")
+        if not check.session.radio:
+            return words("fleet.poses", rate=round(check.rate))
         if not check.rate:
             return words("fleet.dark")
         exposure = check.rig.camera.exposure
@@ -214,8 +218,9 @@ class FleetPage:
 
     def _read(self, robot: int) -> tuple[str, Color, str, Color]:
         words, health = self.context.words, self.check.health(robot)
-        late = "" if health.latency is None else "  ·  " + words("fleet.late", ms=round(1000 * health.latency))
-        seen = words("fleet.seen" if health.seen else "fleet.unseen") + late
+        seen = words("fleet.seen" if health.seen else "fleet.unseen")
+        if health.seen and health.latency is not None:
+            seen = words("fleet.late", ms=round(1000 * health.latency))
         if health.misfit is not None:
             reason, arena = health.misfit.reason, health.misfit.arena
             return words(f"fleet.{reason}"), ALARM, words(f"fleet.{REMEDIES.get(reason, 'flash')}", arena=arena), MIST
@@ -226,10 +231,13 @@ class FleetPage:
         heard = words(f"fleet.{key}", name=health.name, volts=volts, share=round(100 * health.share))
         if health.empty:
             return words("fleet.empty", volts=f"{health.battery:.1f}"), ALARM, words("fleet.charge"), MIST
+        if health.parked:
+            return words("fleet.parked"), FOCUS, words("fleet.press"), MIST
         if health.deaf:
             return words("fleet.deaf"), ALARM, seen, MIST
         weak = 0.0 < health.battery < health.kind.warn_mv / 1000 or health.share < WEAK
-        seen += f"  ·  {health.kind.name}"
+        if self.check.session.radio:
+            seen += f"  ·  {health.kind.name}"
         return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST
 
     # ---- rows
@@ -263,7 +271,7 @@ class FleetPage:
     def _change(self, name: str, delta: int, around: bool) -> None:
         """Step a row's value by `delta`."""
         settings = self.context.settings
-        if name in EMULATED:
+        if name in DEEDS:
             return
         if name == "mat":
             settings.mat = not settings.mat
@@ -282,7 +290,7 @@ class FleetPage:
 
     def _run(self, name: str) -> None:
         """Run a row's action, or step its value."""
-        if name not in EMULATED:
+        if name not in DEEDS:
             self._change(name, 1, True)
             return
         begun = self.check.pair() if name == "pair" else self.check.measure()

@@ -9,7 +9,7 @@ from pigaming_app.hardware.commissioning.latency import LatencyTest
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, PairingFinding
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
@@ -28,8 +28,8 @@ log = logging.getLogger("pigaming")
 @dataclass(frozen=True)
 class RobotStatus:
     """Status of one robot: battery in V (0: not measured), share of reports received (0..1), visible, latency in s if
-    measured; its kind, why it cannot be driven, and whether it reports that no commands arrive, or refuses its motors
-    because of its battery.
+    measured; its kind, why it cannot be driven, and whether it reports that no commands arrive, that it refuses its
+    motors because of its battery, or that its button was pressed.
     """
 
     battery: float | None
@@ -40,7 +40,8 @@ class RobotStatus:
     misfit: Misfit | None
     deaf: bool
     empty: bool
-    name: str  # announced by a Wi-Fi robot, or empty
+    parked: bool
+    name: str  # announced by a Wi-Fi robot; empty if it is only its number
 
 
 @dataclass
@@ -147,10 +148,10 @@ class FleetState:
         misfit = self.link.misfit(robot) if self.link is not None else None
         battery, latency = report.battery if report else None, self.latencies.get(robot)
         flags = report.flags if report else 0
+        deaf, parked = bool(flags & DEADMAN), bool(flags & PARKED)
         empty = bool(flags & EMPTY) or 0.0 < (battery or 0.0) < kind.stop_mv / 1000
-        return RobotStatus(
-            battery, share, self._seen(robot), latency, kind, misfit, bool(flags & DEADMAN), empty, self._name(robot)
-        )
+        seen, name = self._seen(robot), self._name(robot)
+        return RobotStatus(battery, share, seen, latency, kind, misfit, deaf, empty, parked, name)
 
     # ---- inside
 
@@ -158,10 +159,11 @@ class FleetState:
         return self.rig is not None and self.rig.sense()[robot].age < SEEN
 
     def _name(self, robot: int) -> str:
-        """Name that the robot on a radio channel has announced, if it has Wi-Fi."""
+        """Name that a Wi-Fi robot on a radio channel has announced, unless it is just its number."""
         network = self.session.network
         ours = [found.announced for found in network.robots if found.status == "ours"] if network else []
-        return next((found.name for found in ours if found.address == robot + 1), "")
+        name = next((found.name for found in ours if found.address == robot + 1), "")
+        return "" if name == f"Robot {robot + 1}" else name
 
     def _search(self, job: Callable[[], bool]) -> bool:
         if self.rig is None or not any(self.heard(robot) for robot in range(ROBOTS)):

@@ -10,14 +10,21 @@ from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.pause import PausedMatch
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.ui.input.events import Device
 
 
 class MatchOf(Protocol):
-    """Match factory; `real`: seats with real robots, `rounds`: see `MatchScene`."""
+    """Match factory; `real`: seats with real robots, `rounds`: see `MatchScene`, `things`: see `match_of`."""
 
     def __call__(
-        self, setup: Setup, devices: Sequence[Device | None], real: Collection[int], *, rounds: Rounds | None = None
+        self,
+        setup: Setup,
+        devices: Sequence[Device | None],
+        real: Collection[int],
+        *,
+        rounds: Rounds | None = None,
+        things: Sequence[ThingSpec] | None = None,
     ) -> Scene: ...
 
 

@@ -6,6 +6,7 @@ obliquely, hence discs twice as wide as the robot.
 """
 
 import math
+from collections.abc import Callable
 
 import pygame
 
@@ -48,8 +49,13 @@ class MarkerDiscs:
             ]
         return areas
 
-    def draw(self, screen: pygame.Surface, robots: set[int]) -> None:
-        """Draw the discs of the visible robots: all surrounding light first, then the discs."""
+    def draw(
+        self, screen: pygame.Surface, robots: set[int], cover: Callable[[pygame.Surface], None] | None = None
+    ) -> None:
+        """Draw the discs of the visible robots: all surrounding light first, then the discs.
+
+        `cover`: called in between; keeps the surrounding light off real things.
+        """
         visible = self._visible(robots)
         for robot, at in visible:
             x, y = LEFT + at.x, TOP + at.y
@@ -60,6 +66,8 @@ class MarkerDiscs:
             ):
                 place = round(x + dx + sprite.dx), round(y + dy + sprite.dy)
                 screen.blit(sprite.image, place, special_flags=pygame.BLEND_PREMULTIPLIED)
+        if cover:
+            cover(screen)
         for r, color in ((MOAT, BLACK), (DISC, GREY)):  # all margins first: none may cut into a neighbour's disc
             for _, at in visible:
                 screen.blit(disc(r, color), (round(LEFT + at.x) - r, round(TOP + at.y) - r))

@@ -7,12 +7,17 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 
 import pygame
 
+from pigaming_app.games.arenas import load, with_things
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.control.match_recording import MatchRecorder
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
+from pigaming_app.hardware.control.moving_things import MovingThings, same_mud
 from pigaming_app.hardware.control.safety import Fault, Response
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of, settings_problem
+from pigaming_app.hardware.scan.block_walls import BlockWalls
+from pigaming_app.hardware.scan.things import Layout
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of
+from pigaming_app.hardware.session.things_on_mat import save_layout
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
@@ -21,6 +26,7 @@ from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import LEAD_SECONDS, NOTICE_SECONDS, MatchScene, fresh_rounds, rematch_setup
+from pigaming_app.scenes.real_replays import reroute_of
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
@@ -28,6 +34,11 @@ from pigaming_app.scenes.robots.marker_discs import MarkerDiscs
 from pigaming_app.scenes.robots.match_state import match_state
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.take_places import TakePlaces
+from pigaming_app.scenes.things.match_watch import MatchWatch
+from pigaming_app.scenes.things.moved_page import MovedPage
+from pigaming_app.scenes.things.outlines import draw_things
+from pigaming_app.sim.arena import Arena, ArenaError
+from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -55,8 +66,9 @@ class RealMatch(MatchScene):
         match_of: MatchOf,
         game_choice: SceneFactory | None = None,
         rounds: Rounds | None = None,
+        arena: Arena | None = None,
     ) -> None:
-        if reason := settings_problem(context.settings):
+        if reason := context.robots_problem:
             raise RobotsUnavailable(reason)
         rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
@@ -68,6 +80,7 @@ class RealMatch(MatchScene):
             plant=lambda world: MixedPlant(world, rig, chosen),
             game_choice=game_choice,
             rounds=rounds,
+            arena=arena,
         )
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
@@ -76,6 +89,11 @@ class RealMatch(MatchScene):
         rig.recorder = plant.recorder.run
         self.discs = MarkerDiscs(rig)
         self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.hint_device)
+        self.watch = MatchWatch(session, rig)
+        walls, reroute = len(self.match.arena.walls), reroute_of(self.match)
+        plant.things = MovingThings(self.match.state, walls, self.things, reroute)
+        if context.settings.blocks and session.ground is not None:
+            rig.viewers.append(BlockWalls(session.ground, plant.things).process)
         self.released = False  # rig released
         self.waiting = FixedTimestep()  # clock while the match waits
         self.logged: set[tuple[str, int | None]] = set()
@@ -89,6 +107,7 @@ class RealMatch(MatchScene):
     def on_enter(self) -> None:
         if self.gathering is None:
             super().on_enter()
+            self.watch.resume()
         else:
             self.context.sounds.music(True)
             self.begun = True
@@ -96,6 +115,7 @@ class RealMatch(MatchScene):
     def on_leave(self) -> None:
         """Stop the robots; release camera and radio, unless the next match already uses them."""
         super().on_leave()
+        self.watch.pause()
         if not self.released:
             self.released = True
             self.session.close()
@@ -136,6 +156,8 @@ class RealMatch(MatchScene):
             return self._take_places(self.gathering, seconds)
         if self.plant.safety.pauses and not self.match.over:
             return Push(FaultPage(self))
+        if places := self.watch.places if not self.match.over else []:
+            return Push(MovedPage(self, places))
         if self.countdown.locked or self.match.over:
             self._stand_still(seconds)
         turn = super().update(seconds)
@@ -146,12 +168,16 @@ class RealMatch(MatchScene):
         """Draw the match or the start positions; the discs last."""
         if self.gathering is None:
             super().draw(screen)
+            self._draw_lights(screen, self.runner.view.things.cover)
         else:
             self.gathering.draw(screen)
             if self.gathering.flood.full:
                 draw_corners(screen)
-                return
-        self.draw_overlay(screen)
+            else:
+                draw_things(screen, self.plant.shown_things or ())
+                self.draw_overlay(screen)
+        if self.gathering is None and not self.match.over:
+            self.watch.note(screen)
 
     # ---- interface for the pages above
 
@@ -167,14 +193,18 @@ class RealMatch(MatchScene):
 
     def advance_paused(self, seconds: float) -> None:
         """Advance below a page: all robots stand still, faults are updated."""
+        self.watch.pause()
         self._stand_still(self.session.advance(seconds))
         self._publish()
 
     def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw the corner markers and the discs on top of everything."""
+        self._draw_lights(screen)
+
+    def _draw_lights(self, screen: pygame.Surface, cover: Callable[[pygame.Surface], None] | None = None) -> None:
         if self.real:
             draw_corners(screen)
-        self.discs.draw(screen, self.real)
+        self.discs.draw(screen, self.real, cover)
 
     def apply_pairing(self, channels: Sequence[int], turned: Collection[int]) -> None:
         """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""
@@ -192,15 +222,37 @@ class RealMatch(MatchScene):
             self.gathering = TakePlaces(self.context, self.plant, lambda: self.access.hint_device)
         self._mark_real()
 
+    def rebuild(self, layout: Layout) -> bool:
+        """Go on among things that were scanned anew: walls are moved; for other mud the match starts again.
+
+        False if the arena cannot be played with them.
+        """
+        specs = tuple(thing.spec for thing in layout.things)
+        try:
+            save_layout(self.session, layout)
+            arena = with_things(self.setup.game, load(self.setup.game, self.setup.arena), specs)
+        except ArenaError as error:
+            log.warning("%s", error)
+            return False
+        except NotSaved as error:
+            log.warning("%s", error)
+        assert self.plant.things is not None
+        if not same_mud(specs, self.things):
+            self.restart()
+        self.arena, self.plant.things.wanted = arena, specs
+        return True
+
     def rematch(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """A rematch with a new seed and the same robots, from the first round."""
         self.on_leave()
-        return self.match_of(rematch_setup(setup, devices), devices, self.real, rounds=fresh_rounds(self.rounds))
+        rounds = fresh_rounds(self.rounds)
+        return self.match_of(rematch_setup(setup, devices), devices, self.real, rounds=rounds, things=self.things)
 
     def next_round(self) -> Scene:
         """The next round, for which the robots drive to their places."""
         self.on_leave()
-        return self.match_of(rematch_setup(self.setup, self.devices), self.devices, self.real, rounds=self.rounds)
+        setup = rematch_setup(self.setup, self.devices)
+        return self.match_of(setup, self.devices, self.real, rounds=self.rounds, things=self.things)
 
     # ---- inside
 
@@ -232,6 +284,7 @@ class RealMatch(MatchScene):
     def _begin(self) -> None:
         """Start the match from the robots' current positions."""
         self.gathering = None
+        self.watch.resume()
         self.countdown = Countdown(lead=LEAD_SECONDS)
         self.idle = 0.0
         self.context.sounds.play("ready", 0)

@@ -21,7 +21,8 @@ from pigaming_app.ui.widgets.focus import Focus
 from pigaming_app.ui.widgets.labels import black_out, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("robots", "radio", "calibrate", "check", "pin", "sheet")
+ROWS = ("robots", "radio", "calibrate", "check", "things", "blocks", "pin", "sheet")
+ROS_ROWS = ("robots", "pin")  # a ROS network has cameras and radios of its own
 SHEET = "markers.pdf"
 MESSAGE_SECONDS = 8.0  # s, display time of a message
 IDLE = 300.0  # s without input before the return to the title
@@ -34,7 +35,7 @@ class RobotsMenu:
 
     def __init__(self, context: Context) -> None:
         self.context = context
-        self.focus = Focus(dials.spots(ROWS))
+        self.focus = Focus(dials.spots(ROWS if context.session is None or context.session.radio else ROS_ROWS))
         hints = [(Button.FIRE, "robots.hint_ok"), (Button.BACK, "robots.hint_back")]
         self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 
@@ -42,12 +43,15 @@ class RobotsMenu:
         """Nothing to do."""
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """Up and down select, FIRE opens."""
+        """Up and down select, FIRE opens or changes, as do left and right."""
         event = self.navigation.prompts.as_button(event)
         if turn := self.navigation.handle(event):
             return turn
+        if self.focus.name == "blocks" and dials.step_of(event, self.focus, self._blocks):
+            self._change_blocks()
+            return None
         chosen = self.focus.activated(event)
-        return self._run(chosen) if chosen else None
+        return self._run(chosen) if chosen and (chosen != "blocks" or event.button is not Button.CLICK) else None
 
     def update(self, seconds: float) -> StackOperation:
         return self.navigation.update(seconds)
@@ -60,6 +64,7 @@ class RobotsMenu:
         values = {
             row: SettingValue("deed", (words("robots.write" if row == "sheet" else "robots.open"),)) for row in ROWS
         }
+        values["blocks"] = self._blocks
         dials.draw(screen, self.context.words, self.focus, "robots", values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         sketch(name).draw(screen, *dials.CENTRE)
@@ -69,11 +74,30 @@ class RobotsMenu:
                 line.draw(screen, 960, 900 + 44 * i)
         self.navigation.prompts.draw(screen)
 
+    @property
+    def _blocks(self) -> SettingValue:
+        words = self.context.words
+        return SettingValue("toggle", (words("options.off"), words("options.on")), int(self.context.settings.blocks))
+
+    def _change_blocks(self) -> None:
+        """Switch between scanned things and blocks with markers."""
+        settings = self.context.settings
+        settings.blocks = not settings.blocks
+        self.context.sounds.play("move")
+        try:
+            settings.save(folders().config)
+        except NotSaved as error:
+            log.warning("%s", error)
+            self.navigation.show_message(self.context.words("app.unsaved"))
+
     def _run(self, name: str) -> StackOperation:
         from pigaming_app.scenes.calibration.corner_pin_page import CornerPinPage
         from pigaming_app.scenes.calibration.drift_page import DriftPage
         from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 
+        if name == "blocks":
+            self._change_blocks()
+            return None
         self.context.sounds.play("accept")
         match name:
             case "robots":
@@ -88,6 +112,10 @@ class RobotsMenu:
                 return Push(CalibrationPage(self.context))
             case "check":
                 return Push(DriftPage(self.context))
+            case "things":
+                from pigaming_app.scenes.things.arena_page import ArenaPage
+
+                return Push(ArenaPage(self.context))
             case "pin":
                 return Push(CornerPinPage(self.context))
         self._write()
@@ -135,6 +163,17 @@ def sketch(name: str) -> LitImage:
         for x, y in ((-140, -76), (140, -76), (140, 76), (-140, 76)):
             ink.line(cut_box(x - 22, y - 22, 44, 44, 4), FOCUS, LINE, True)
         ink.line([(-50, 4), (-14, 38), (56, -36)], ICE, 12)
+    elif name == "things":
+        from pigaming_app.scenes.things.outlines import boxes
+
+        ink.line(cut_box(-176, -120, 352, 240, 12), STEEL, THIN, True)
+        boxes(ink, 0, 0, FOCUS)
+    elif name == "blocks":
+        for x, y, wide in ((-90, -60, 76), (90, 50, 130)):
+            ink.line(cut_box(x - wide, y - 60, 2 * wide, 120, 6), ICE, LINE, True)
+            ink.line(cut_box(x - 36, y - 36, 72, 72, 4), FOCUS, THIN, True)
+            ink.fill([(x - 20, y - 20), (x + 4, y - 20), (x + 4, y + 4), (x - 20, y + 4)], FOCUS)
+            ink.fill([(x + 4, y + 4), (x + 20, y + 4), (x + 20, y + 20), (x + 4, y + 20)], FOCUS)
     elif name == "pin":
         ink.line(cut_box(-170, -110, 340, 220, 12), STEEL, THIN, True)
         points = [(-150, -120), (176, -92), (150, 118), (-182, 96)]

@@ -15,10 +15,12 @@ from pigaming_app.scenes.views.race.background import GLOW, earth
 from pigaming_app.scenes.views.race.lines import draw_line, frame
 from pigaming_app.scenes.views.race.track import draw_track
 from pigaming_app.scenes.views.sprites.factory import TEAMS
+from pigaming_app.scenes.views.things.on_mat import black_out, draw_all
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 from pigaming_app.ui.draw import (
     ADD,
+    BLACK,
     HAIR,
     ICE,
     MIST,
@@ -56,6 +58,8 @@ def walls(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
         ends = [(left + k * wall.ax, top + k * wall.ay), (left + k * wall.bx, top + k * wall.by)]
         thick = max(7.0, 2 * wall.half * k)
         ink.line(ends, WALL, thick).line(ends, dim(WALL, 0.25 if wall.health != SOLID else 0.8), thick - 4)
+    draw_all(ink.set_transform(left, top, 0.0, k), "pitanks", arena.things)
+    ink.set_transform(0.0, 0.0)
     for player, start in enumerate(arena.starts):
         r, c, s = max(9.0, 44 * k), math.cos(start.heading), math.sin(start.heading)
         x, y = left + k * start.x, top + k * start.y
@@ -77,10 +81,14 @@ def track(arena: Arena, w: int, h: int) -> Steps[pygame.Surface]:
     yield from draw_track(glow, crisp, arena.plan)
     for along in arena.plan.lines:
         draw_line(glow, crisp, frame(arena.plan.course, along), ICE)
+    black_out(crisp, arena.things)
+    draw_all(glow, "race", arena.things)
     yield
     light = yield from glow.lit_steps(GLOW)
     out = pygame.Surface((w, h))
     out.blit(below, (round(left), round(top)))
+    for thing in arena.things:
+        pygame.draw.polygon(out, BLACK, [(left + k * x, top + k * y) for x, y in thing.outline])
     out.blit(light, (0, 0), special_flags=ADD)
     yield from crisp.downscale_onto(out)
     return out
@@ -95,6 +103,8 @@ def floor(arena: Arena, w: int, h: int, allies: bool = False) -> Steps[pygame.Su
     )
     yield from draw_floor((glow, crisp), arena.plan, allies)
     glow.line(cut_box(0, 0, WIDTH, HEIGHT, 28), MIST, THIN / k, True)
+    black_out(crisp, arena.things)
+    draw_all(glow, "factory", arena.things)
     for i, start in enumerate(arena.starts):
         glow.ring(start.x, start.y, 36, TEAMS[0 if allies else i % 2], 8)
     out = yield from glow.lit_steps(GLOW)

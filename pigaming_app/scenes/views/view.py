@@ -15,7 +15,9 @@ from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.prewarm import driving
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.things.on_mat import ThingsOnMat
 from pigaming_app.scenes.views.tread_marks import TreadMarks
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PRE
 from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
@@ -39,13 +41,20 @@ class MatchView:
     """View of one match. `players`: for each seat "human" or the name of the AI; may change during the match.
 
     Subclasses take arena, state, players, options and words, and override `watch` and `draw`. `clock`: the part of the
-    HUD between the panels.
+    HUD between the panels. `style`: of real things, see things/styles.py.
     """
 
     clock = pygame.Rect(820, 0, 280, HUD_HEIGHT)
+    style = "pitanks"
 
     def __init__(
-        self, state: Any, players: list[str], options: ViewOptions, words: Words | None, background: Background
+        self,
+        state: Any,
+        players: list[str],
+        options: ViewOptions,
+        words: Words | None,
+        background: Background,
+        things: Sequence[ThingSpec] = (),
     ) -> None:
         self.players, self.options, self.words, self.background = players, options, words, background
         self.real: frozenset[int] = frozenset()  # seats with real robots, which are lit instead of drawn
@@ -55,11 +64,17 @@ class MatchView:
         self.particles = Particles()
         self.treads = [TreadMarks(i) for i in range(len(state.robots))]
         self.previous_poses = self.current_poses = _poses(state)
+        self.things = ThingsOnMat(self.style, things)
         self.jobs = PrewarmQueue([lambda: background.surface])
+        self.jobs.append(self.things.jobs())
         self.jobs.append(driving(self.seats))
 
     def enable_persistence(self, folder: Path) -> None:
         """Called for matches with people: persistent data, such as a best lap, is saved in this data folder."""
+
+    def show_things(self, things: Sequence[ThingSpec]) -> None:
+        """Show these real things from now on; marker blocks move up to 30 times a second."""
+        self.things.show(things)
 
     def watch(self, state: Any) -> list[SoundCue]:
         """Process the last tick; returns its sounds."""
@@ -108,7 +123,7 @@ class MatchView:
 
     def paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
         """Draw background and batches: light below robots (clipped to the arena), opaque sprites, light, topmost
-        sprites.
+        sprites. Real things stay dark below all but the topmost.
         """
         shaken = self.particles.offset
         if shaken == (0, 0):
@@ -116,11 +131,14 @@ class MatchView:
         else:
             screen.fill((0, 0, 0))
             screen.blit(self.background.surface, shaken)
+        self.things.lights(under)
+        self.things.clear(screen)
         screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
         screen.fblits(under, ADD)
         screen.set_clip(None)
         screen.fblits(over, PRE)
         screen.fblits(light, ADD)
+        self.things.cover(screen)
         screen.fblits(top, PRE)
 
 

@@ -141,7 +141,7 @@ def test_time_that_passes_while_signs_are_read_makes_nobody_unseen():
 
 
 def test_limits_and_margin_follow_the_kind_of_robot():
-    """On an arena of 1.32 mm/px a simulated robot has a radius of 47.5 mm. A micro:bit robot has three cells."""
+    """On an arena of 1.32 mm/px a simulated robot has a radius of 47.5 mm. A micro:bit robot needs 4.5 V."""
     mat = Mat([(900.0, 450.0, 0.0)] * 4)
     mat.boards = {1: 1}
     rig = Rig(mat, mat, mat, mat.clock, mm=1.32, kinds=("", "", "microbit", "3pi"))
@@ -150,7 +150,7 @@ def test_limits_and_margin_follow_the_kind_of_robot():
     assert [round(rig.margin(robot), 2) for robot in range(4)] == [8.45, 8.45, 0.0, 0.0]
     assert Rig(mat, mat, mat, mat.clock, mm=0.66).margin(0) == pytest.approx(47.5 / 0.66 - 37.0)
     health = rig.health(dict.fromkeys(range(4), 0.0), rig.snapshot())
-    assert [(one.battery_low, one.battery_empty) for one in health.values()] == [(4.4, 4.0), (3.3, 3.0)] + [
+    assert [(one.battery_low, one.battery_empty) for one in health.values()] == [(4.4, 4.0), (4.6, 4.4)] + [
         (4.4, 4.0)
     ] * 2
 

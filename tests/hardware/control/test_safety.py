@@ -41,6 +41,7 @@ def judged(sign, others=GOOD, now=1.0):
         (GOOD._replace(duplicate=True), Response.STOP, Response.WARN, [("twice", 0, True)]),
         (GOOD._replace(outside=0.02), Response.INWARD, Response.WARN, [("outside", 0, False)]),
         (GOOD._replace(outside=3.1), Response.INWARD, Response.WARN, [("outside", 0, True)]),
+        (GOOD._replace(parked=True), Response.OFF, Response.WARN, [("parked", 0, True)]),
         (GOOD._replace(silence=1.01), Response.OFF, Response.WARN, [("silent", 0, True)]),
         (GOOD._replace(misfit="old", silence=0.5), Response.OFF, Response.WARN, [("old", 0, True)]),
         (GOOD._replace(misfit="no_arena", silence=2.0), Response.OFF, Response.WARN, [("no_arena", 0, True)]),

@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.hardware.emulator.wifi.boards import WIRING, BoardConfig, Boards, NoMicroPython, Wheel, interpreter
 from pigaming_app.hardware.radio.envelope import DRIVE, REPORT, announcement_from, seal, unseal
-from pigaming_app.hardware.radio.packets import DEADMAN, RESTARTED, drive_packet, report_from, with_crc
+from pigaming_app.hardware.radio.packets import DEADMAN, PARKED, RESTARTED, drive_packet, report_from, with_crc
 from pigaming_app.hardware.signals import WheelCommand
 
 pytestmark = pytest.mark.long
@@ -16,7 +16,7 @@ ON, BACK = (1.0, -32 / 63), (-1.0, 32 / 63)
 TB6612 = "\n".join(
     [
         "from motors import Enable",
-        "KIND, TIMER, WATCHDOG_MS, LED, BATTERY_PIN = 1, 0, 500, None, None",
+        "KIND, TIMER, WATCHDOG_MS, LED, BATTERY_PIN, BUTTON = 1, 0, 500, None, None, None",
         "left, right = Enable(25, 26, 27), Enable(14, 32, 33)",
     ]
 )
@@ -27,7 +27,7 @@ def _micropython():
     try:
         interpreter()
     except NoMicroPython as reason:
-        pytest.skip(f"{reason}: apt-get install nodejs npm")
+        pytest.skip(str(reason))
 
 
 class Arcade:
@@ -234,3 +234,16 @@ def test_an_empty_battery_brakes_until_it_has_recovered(arcade):
             arcade.send(arcade.sealed())
             arcade.run(0.02)
         assert any(arcade.motors) is moving, millivolts
+
+
+@pytest.mark.parametrize("arcade", [{"board": "board_esp32"}, {"board": "board_pico_w"}], indirect=True)
+def test_the_button_stops_a_robot_until_it_is_pressed_again(arcade):
+    arcade.meet()
+    for press, moving in ((0, True), (1, False), (0, False), (1, True)):
+        arcade.boards.disturb(0, button=press)
+        for _ in range(20):
+            arcade.send(arcade.sealed())
+            arcade.run(0.02)
+        assert any(arcade.motors) is moving
+        _, body = unseal(KEY, arcade.nonce, REPORT, arcade.received(b"PG2T")[-1])
+        assert bool(report_from(body).flags & PARKED) is not moving

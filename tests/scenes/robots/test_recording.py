@@ -27,7 +27,7 @@ pytest.importorskip("cv2")
 class MatSession:
     """A session on the simulated mat, whose robots begin at their places."""
 
-    emulated, mm, fault = True, 1.3, None
+    emulated, radio, mm, fault = True, True, 1.3, None
 
     def __init__(self) -> None:
         self.mat = Mat()

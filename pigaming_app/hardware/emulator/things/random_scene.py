@@ -3,6 +3,7 @@
 The tape is 25 mm wide; four robots stand around. Nothing hides or shades anything flat, or a robot.
 """
 
+from collections.abc import Sequence
 from math import hypot, pi
 from random import Random
 
@@ -13,6 +14,9 @@ from pigaming_app.hardware.emulator.things.prism import TAPE, Prism, box, cylind
 from pigaming_app.sim.plant import Pose
 
 FREE = 700.0, 420.0  # mm: things stand within these distances of the middle
+AWAY = 190.0  # mm between the things of `some_things` and the places of robots
+MIX = (2, 6, 0, 4, 3, 7, 1, 5)  # order in which it takes things: box, cup, tape, book, box, cup, tape, box
+TRIES = 1000  # scenes
 GAPS = (70.0, 190.0, 170.0)  # mm between tall things, around flat ones, around robots
 
 
@@ -54,3 +58,14 @@ def scene(seed: int, optics: Optics) -> tuple[list[Prism], list[Pose]]:
         x, y = place(0.5 * hypot(long, wide), 0)
         things.append(box(x, y, long, wide, high, turn, grey, look, seed + i))
     return things, robots
+
+
+def some_things(seed: int, count: int, optics: Optics, places: Sequence[Pose]) -> list[Prism]:
+    """At most eight random things, mm on the mat, away from these places of robots, arena px and rad."""
+    robots = optics.mat(np.array([(x + 160.0, y + 140.0) for x, y, _ in places]))
+    for attempt in range(TRIES):
+        things, _ = scene(seed + 1000 * attempt, optics)
+        chosen = [things[i] for i in MIX[:count]]
+        if all(float(np.hypot(*(robots - one.middle).T).min()) > one.reach + AWAY for one in chosen):
+            return chosen
+    raise RuntimeError("no room for things")

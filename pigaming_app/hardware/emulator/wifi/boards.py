@@ -14,10 +14,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any, NamedTuple, Self, cast
 
+from pigaming_app.hardware.robot_files import PROGRAM, microbit_program
 from pigaming_app.storage.settings import folders
 
 HERE = Path(__file__).parent / "micropython"
-PROGRAM = Path(__file__).parents[2] / "firmware" / "micropython"
 INTERPRETER = "node_modules/@micropython/micropython-webassembly-pyscript/micropython.mjs"
 INSTALLING, ANSWER = 120.0, 60.0  # s, timeouts
 FULL = 65535  # duty of a PWM pin
@@ -49,6 +49,7 @@ WIRING: Mapping[str, tuple[Wheel, Wheel]] = {  # of the board files
     "board_esp32": (Wheel(25, 26), Wheel(32, 33)),
     "board_pico_w": (Wheel(10, 11), Wheel(12, 13)),
     "board_pololu_2040": (Wheel(None, 11, 15), Wheel(None, 10, 14)),
+    "microbit": (Wheel(8, 12), Wheel(0, 16)),
 }
 
 
@@ -63,7 +64,13 @@ class BoardConfig(NamedTuple):
     board: str = "board_esp32"
     radio: str = "wifi"
 
-    def text(self) -> str:
+    def files(self) -> dict[str, str]:
+        """Files of the robot, by name."""
+        files = {file.name: file.read_text("utf-8") for file in PROGRAM.glob("*.py")}
+        main = files.pop("robot.py")
+        return {**files, "main.py": main, "config.py": self._config()}
+
+    def _config(self) -> str:
         return (
             f'NETWORK, PASSWORD = "emulated", ""\nROBOT, NAME, ARENA = {self.robot}, {self.name!r}, {self.arena}\n'
             f'KEY, BOARD, RADIO = "{self.key.hex()}", "{self.board}", "{self.radio}"\n'
@@ -71,18 +78,30 @@ class BoardConfig(NamedTuple):
         )
 
 
+class MicrobitConfig(NamedTuple):
+    """A micro:bit: the relay (0) or a robot (1 to 4)."""
+
+    number: int
+    arena: int
+    board: str = "microbit"
+
+    def files(self) -> dict[str, str]:
+        """Its only file."""
+        return {"main.py": microbit_program(self.number, self.arena)}
+
+
 def interpreter() -> Path:
     """MicroPython's WebAssembly build, installed if necessary. Raises NoMicroPython."""
     node, npm = shutil.which("node"), shutil.which("npm")
     if not node:
-        raise NoMicroPython("Node.js is not installed")
+        raise NoMicroPython("Node.js is not installed (apt-get install nodejs npm)")
     folder = folders().cache / "micropython"
     lock = HERE / "package-lock.json"
     found, installed = folder / INTERPRETER, folder / lock.name
     if found.is_file() and installed.is_file() and installed.read_bytes() == lock.read_bytes():
         return found
     if not npm:
-        raise NoMicroPython("npm is not installed")
+        raise NoMicroPython("npm is not installed (apt-get install npm)")
     folder.mkdir(parents=True, exist_ok=True)
     for file in (HERE / "package.json", lock):
         shutil.copy(file, folder)
@@ -105,7 +124,7 @@ class Boards:
 
     def __init__(
         self,
-        configs: Sequence[BoardConfig],
+        configs: Sequence[BoardConfig | MicrobitConfig],
         paced: bool = False,
         boards: Mapping[str, str] = {},
         wiring: Mapping[str, tuple[Wheel, Wheel]] = WIRING,
@@ -114,11 +133,10 @@ class Boards:
         self.powered_until = [float("-inf")] * len(configs)  # s, when the motors were last switched off
         self.resets: list[tuple[int, int]] = []  # robot and cause (1 power, 3 watchdog), in order
         self._wiring = [wiring[config.board] for config in configs]
-        files = {file.name: file.read_text("utf-8") for file in [*PROGRAM.glob("*.py"), *HERE.glob("*.py")]}
+        files = {file.name: file.read_text("utf-8") for file in HERE.glob("*.py")}
         files |= {f"{name}.py": text for name, text in boards.items()}
-        files["main.py"] = files.pop("robot.py")
         first = {
-            "robots": [{**files, "config.py": config.text()} for config in configs],
+            "robots": [{**files, **config.files()} for config in configs],
             "interpreter": interpreter().as_uri(),
             "paced": paced,
         }
@@ -137,7 +155,7 @@ class Boards:
         self._await("now")
 
     def disturb(self, robot: int, **order: Any) -> None:
-        """`do`: "reboot", "off", "hang loop" (the timer runs on) or "hang board"; `battery`: mV."""
+        """`do`: "reboot", "off", "hang loop" (the timer runs on) or "hang board"; `battery`: mV; `button`: 1 or 0."""
         self._tell({"robot": robot, **order})
 
     def motors(self, robot: int) -> Shares:

@@ -14,7 +14,7 @@ from machine import ADC, WDT, WDT_RESET, Pin, Timer, reset_cause
 DRIVE, REPORT, VERSION = 0xD1, 0xD5, 2
 BODY = 13  # bytes of a drive packet before its check
 MIDDLE = 63  # speed code of a wheel at rest
-DEADMAN, LOW, EMPTY, RESTARTED = 1, 2, 4, 8  # flags of a report
+DEADMAN, LOW, EMPTY, RESTARTED, PARKED = 1, 2, 4, 8, 16  # flags of a report
 DEADMAN_MS, TIMER_MS, REPORT_MS, SLOT_MS, BATTERY_MS = 200, 10, 200, 10, 20
 LONELY_MS = 3000  # ms without a command after which the reports end
 
@@ -36,6 +36,8 @@ class Robot:
         self.report_at = self.driven  # ms
         self.stopped = True  # by the deadman; True until the first command
         self.empty = False
+        self.parked = self.down = False  # stopped by the button; whether that is down
+        self.button = Pin(board.BUTTON, Pin.IN, Pin.PULL_UP) if board.BUTTON is not None else None
         self.lamp = Pin(board.LED, Pin.OUT) if board.LED is not None else None
         self.sensor = ADC(Pin(board.BATTERY_PIN)) if board.BATTERY_PIN is not None else None
         self.millivolts = self.read_battery()  # 0 without a divider
@@ -67,26 +69,29 @@ class Robot:
         self.seq, self.driven, self.stopped = packet[3], now, False
         if self.seq % 10 == 0:  # robots report one after the other
             self.report_at = time.ticks_add(now, SLOT_MS * (self.address - 1))
-        enabled = packet[4] >> self.address - 1 & 1 and not self.empty
+        enabled = packet[4] >> self.address - 1 & 1 and not self.empty and not self.parked
         left, right = packet[3 + 2 * self.address], packet[4 + 2 * self.address]
         self.board.left.drive(left - MIDDLE if enabled and left <= 2 * MIDDLE else 0)
         self.board.right.drive(right - MIDDLE if enabled and right <= 2 * MIDDLE else 0)
         return True
 
     def work(self, now):
-        """Measure the battery, regulate the wheels, light the lamp."""
+        """Read button and battery, regulate the wheels, light the lamp."""
         if time.ticks_diff(now, self.measured) < BATTERY_MS:
             return
         self.measured = now
+        before, self.down = self.down, self.button is not None and not self.button.value()
+        if self.down and not before:
+            self.parked = not self.parked
         if self.sensor is not None:
             self.millivolts += (self.read_battery() - self.millivolts) // 4
             self.empty = self.millivolts < (self.board.LOW_MV if self.empty else self.board.EMPTY_MV)
-        if self.empty:
+        if self.empty or self.parked:
             self.brake()
         self.board.left.regulate()
         self.board.right.regulate()
         if self.lamp is not None:
-            self.lamp.value(not self.stopped or now % 1000 < 100)
+            self.lamp.value(now % 200 < 100 if self.parked else not self.stopped or now % 1000 < 100)
 
     def read_battery(self):
         """Voltage of the battery in mV, 0 without a divider."""
@@ -97,7 +102,7 @@ class Robot:
     def flags(self):
         low = self.sensor is not None and self.millivolts < self.board.LOW_MV
         parts = (DEADMAN * self.stopped, LOW * low, EMPTY * self.empty, RESTARTED * self.restarted)
-        return sum(parts)
+        return sum(parts) + PARKED * self.parked
 
     def report(self, now):
         """The report packet if it is due, else None."""

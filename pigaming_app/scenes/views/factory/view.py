@@ -52,6 +52,8 @@ BESIDE = 102.0  # px from a robot to its countdown
 class FactoryView(MatchView):
     """The view of one match of Robot Factory."""
 
+    style = "factory"
+
     def __init__(
         self, arena: Arena, state: Factory, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
@@ -61,6 +63,7 @@ class FactoryView(MatchView):
             options,
             words,
             Background(partial(bare, arena.plan, bool(state.rules.allies), bool(state.rules.party))),
+            arena.things,
         )
         self.hud = FactoryHud(self.background, players, state, words)
         self.detector = FactoryEventDetector(state)

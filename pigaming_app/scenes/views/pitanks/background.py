@@ -18,16 +18,16 @@ Starts = tuple[tuple[int, float, float], ...]  # seat, px, px
 
 
 class WalledBackground(Background):
-    """Background with destructible walls."""
+    """Background with the first `count` walls, those of the arena; the others belong to real things."""
 
-    def __init__(self, state: Any, starts: Starts) -> None:
+    def __init__(self, state: Any, count: int, starts: Starts) -> None:
         super().__init__(partial(bare, starts))
-        self.health: list[int] = [0] * state.wall_count
-        self.sprites: list[Sprite | None] = [None] * state.wall_count
+        self.health: list[int] = [0] * count
+        self.sprites: list[Sprite | None] = [None] * count
 
     def show_walls(self, state: Any) -> None:
         """Bake the walls whose health has changed."""
-        for i in range(state.wall_count):
+        for i in range(len(self.sprites)):
             part = state.walls[i]
             if self.sprites[i] is None or part.health != self.health[i]:
                 before, now = self.sprites[i], wall_sprite(part, part.health)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, Bullet, PiTanks
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 
 NEAR = RADIUS + 20.0  # px, maximum distance between a bullet and the robot that stopped it
 
@@ -150,7 +150,7 @@ class PiTanksEventDetector:
         events = []
         for i in range(state.wall_count):
             wall = state.walls[i]
-            if wall.health != self.walls[i]:
+            if wall.health != self.walls[i] and wall.initial_health != SOLID:  # not a real thing that was moved
                 x, y, angle = (
                     (wall.ax + wall.bx) / 2,
                     (wall.ay + wall.by) / 2,

@@ -15,12 +15,12 @@ from pigaming_app.ui.draw.sprites import HEADINGS
 from pigaming_app.ui.draw.text import glyph
 
 
-def jobs(state: Any, seats: Sequence[int]) -> Iterator[Job]:
-    """One small job per sprite; a cached sprite costs nothing."""
+def jobs(state: Any, walls: int, seats: Sequence[int]) -> Iterator[Job]:
+    """One small job per sprite; a cached sprite costs nothing. `walls`: number of walls of the arena itself."""
     yield from (partial(tank.ghost, seat) for seat in seats)
     yield from _shooting(seats)
     yield from _numbers(seats, ("+1", "−1") if state.rules.penalty else ("+1",))
-    yield from _walls(state)
+    yield from _walls(state, walls)
     yield from _hits(seats)
     if state.rules.pickups:
         yield from _powers(seats)
@@ -59,8 +59,8 @@ def _numbers(seats: Sequence[int], popups: Sequence[str]) -> Iterator[Job]:
                 yield partial(things.popup, text, seat, level)
 
 
-def _walls(state: Any) -> Iterator[Job]:
-    for i in range(state.wall_count):
+def _walls(state: Any, count: int) -> Iterator[Job]:
+    for i in range(count):
         wall = state.walls[i]
         for health in range(wall.initial_health - 1, -1, -1):
             yield partial(wall_sprite, wall, health)

@@ -37,15 +37,17 @@ class PiTanksView(MatchView):
         self, arena: Arena, state: PiTanks, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        self.walls = WalledBackground(state, tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats))
-        super().__init__(state, players, options, words, self.walls)
+        self.walls = WalledBackground(
+            state, len(arena.walls), tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats)
+        )
+        super().__init__(state, players, options, words, self.walls, arena.things)
         self.hud = PiTanksHud(self.background, state, players, words)
         self.detector = PiTanksEventDetector(state)
         self.flashed = [-1.0] * len(state.robots)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
         self.flying = [0] * len(state.bullets)
         self.add_prewarm_jobs(self.hud.jobs(state))
-        self.add_prewarm_jobs(jobs(state, self.seats))
+        self.add_prewarm_jobs(jobs(state, len(arena.walls), self.seats))
         self.marked = [slot.seat for event in self.hud.sums for slot in event.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
 

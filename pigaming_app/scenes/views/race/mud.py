@@ -7,7 +7,7 @@ import numpy.typing as npt
 import pygame
 
 from pigaming_app.games.race.course import Course
-from pigaming_app.scenes.views.race.track import MUD
+from pigaming_app.scenes.views.things.styles import MUD
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached

@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.scenes.views.race.hud_cards import u_turn
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
-from pigaming_app.scenes.views.race.track import MUD
+from pigaming_app.scenes.views.things.styles import MUD
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,

@@ -14,7 +14,6 @@ from pigaming_app.ui.draw import ALARM, ICE, Color, GlowCanvas, Point
 from pigaming_app.ui.draw.frame_budget import Steps
 
 EDGE: Color = (150, 178, 214)
-MUD: Color = (170, 106, 44)
 MARKS: Color = (34, 45, 64)
 ARROWS: Color = (70, 88, 116)
 TIGHT = 340.0  # px: a bend of a smaller radius has a kerb

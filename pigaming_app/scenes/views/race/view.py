@@ -49,11 +49,13 @@ BLINK, BLINKS = 0.08, 0.6  # s: one blink, and all of a robot that was put back 
 class RaceView(MatchView):
     """The view of one race."""
 
+    style = "race"
+
     def __init__(
         self, arena: Arena, state: Race, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
         self.floor = RaceBackground(arena.plan, state)
-        super().__init__(state, players, options, words, self.floor)
+        super().__init__(state, players, options, words, self.floor, arena.things)
         self.arena = arena
         self.cards = RaceHud(self.background, state, players, words)
         self.detector = RaceEventDetector(state)

@@ -2,7 +2,7 @@
 import { randomBytes } from "node:crypto";
 import { parentPort, receiveMessageOnPort, workerData } from "node:worker_threads";
 
-const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6; // as in boards.mjs
+const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7; // as in boards.mjs
 const { numbers, inbox, files, interpreter, paced } = workerData;
 const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
 const pins = {};
@@ -14,6 +14,7 @@ globalThis.bridge = {
   random: (size) => randomBytes(size).toString("hex"),
   cause: () => numbers[CAUSE],
   battery: () => numbers[BATTERY],
+  button: () => numbers[BUTTON],
   hangs: () => numbers[HANG] === 1,
   watch(ms) {
     numbers[FED] = time() | 0;

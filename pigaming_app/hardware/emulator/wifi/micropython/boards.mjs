@@ -2,14 +2,15 @@
 //
 // Standard input: one JSON object a line. The first configures: {"robots": [{file: text}, ...], "interpreter": path,
 // "paced": bool}. Then {"now": ms, "received": [number, ...]} advances the clock of paced boards once each has received so
-// many datagrams, and {"robot": index, "do": "reboot" | "off" | "hang loop" | "hang board", "battery": mV} disturbs one.
+// many datagrams, and {"robot": index, "do": "reboot" | "off" | "hang loop" | "hang board", "battery": mV, "button": 0 | 1}
+// disturbs one.
 // Standard output: {"ports"}, {"robot", "at", "pins"}, {"robot", "reset"}, {"now"}. Times are ms: of the clock if paced,
 // else of the system's monotonic clock.
 import dgram from "node:dgram";
 import { createInterface } from "node:readline";
 import { MessageChannel, Worker } from "node:worker_threads";
 
-export const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, SIZE = 8;
+export const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7, SIZE = 8;
 const lines = createInterface({ input: process.stdin })[Symbol.asyncIterator]();
 const first = JSON.parse((await lines.next()).value);
 const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
@@ -110,6 +111,7 @@ async function advance(order) {
 
 function disturb(robot, order) {
   if (order.battery !== undefined) robot.numbers[BATTERY] = order.battery;
+  if (order.button !== undefined) robot.numbers[BUTTON] = order.button;
   if (order.do === "reboot") robot.reset(1);
   if (order.do === "off") robot.off();
   if (order.do === "hang loop" || order.do === "hang board") robot.numbers[HANG] = order.do === "hang loop" ? 1 : 2;

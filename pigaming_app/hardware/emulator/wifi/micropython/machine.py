@@ -14,8 +14,9 @@ class Pin:
         self.name = str(name)
 
     def value(self, value=None):
-        if value is not None:
-            js.bridge.pin(self.name, int(value))
+        if value is None:
+            return int(not js.bridge.button())  # to ground, with a pull-up
+        js.bridge.pin(self.name, int(value))
 
 
 class PWM:
@@ -64,6 +65,29 @@ class WDT:
 
     def feed(self):
         js.bridge.feed()
+
+
+class Registers:
+    """Registers of an nRF52833: its watchdog and the reason of the last reset."""
+
+    def __init__(self):
+        self.timeout = 2000  # ms
+
+    def __getitem__(self, address):
+        return {0x40000400: 2 if js.bridge.cause() == WDT_RESET else 1}[address]
+
+    def __setitem__(self, address, value):
+        if address == 0x40010504:
+            self.timeout = value * 1000 // 32768
+        elif address == 0x40010000 and value == 1:
+            js.bridge.watch(self.timeout)
+        elif address == 0x40010600 and value == 0x6E524635:
+            js.bridge.feed()
+        elif address != 0x40000400:
+            raise ValueError(address)
+
+
+mem32 = Registers()
 
 
 class Timer:

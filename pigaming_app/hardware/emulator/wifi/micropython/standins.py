@@ -1,6 +1,7 @@
-"""Completes the WebAssembly build of MicroPython by what every board has: a clock that sleeps, and random bytes."""
+"""Completes the WebAssembly build of MicroPython by what boards have: a clock that sleeps, random bytes, Ctrl-C."""
 
 import os
+import sys
 import time
 
 import js
@@ -26,3 +27,15 @@ def sleep_ms(ms):
 
 time.ticks_ms, time.sleep_ms = ticks_ms, sleep_ms
 os.urandom = lambda size: bytes.fromhex(js.bridge.random(size))
+
+
+class Interpreter:
+    """The module `micropython` of a micro:bit."""
+
+    interrupt = 3  # byte on the serial line that stops the program; -1: none
+
+    def kbd_intr(self, byte):
+        self.interrupt = byte
+
+
+micropython = sys.modules["micropython"] = Interpreter()

@@ -1,0 +1,54 @@
+"""Places that things cover move to the nearest free one."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import cos, dist, hypot, pi, sin
+
+from pigaming_app.sim.arena import Arena, Layout, StartPose, build
+from pigaming_app.sim.contact import in_wall
+from pigaming_app.sim.flow_field import Route, expand, free_node
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.toml_table import FieldError
+from pigaming_app.sim.world import World
+
+CLEAR = 8.0  # px between a start that has been moved and walls, or other robots
+SEARCH, STEP = 300, 10  # px around a start, where a free place is looked for
+
+
+def clear_starts(layout: Layout) -> tuple[StartPose, ...]:
+    """The starts, those that things cover moved to the nearest free place. Raises FieldError if there is none."""
+    if not layout.things:
+        return layout.starts
+    world = World()
+    build(world, Arena("", {}, layout.walls, layout.starts, "", things=layout.things))
+    starts = list(layout.starts)
+    blocked = [i for i, start in enumerate(starts) if in_wall(world, start.x, start.y)]
+    for i in blocked:
+        others = [(start.x, start.y) for j, start in enumerate(starts) if j != i and (j not in blocked or j < i)]
+        x, y = free_place(world, starts[i].x, starts[i].y, others)
+        starts[i] = replace(starts[i], x=x, y=y)
+    return tuple(starts)
+
+
+def free_place(world: World, x: float, y: float, others: Sequence[tuple[float, float]] = ()) -> tuple[float, float]:
+    """The free place nearest to (x, y), px, from which others can be reached, and away from them.
+
+    Raises FieldError if there is none within SEARCH px.
+    """
+    field = Route()
+    if others and (root := free_node(world, *others[0])):
+        expand(world, field, root, -1)
+    reach = range(-SEARCH, SEARCH + 1, STEP)
+    for dx, dy in sorted(((dx, dy) for dx in reach for dy in reach), key=lambda way: hypot(*way)):
+        at = x + dx, y + dy
+        node = free_node(world, *at)
+        connected = not field.root or (node and field.reach[node])
+        if connected and is_roomy(world, *at) and all(dist(at, other) >= 2 * RADIUS + CLEAR for other in others):
+            return at
+    raise FieldError("thing", f"one covers the place at ({x:g}, {y:g}), and there is no free one near it")
+
+
+def is_roomy(world: World, x: float, y: float) -> bool:
+    """True if a robot at (x, y) is at least CLEAR px from all walls."""
+    around = [(x, y), *((x + CLEAR * cos(k * pi / 4), y + CLEAR * sin(k * pi / 4)) for k in range(8))]
+    return not any(in_wall(world, *point) for point in around)

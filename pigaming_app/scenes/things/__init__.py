@@ -1,0 +1,1 @@
+"""Real things on the mat: the scan, their outlines, and matches among them."""

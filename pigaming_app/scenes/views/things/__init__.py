@@ -1,0 +1,1 @@
+"""Real things on the mat, in the look of each game."""

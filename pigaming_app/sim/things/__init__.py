@@ -1,0 +1,1 @@
+"""Real things on the mat: convex outlines that stand in the game as walls, mud or lines."""

@@ -1,0 +1,223 @@
+"""The programs of the micro:bits, on emulated boards and radio, driven by the arcade's own link in transparent mode.
+
+Skipped without Node.js and npm.
+"""
+
+import socket
+
+import pytest
+
+from pigaming_app.hardware.emulator.wifi.boards import Boards, MicrobitConfig, NoMicroPython, interpreter
+from pigaming_app.hardware.radio.link import Link
+from pigaming_app.hardware.radio.packets import PARKED, RESTARTED, drive_packet
+from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
+from pigaming_app.hardware.signals import WheelCommand
+
+pytestmark = pytest.mark.long
+ARENA = 4711
+CHANNEL = bytes([ARENA % 84, ARENA // 84])  # and group of the radio
+GO = [WheelCommand(1.0, -0.5), WheelCommand(-1.0, 0.5)]
+SHARES = [(1.0, -32 / 63), (-1.0, 32 / 63)]
+STEP = 0.002  # s
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _micropython():
+    try:
+        interpreter()
+    except NoMicroPython as reason:
+        pytest.skip(str(reason))
+
+
+class Air:
+    """Relay (board 0), robots 1 and 2, the radio between them, and the relay's USB line, a SerialPort."""
+
+    def __init__(self, robot):
+        self.boards = Boards([MicrobitConfig(0, ARENA), robot(1, ARENA), robot(2, ARENA)], paced=True)
+        self.sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(3)]
+        for end in self.sockets:
+            end.bind(("127.0.0.1", 0))
+            end.setblocking(False)
+        self.now, self.sent, self.reports = 0.0, [0, 0, 0], b""
+        self.deaf = False  # True: nothing gets through the air
+        self.aired = []  # messages of the relay
+
+    def run(self, seconds, link=None):
+        for _ in range(round(seconds / STEP)):
+            self.now += STEP
+            if link:
+                link.pump()
+            self.boards.advance(self.now, self.sent)
+            for board, end in enumerate(self.sockets):
+                self._carry(board, end)
+
+    def _carry(self, board, end):
+        try:
+            while True:
+                line, data = end.recv(512).split(b":", 1)
+                if line == b"usb":
+                    self.reports += data
+                    continue
+                if board == 0:
+                    self.aired.append(data)
+                for other in {0, 1, 2} - {board} if not self.deaf else ():
+                    self.put(other, data)
+        except BlockingIOError:
+            pass
+
+    def put(self, board, data, line=b"radio"):
+        self.sockets[board].sendto(line + b":" + data, ("127.0.0.1", self.boards.ports[board]))
+        self.sent[board] += 1
+
+    def moves(self, packet):
+        """True if a message by radio sets robot 1 in motion; it stands again after."""
+        assert not any(self.boards.motors(1))
+        self.put(1, CHANNEL + packet)
+        self.run(0.004)
+        moving = any(self.boards.motors(1))
+        self.run(0.22)
+        return moving
+
+    # ---- SerialPort
+
+    @property
+    def in_waiting(self):
+        return len(self.reports)
+
+    def read(self, size=1):
+        data, self.reports = self.reports[:size], self.reports[size:]
+        return data
+
+    def write(self, data):
+        self.put(0, data, b"usb")
+
+    def close(self):
+        pass
+
+
+class WithDivider(MicrobitConfig):
+    """A robot that measures its battery at pin 2."""
+
+    def files(self):
+        text = (
+            super().files()["main.py"].replace("BATTERY = None", "BATTERY = pin2").replace("pin16, r", "pin16, pin2, r")
+        )
+        return {"main.py": text}
+
+
+@pytest.fixture
+def air(request):
+    air = Air(getattr(request, "param", MicrobitConfig))
+    yield air
+    air.boards.close()
+    for end in air.sockets:
+        end.close()
+
+
+@pytest.fixture
+def link(air):
+    air.run(0.1)
+    return Link(lambda: air, lambda: air.now, XBeeProtocol(ARENA, XBeeMode.TRANSPARENT))
+
+
+def drive(air, link, seconds):
+    for _ in range(round(seconds / 0.02)):
+        link.send(GO)
+        air.run(0.02, link)
+
+
+def test_the_arcade_drives_robots_through_the_relay_and_the_deadman_stops_them(air, link):
+    drive(air, link, 0.1)
+    drive(air, link, 3.0)
+    for robot in (0, 1):
+        assert air.boards.motors(robot + 1) == pytest.approx(SHARES[robot], abs=2e-3)
+        assert link.quality(robot).share >= 0.9
+        assert link.telemetry[robot].flags == 0
+        assert link.telemetry[robot].battery == 0.0, "no divider"
+        assert link.quality(robot).echo <= 0.05
+    assert link.fault is None
+    air.deaf, began = True, air.now
+    drive(air, link, 0.4)
+    for robot in (0, 1):
+        assert air.boards.motors(robot + 1) == (0.0, 0.0)
+        assert air.boards.powered_until[robot + 1] - began <= 0.25
+    air.deaf = False
+    drive(air, link, 0.1)
+    assert any(air.boards.motors(1))
+    began = air.now
+    air.run(0.3)  # without the arcade
+    assert air.boards.motors(1) == (0.0, 0.0)
+    assert air.boards.powered_until[1] - began <= 0.25
+    drive(air, link, 0.1)
+    link.close()
+    air.run(0.02)
+    assert air.boards.motors(1) == (0.0, 0.0), "a stop by the link"
+
+
+def test_nothing_corrupt_repeated_or_of_another_arena_moves_a_motor(air):
+    air.run(0.1)
+    genuine = drive_packet(ARENA, 3, GO)
+    assert air.moves(genuine)
+    assert not air.moves(genuine), "repeated"
+    for place in range(len(genuine)):
+        for bit in (1, 64):
+            broken = bytearray(drive_packet(ARENA, 4, GO))
+            broken[place] ^= bit
+            assert not air.moves(bytes(broken)), place
+    assert not air.moves(drive_packet(ARENA + 1, 5, GO))
+    assert not air.moves(drive_packet(ARENA, 6, GO)[:-1])
+    assert not air.moves(drive_packet(ARENA, 7, GO) + b"\0")
+    assert not air.moves(drive_packet(ARENA, 8, [None, *GO])), "not enabled"
+    assert air.moves(drive_packet(ARENA, 9, GO))
+
+
+def test_a_repeated_packet_does_not_feed_the_deadman(air):
+    air.run(0.1)
+    for _ in range(20):
+        air.put(1, CHANNEL + drive_packet(ARENA, 1, GO))
+        air.run(0.02)
+    assert 0.2 <= air.boards.powered_until[1] - 0.1 <= 0.22
+
+
+def test_the_relay_passes_on_whole_packets_only_and_no_byte_interrupts_it(air):
+    air.run(0.1)
+    packets = [drive_packet(ARENA, seq, GO) for seq in range(128)]
+    air.put(0, b"\x03\x04\r\n\xd1\x03" + packets[0][:9], b"usb")
+    for packet in packets:
+        air.put(0, packet[:5], b"usb")
+        air.run(0.004)
+        air.put(0, packet[5:], b"usb")
+        air.run(0.004)
+    assert air.aired == [CHANNEL + packet for packet in packets]
+
+
+def test_the_button_parks_a_robot_until_it_is_pressed_again(air, link):
+    for press, moving in ((0, True), (1, False), (0, False), (1, True)):
+        air.boards.disturb(1, button=press)
+        drive(air, link, 0.3)
+        assert any(air.boards.motors(1)) is moving
+        assert bool(link.telemetry[0].flags & PARKED) is not moving
+        assert any(air.boards.motors(2))
+
+
+def test_a_hanging_program_is_stopped_by_the_timer_and_a_hanging_chip_by_the_watchdog(air, link):
+    for hang in ("hang loop", "hang board"):
+        drive(air, link, 0.3)
+        assert any(air.boards.motors(1))
+        air.boards.disturb(1, do=hang)
+        began = air.now
+        drive(air, link, 0.6)
+        assert air.boards.powered_until[1] - began <= (0.25 if hang == "hang loop" else 0.52)
+        assert (1, 3) in air.boards.resets
+        air.boards.resets.clear()
+        drive(air, link, 0.6)
+        assert link.telemetry[0].flags == RESTARTED
+
+
+@pytest.mark.parametrize("air", [WithDivider], indirect=True)
+def test_an_empty_battery_brakes_until_it_has_recovered(air, link):
+    for millivolts, moving in ((4500, True), (4300, False), (4500, False), (4700, True)):
+        air.boards.disturb(1, battery=millivolts)
+        drive(air, link, 0.8)
+        assert any(air.boards.motors(1)) is moving, millivolts
+        assert link.telemetry[0].battery == pytest.approx(millivolts / 1000, abs=0.02)
