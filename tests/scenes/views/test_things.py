@@ -43,6 +43,12 @@ def begun(game, *things):
     return match, VIEWS[game](arena, match.state, ["human"] * 4, AllEffects("full", True), Words("en"))
 
 
+def drawn(screen, match, view):
+    """Draw until all light has been built."""
+    for _ in range(20):
+        view.draw(screen, match.state, 1.0, 0.0)
+
+
 def brightness(screen, x, y):
     return max(screen.get_at((round(LEFT + x), round(TOP + y)))[:3])
 
@@ -59,6 +65,7 @@ def test_no_light_falls_on_a_thing_and_much_around_it(screen, game):
     for side in (-1.0, 1.0):  # light that the match would throw on it
         view.particles.glow(LEFT + X, TOP + Y, (255, 255, 255))
         view.particles.burst(LEFT + X + 20 * side, TOP + Y, (255, 255, 255), 20, 4, 60)
+    drawn(screen, match, view)
     view.draw(screen, match.state, 1.0, 0.01)
     assert brightest_of_body(screen) == 0
     edge = HALF + MARGIN + 5.0
@@ -69,12 +76,12 @@ def test_no_light_falls_on_a_thing_and_much_around_it(screen, game):
 @pytest.mark.parametrize(("game", "use"), [("pitanks", Use.MUD), ("pitanks", Use.LINE), ("race", Use.LINE)])
 def test_flat_things_are_lit_and_robots_drive_over_them(screen, game, use):
     match, view = begun(game, square(use=use))
-    view.draw(screen, match.state, 1.0, 0.0)
+    drawn(screen, match, view)
     assert brightest_of_body(screen) > 60
     x, y, _ = view.pose(0, 1.0)
     before = screen.get_at((round(x), round(y)))
     view.show_things([square(x - LEFT, y - TOP, use)])
-    view.draw(screen, match.state, 1.0, 0.0)
+    drawn(screen, match, view)
     assert screen.get_at((round(x), round(y))) == before
 
 

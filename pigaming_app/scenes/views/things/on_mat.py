@@ -25,7 +25,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 TURNS = 360  # headings of a sprite
 REACH = 48  # px of light beyond an outline, besides its margin
 RIM = 8  # px of light beyond the margin of a wall that covers the ground
-BUILD = 0.002  # s a frame for building sprites
+BUILD = 0.001  # s a frame for building sprites
 GLOW = 0.9
 Shape = tuple[Point, ...]  # corners, whole px from their mean, with the longest side along x
 
@@ -49,7 +49,9 @@ class ThingsOnMat:
     def __init__(self, style: str, things: Sequence[ThingSpec] = ()) -> None:
         self.style = style
         self.placed: list[Placed] = []
-        self.sprites: list[tuple[Shape, Sprite] | None] = []
+        self.sprites: list[tuple[Shape, Sprite] | None] = []  # the latest of each thing
+        self.begun: tuple[int, tuple[Use, Shape, int, int]] | None = None  # thing and sprite that is being built
+        self.next = 0  # thing whose sprite is looked up first
         self.show(things)
 
     def show(self, things: Sequence[ThingSpec]) -> None:
@@ -63,15 +65,28 @@ class ThingsOnMat:
 
     def lights(self, batch: Batch) -> None:
         """Append the light around and on all things to a batch of light on the ground."""
-        with budget.until(clock() + BUILD):
-            for i, thing in enumerate(self.placed):
-                try:
-                    self.sprites[i] = thing.shape, halo(self.style, *thing[2:6])
-                except Unfinished:
-                    break
+        self._build()
         for thing, sprite in zip(self.placed, self.sprites, strict=True):
             if sprite and sprite[0] == thing.shape:
                 put(batch, sprite[1], thing.x, thing.y)
+
+    def _build(self) -> None:
+        """Look up the sprites, in turn, and build missing ones while there is time.
+
+        One that was begun is finished first, so that even a thing that keeps turning gets its light.
+        """
+        todo = [(i, thing[2:6]) for i, thing in enumerate(self.placed)]
+        todo = [*([self.begun] if self.begun else []), *todo[self.next :], *todo[: self.next]]
+        self.begun = None
+        with budget.until(clock() + BUILD):
+            for i, sprite in todo:
+                try:
+                    light = halo(self.style, *sprite)
+                except Unfinished:
+                    self.begun, self.next = (i, sprite), i
+                    break
+                if i < len(self.sprites):
+                    self.sprites[i] = sprite[1], light
 
     def clear(self, screen: pygame.Surface) -> None:
         """Black out the ground below all things and the light on their edges, within the arena."""
