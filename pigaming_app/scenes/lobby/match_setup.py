@@ -127,8 +127,9 @@ class MatchSetupPage:
 
     @property
     def _on_mat(self) -> bool:
-        """True if real robots play."""
-        return self.context.session is not None and bool(self.seats.real())
+        """True if real robots play under our own camera."""
+        session = self.context.session
+        return session is not None and session.radio and bool(self.seats.real())
 
     def _go(self) -> StackOperation:
         self._save_selection()

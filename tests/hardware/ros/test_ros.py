@@ -1,11 +1,7 @@
 """Robots of a ROS network: units, the same safety, and a whole match over a real roscore with rostopic beside it."""
 
 import json
-import os
-import shutil
 import signal
-import socket
-import subprocess
 import sys
 import time
 from math import pi
@@ -19,8 +15,8 @@ from pigaming_app.hardware.ros.robots import RosLink, RosPoses
 from pigaming_app.hardware.ros.units import ArenaFrame
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.sim.world import DT, ROBOTS, World
+from tests.hardware.ros.network import JOB, NEEDS_ROSCORE, network, until
 
-ROOT = Path(__file__).resolve().parents[3]
 TRAINS = [UNMEASURED] * ROBOTS
 
 
@@ -76,6 +72,11 @@ def test_without_poses_the_speeds_become_zero_and_at_the_end_they_are_zero_five_
     assert all(zero[30:])
     assert plant.safety.pauses
     assert plant.faults[0].name == "camera"
+    assert rig.link.quality(0).share == pytest.approx(0.5)
+    assert rig.link.telemetry[0].battery == 0.0
+    assert rig.camera.fault is None
+    now[0] += 1.0
+    assert rig.camera.fault.key == "ros_poses"
     node.twists.clear()
     rig.close()
     assert node.twists == [(0, (0.0, 0.0))] * 5
@@ -92,65 +93,37 @@ def test_a_joystick_drives_the_seat_it_names_or_the_first_person():
     assert session.stick(2, False) is None
 
 
-class Watched:
-    """`rostopic echo -p` of a topic, line by line with the time of its arrival."""
-
-    def __init__(self, topic, environment):
-        command = ["rostopic", "echo", "-p", topic]
-        self.process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-        os.set_blocking(self.process.stdout.fileno(), False)
-        self.lines, self._rest = [], b""
-
-    def read(self):
-        while chunk := self.process.stdout.read():
-            *whole, self._rest = (self._rest + chunk).split(b"\n")
-            self.lines += [(time.monotonic(), line.decode()) for line in whole if line[:1].isdigit()]
-        return self.lines
-
-
-def until(condition, timeout=90.0):
-    end = time.monotonic() + timeout
-    while not (found := condition()):
-        assert time.monotonic() < end, "nothing came"
-        time.sleep(0.01)
-    return found
+LOBBY = """
+import time
+from pigaming_app.scenes.app import Options, opened
+from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+lobby = lambda context: Lobby(context, "pitanks", ["level1"] * 3)
+with opened(Options(first_scene=lobby, headless=True, ros_width=2112.0)) as app:
+    def press(button):
+        app.stack.apply(app.stack.top.handle(InputEvent(button, Device("keys", 0))))
+    app.stack.top._swap(1)
+    press(Button.START)
+    while app.stack.scenes:
+        app._frame(0.02)
+        if isinstance(app.stack.top, MatchSetupPage):
+            press(Button.START)
+        time.sleep(0.02)
+"""
 
 
 @pytest.mark.long
-@pytest.mark.skipif(shutil.which("roscore") is None, reason="no roscore: apt-get install ros-core python3-rospy")
+@NEEDS_ROSCORE
 def test_a_match_over_a_real_roscore_obeys_a_joystick_and_stops_without_poses(tmp_path: Path) -> None:
-    with socket.socket() as free:
-        free.bind(("localhost", 0))
-        port = free.getsockname()[1]
-    environment = {
-        **os.environ,
-        "ROS_MASTER_URI": f"http://localhost:{port}",
-        "ROS_HOME": str(tmp_path / "ros"),
-        "PIGAMING_HOME": str(tmp_path / "home"),
-        "SDL_VIDEODRIVER": "dummy",
-        "SDL_AUDIODRIVER": "dummy",
-        "PYTHONUNBUFFERED": "1",
-        "PYTHONWARNINGS": "ignore",
-    }
-    running = []
-
-    def start(*command):
-        running.append(subprocess.Popen(command, env=environment, cwd=ROOT, stdout=subprocess.DEVNULL))
-        return running[-1]
-
-    job = (sys.executable, "-X", "pigaming", "main.py")
-    try:
-        start("roscore", "-p", str(port))
-        until(lambda: subprocess.run(["rostopic", "list"], env=environment, capture_output=True).returncode == 0)
-        mat = start(*job, "ros", "--emulate")
+    with network(tmp_path) as ros:
+        mat = ros.start(*JOB, "ros", "--emulate")
         stick = "{header: {frame_id: robot_1}, axes: [0.0, 1.0], buttons: [0, 0]}"
-        start("rostopic", "pub", "-r", "10", "/joystick", "sensor_msgs/Joy", stick)
-        speeds, states = (Watched(topic, environment) for topic in ("/robot_1/cmd_vel", "/game/state"))
-        running += [speeds.process, states.process]
-        listed = ("rostopic", "list")
-        until(lambda: b"/robot_1/pose" in subprocess.run(listed, env=environment, capture_output=True).stdout)
+        ros.start("rostopic", "pub", "-r", "10", "/joystick", "sensor_msgs/Joy", stick)
+        speeds, states = ros.watch("/robot_1/cmd_vel"), ros.watch("/game/state")
+        until(lambda: "/robot_1/pose" in ros.topics())
         rules = ("--seats", "human,level1", "--real", "1", "--width", "2126")
-        match = start(*job, "play", "pitanks", "--plant", "ros", *rules)
+        match = ros.start(*JOB, "play", "pitanks", "--plant", "ros", *rules)
 
         def state():
             return json.loads(states.lines[-1][1].partition(",")[2]) if states.read() else {}
@@ -168,11 +141,22 @@ def test_a_match_over_a_real_roscore_obeys_a_joystick_and_stops_without_poses(tm
         match.send_signal(signal.SIGINT)
         assert match.wait(10) == 0
         assert all(float(number) == 0.0 for _, line in speeds.read()[-5:] for number in line.split(",")[1:])
-    finally:
-        for process in reversed(running):
-            process.send_signal(signal.SIGCONT)
-            process.terminate()
-        for process in running:
-            process.wait(10)
-            if process.stdout:
-                process.stdout.close()
+
+
+@pytest.mark.long
+@NEEDS_ROSCORE
+def test_the_lobby_offers_the_robots_of_the_network_and_drives_those_chosen(tmp_path: Path) -> None:
+    """Robots 1 and 2 stand still and publish Pose2D and PoseStamped; seat 2 is simulated by choice."""
+    with network(tmp_path) as ros:
+        ros.start(
+            "rostopic", "pub", "-r", "30", "/robot_1/pose", "geometry_msgs/Pose2D", "{x: 1.0, y: 0.5, theta: 1.0}"
+        )
+        pose = "{pose: {position: {x: 1.5, y: 0.8}, orientation: {w: 1.0}}}"
+        ros.start("rostopic", "pub", "-r", "30", "/robot_2/pose", "geometry_msgs/PoseStamped", pose)
+        first, second = ros.watch("/robot_1/cmd_vel"), ros.watch("/robot_2/cmd_vel")
+        arcade = ros.start(sys.executable, "-X", "pigaming", "-c", LOBBY)
+        until(lambda: any(float(number) for _, line in first.read() for number in line.split(",")[1:]))
+        arcade.send_signal(signal.SIGINT)
+        arcade.wait(20)
+        assert all(float(number) == 0.0 for _, line in first.read()[-5:] for number in line.split(",")[1:])
+        assert not second.read()
