@@ -15,7 +15,7 @@ MAY = {
     "ros": {"control", "radio", "tracking"},
     "commissioning": {"control"},
     "sysid": {"calibration"},
-    "scan": {"calibration", "vision"},
+    "scan": {"calibration", "control", "vision"},
     "emulator": {"calibration", "vision"},
     "session": {"calibration", "control", "emulator", "radio", "ros", "scan", "tracking", "vision"},
     "proof": {"calibration", "commissioning", "control", "emulator", "scan", "session", "tracking", "vision"},
