@@ -8,7 +8,7 @@ from pigaming_app.scenes.things.outlines import boxes
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, STEEL, THIN, GlowCanvas, cut_box
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text, wrap
+from pigaming_app.ui.draw.text import text, wrap_balanced
 from pigaming_app.ui.i18n import Words
 
 STEPS = ("put", "light", "scan")
@@ -22,7 +22,7 @@ def draw_steps(screen: pygame.Surface, words: Words) -> None:
     for i, step in enumerate(STEPS):
         x = 960 + (i - 1) * PITCH
         picture(step).draw(screen, x, PICTURE_Y)
-        for k, line in enumerate(wrap(words(f"things.step_{step}"), BODY, ROOM)):
+        for k, line in enumerate(wrap_balanced(words(f"things.step_{step}"), 2)):
             text(line, BODY, ICE, "body", "c", ROOM).draw(screen, x, TEXT_Y + LINE_PITCH * k)
 
 
