@@ -150,6 +150,7 @@ class RealMatch(MatchScene):
         """Advance the match, unless a robot in it has a fault."""
         if self.restart_requested or self.stop_requested:
             return super().update(seconds)
+        self.watch.look()
         seconds = self.session.advance(seconds)
         self._publish()
         if self.gathering is not None:

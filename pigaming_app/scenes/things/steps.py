@@ -6,9 +6,10 @@ import pygame
 
 from pigaming_app.scenes.things.outlines import boxes
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, STEEL, THIN, GlowCanvas, cut_box
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text, wrap
+from pigaming_app.ui.draw.text import text, wrap_balanced
 from pigaming_app.ui.i18n import Words
 
 STEPS = ("put", "light", "scan")
@@ -22,12 +23,13 @@ def draw_steps(screen: pygame.Surface, words: Words) -> None:
     for i, step in enumerate(STEPS):
         x = 960 + (i - 1) * PITCH
         picture(step).draw(screen, x, PICTURE_Y)
-        for k, line in enumerate(wrap(words(f"things.step_{step}"), BODY, ROOM)):
+        for k, line in enumerate(wrap_balanced(words(f"things.step_{step}"), 2)):
             text(line, BODY, ICE, "body", "c", ROOM).draw(screen, x, TEXT_Y + LINE_PITCH * k)
 
 
 @cached
-def picture(step: str) -> LitImage:
+@resumable
+def picture(step: str) -> Steps[LitImage]:
     """A picture centred on (0, 0): things on the mat; a lamp crossed out; stripes of light."""
     ink = GlowCanvas(W + 80, H + 80).set_transform(W / 2 + 40, H / 2 + 40)
     ink.line(cut_box(-W / 2, -H / 2, W, H, 16), STEEL, THIN, True)
@@ -39,9 +41,10 @@ def picture(step: str) -> LitImage:
             c, s = math.cos(math.pi * (1.0 + turn / 4)), math.sin(math.pi * (1.0 + turn / 4))
             ink.line([(66 * c, -16 + 66 * s), (86 * c, -16 + 86 * s)], FOCUS, THIN)
         ink.line([(-84, 84), (84, -96)], ICE, LINE)
-        return LitImage(ink.lit(0.8), (-W // 2 - 40, -H // 2 - 40))
     if step == "scan":
         for x in range(-150, 160, 50):
             ink.fill([(x - 10, -H / 2 + 8), (x + 10, -H / 2 + 8), (x + 10, H / 2 - 8), (x - 10, H / 2 - 8)], STEEL)
-    boxes(ink, 0, 4, ICE if step == "scan" else FOCUS)
-    return LitImage(ink.lit(0.8), (-W // 2 - 40, -H // 2 - 40))
+    if step != "light":
+        boxes(ink, 0, 4, ICE if step == "scan" else FOCUS)
+    yield
+    return LitImage((yield from ink.lit_steps(0.8)), (-W // 2 - 40, -H // 2 - 40))
