@@ -80,6 +80,14 @@ def test_robots_without_a_deadman_are_refused_for_matches(where, emulated, capsy
     assert "\n" not in told
 
 
+@pytest.mark.parametrize("job", [[], ["play"]])
+def test_things_are_put_on_the_emulated_mat_only(job, capsys):
+    assert main([*job, "--things", "3"]) == 2
+    told = capsys.readouterr().err.strip()
+    assert "add --emulate" in told
+    assert "\n" not in told
+
+
 def test_robots_without_a_deadman_do_not_dance_either(tmp_path, capsys):
     Settings(radio="stock").save(folders().config)
     assert main(["fidelity", "record", str(tmp_path / "run.jsonl")]) == 2

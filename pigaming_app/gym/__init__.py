@@ -32,10 +32,12 @@ truncates. Vector environments start the next match at the next step (AutoresetM
 determines all matches from then on; each is one that `main.py play --seed` plays too, with a seed below `starts`.
 """
 
+import os
 from itertools import accumulate
 from typing import Any
 
 try:
+    _sound = os.environ.get("SDL_AUDIODRIVER")
     import gymnasium
     import pettingzoo as pettingzoo
 except ImportError as error:
@@ -46,6 +48,10 @@ except ImportError as error:
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.gym.options import OptionError
 from pigaming_app.gym.parallel import MatchEnv
+
+os.environ.pop("SDL_AUDIODRIVER", None)  # PettingZoo sets it to dsp, which silences a program that plays sound too
+if _sound is not None:
+    os.environ["SDL_AUDIODRIVER"] = _sound
 
 __all__ = ["ENVIRONMENTS", "OptionError", "groups", "parallel_env"]
 

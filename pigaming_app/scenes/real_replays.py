@@ -2,17 +2,19 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.games import replay as replays
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import Replay, ReplayError
 from pigaming_app.games.timeline import EVERY, Timeline
-from pigaming_app.sim.record import digest
+from pigaming_app.sim.record import copy, digest
 from pigaming_app.sim.things.spec import ThingSpec
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.control.match_recording import MatchRecorder, MatchRecording
+    from pigaming_app.hardware.control.moving_things import Reroute
 
 MAX_BYTES = 200_000_000  # of a file; an hour of real robots has about 60 million
 
@@ -33,6 +35,14 @@ def replay_of(match: Match) -> Replay | None:
         return None
     plain = replays.recorded(match)
     return RealReplay(**vars(plain), recording=recorder.recording(plain.length, match.state.robots))
+
+
+def reroute_of(match: Match) -> "Reroute | None":
+    """The planning of a game whose AIs do not plan from the walls alone, for things that move."""
+    reroute, arena, rules = match.game.reroute, match.arena, copy(match.state.rules)
+    if reroute is None:
+        return None
+    return cache(lambda things: reroute(arena, rules, things))
 
 
 def shown_things(match: Match) -> "Sequence[ThingSpec] | None":
@@ -108,4 +118,6 @@ def _set_plant(match: Match, replay: Any) -> None:
         from pigaming_app.hardware.control.recorded_plant import RecordedPlant
 
         recording = replay.recording
-        match.plant = RecordedPlant(match.state, recording.track, recording.moves, len(match.arena.walls))
+        match.plant = RecordedPlant(
+            match.state, recording.track, recording.moves, len(match.arena.walls), reroute_of(match)
+        )

@@ -219,7 +219,12 @@ def test_a_network_failure_is_reported(furnished):
 def test_stopped_while_installing_it_goes_on_next_time(furnished):
     command = [BARE, str(furnished / "main.py")]
     running = subprocess.Popen(
-        command, env=surroundings(furnished, MOOD="endless"), stderr=subprocess.PIPE, text=True, start_new_session=True
+        command,
+        env=surroundings(furnished, MOOD="endless"),
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # in the background, shells ignore it
     )
     until(lambda: (interpreter.site_packages(furnished / ".venv") / "pip" / "calls").exists())
     os.killpg(running.pid, signal.SIGINT)

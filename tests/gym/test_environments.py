@@ -25,6 +25,10 @@ GAMES = list(ENVIRONMENTS.items())
 SHORT = {"compiled": False, "minutes": 0.05}  # of pure Python: 30 decisions
 
 
+def test_the_environments_leave_the_sound_of_the_program_as_it_was():
+    assert os.environ["SDL_AUDIODRIVER"] == "dummy"
+
+
 def played(env, seed, actions):
     """Observations, rewards and ends of an environment that is reset after the end of each episode."""
     found = [(*env.reset(seed=seed), 0.0, False)]

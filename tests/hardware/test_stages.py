@@ -5,7 +5,7 @@ from graphlib import TopologicalSorter
 from tests.test_layers import PACKAGE, imported
 
 HARDWARE = PACKAGE / "hardware"
-ROOT = {"messages", "recordings", "robot_kinds", "run_writer", "signals", "worker"}
+ROOT = {"messages", "recordings", "robot_files", "robot_kinds", "run_writer", "signals", "worker"}
 MAY = {
     "radio": set(),
     "vision": set(),
@@ -15,7 +15,7 @@ MAY = {
     "ros": {"control", "radio", "tracking"},
     "commissioning": {"control"},
     "sysid": {"calibration"},
-    "scan": {"calibration", "vision"},
+    "scan": {"calibration", "control", "vision"},
     "emulator": {"calibration", "vision"},
     "session": {"calibration", "control", "emulator", "radio", "ros", "scan", "tracking", "vision"},
     "proof": {"calibration", "commissioning", "control", "emulator", "scan", "session", "tracking", "vision"},

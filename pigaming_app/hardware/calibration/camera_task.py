@@ -18,7 +18,7 @@ from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKept, ExposureState, Image
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, OpenCVMissing, opencv
-from pigaming_app.hardware.vision.sharpness import blur_of
+from pigaming_app.hardware.vision.sharpness import blur_of, overexposed
 from pigaming_app.hardware.worker import BackgroundWorker, log
 
 BLIND = 6.0  # s, timeout without a picture
@@ -176,9 +176,10 @@ class DriftCheck(CameraTask):
         before = drift.ground.quality
         blurs = blur_of(opencv(), frame.image, drift.seen)
         if before.measured and blurs and self.mm is not None:
-            self.quality = replace(
-                assessed(before.marker_px, float(np.median(blurs)), self.exposure), anyway=before.anyway
-            )
+            blur = float(np.median(blurs))
+            if overexposed(frame.image, drift.seen):
+                blur = max(blur, before.blur_px)
+            self.quality = replace(assessed(before.marker_px, blur, self.exposure), anyway=before.anyway)
 
     def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
         if seconds > BLIND:

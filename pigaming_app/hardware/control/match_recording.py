@@ -147,7 +147,8 @@ def recording_of(parts: Mapping[str, bytes], ticks: int) -> MatchRecording:
 
 def _move(entry: Any, ticks: int) -> ThingsMove:
     """Parse a move of things. Raises KeyError, TypeError, ValueError or FieldError."""
-    move = ThingsMove(int(entry["tick"]), read_things(TomlTable({"thing": entry["things"]})))
+    things = read_things(TomlTable({"thing": entry["things"]}))
+    move = ThingsMove(int(entry["tick"]), things, entry["routed"] is True)
     if not 0 <= move.tick <= ticks:
         raise ValueError("time of a move")
     wall_capsules(move.things, WALLS)

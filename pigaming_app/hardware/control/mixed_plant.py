@@ -95,9 +95,9 @@ class MixedPlant(RealPlant):
         if self.things is None or self.world.over:
             return
         simulated = [robot for i, robot in enumerate(self.world.robots) if robot.present and i not in self.real]
-        move = self.things.update(self.rig.clock(), simulated)
-        if move and self.recorder:
-            self.recorder.moves.append(move)
+        moves = self.things.update(self.rig.clock(), simulated)
+        if self.recorder:
+            self.recorder.moves += moves
 
 
 def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:

@@ -4,7 +4,8 @@ A thing that covers a simulated robot waits: it becomes a wall when the robot ha
 """
 
 import logging
-from collections.abc import Sequence
+import threading
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import hypot
 from typing import Any
@@ -23,25 +24,41 @@ log = logging.getLogger("pigaming")
 Things = tuple[ThingSpec, ...]
 
 
+Reroute = Callable[[Things], Callable[[Any], None]]  # see `games.game.Reroute`, for one arena
+
+
 @dataclass(frozen=True)
 class ThingsMove:
-    """From this tick on, these things stand on the mat."""
+    """From this tick on, these things stand on the mat; `routed`: AIs that plan ahead know it."""
 
     tick: int
     things: Things
+    routed: bool = False
 
 
 class MovingThings:
-    """The things in a world whose own walls are the `first` ones. `wanted`: as they are on the mat, set by anybody."""
+    """The things in a world whose own walls are the `first` ones. `wanted`: as they are on the mat, set by anybody.
 
-    def __init__(self, world: Any, first: int, things: Sequence[ThingSpec] = ()) -> None:
-        self.world, self.first = world, first
+    `reroute`: slow part of a new plan of the AIs, for a thread.
+    """
+
+    def __init__(
+        self, world: Any, first: int, things: Sequence[ThingSpec] = (), reroute: Reroute | None = None
+    ) -> None:
+        self.world, self.first, self.reroute = world, first, reroute
         self.wanted: Things = tuple(things)
         self.shown: Things = self.wanted  # in the world
         self._changed = float("-inf")  # s
+        self._routed = self.wanted  # known to the plan, or refused for it
+        self._planned: tuple[Things, Callable[[Any], None]] | None = None  # to be applied
+        self._planner: threading.Thread | None = None
 
-    def update(self, now: float, simulated: Sequence[Any]) -> ThingsMove | None:
-        """Replace the walls if things have moved; returns the change. `simulated`: robots that no thing may cover."""
+    def update(self, now: float, simulated: Sequence[Any]) -> list[ThingsMove]:
+        """Replace the walls if things have moved; returns the changes. `simulated`: robots that no thing may cover."""
+        moves = [self._replace(now, simulated), self._route()]
+        return [move for move in moves if move is not None]
+
+    def _replace(self, now: float, simulated: Sequence[Any]) -> ThingsMove | None:
         if now - self._changed < PERIOD:
             return None
         free = tuple(thing for thing in self.wanted if not any(_covers(thing, robot) for robot in simulated))
@@ -54,6 +71,27 @@ class MovingThings:
             log.warning("things on the mat: %s", error)
             return None
         return ThingsMove(int(self.world.tick), free)
+
+    def _route(self) -> ThingsMove | None:
+        """Apply a finished plan, or begin the next one."""
+        if self.reroute is None or (self._planner is not None and self._planner.is_alive()):
+            return None
+        planned, self._planned = self._planned, None
+        if planned is not None:
+            planned[1](self.world)
+            return ThingsMove(int(self.world.tick), planned[0], True)
+        if self._routed is not self.shown:
+            self._routed = self.shown
+            self._planner = threading.Thread(target=self._plan, args=(self.shown,), name="route", daemon=True)
+            self._planner.start()
+        return None
+
+    def _plan(self, things: Things) -> None:
+        assert self.reroute is not None
+        try:
+            self._planned = things, self.reroute(things)
+        except FieldError as error:
+            log.info("things on the mat: %s", error)
 
 
 def alike(one: Sequence[ThingSpec], other: Sequence[ThingSpec]) -> bool:

@@ -9,7 +9,7 @@ from contextlib import suppress
 from math import isfinite
 from typing import Any
 
-from pigaming_app.hardware.control.moving_things import ThingsMove
+from pigaming_app.hardware.control.moving_things import Reroute, ThingsMove
 from pigaming_app.sim.arena import replace_things
 from pigaming_app.sim.plant import Pose, Sighting, Twist
 from pigaming_app.sim.toml_table import FieldError
@@ -86,15 +86,23 @@ class RobotTrack:
 class RecordedPlant:
     """Robots that repeat a track, row by row with the ticks of the world, among things that move as they did.
 
-    `moves`: of the things, in order; `first`: index of their first wall.
+    `moves`: of the things, in order; `first`: index of their first wall; `reroute`: see MovingThings.
     """
 
-    def __init__(self, world: World, track: RobotTrack, moves: Sequence[ThingsMove] = (), first: int = 0) -> None:
+    def __init__(
+        self,
+        world: World,
+        track: RobotTrack,
+        moves: Sequence[ThingsMove] = (),
+        first: int = 0,
+        reroute: Reroute | None = None,
+    ) -> None:
         self.world: Any = world
-        self.track, self.first = track, first
-        done = self.world.shifts
-        self.shown_things = moves[done - 1].things if 0 < done <= len(moves) else None  # None: those of the arena
-        self._moves = deque(moves[done:])
+        self.track, self.first, self.reroute = track, first, reroute
+        walls, done = [move for move in moves if not move.routed], self.world.shifts
+        self.shown_things = walls[done - 1].things if 0 < done <= len(walls) else None  # None: those of the arena
+        self._moves = deque(walls[done:])
+        self._routes = deque(move for move in moves if move.routed and move.tick >= self.world.tick)
         track.apply(world, self.world.tick)
 
     def sense(self) -> list[Sighting]:
@@ -115,3 +123,8 @@ class RecordedPlant:
             self.shown_things = self._moves.popleft().things
             with suppress(FieldError):  # too many for this arena: an edited file
                 replace_things(self.world, self.shown_things, self.first)
+        while self._routes and self._routes[0].tick <= self.world.tick:
+            things = self._routes.popleft().things
+            if self.reroute is not None:
+                with suppress(FieldError):
+                    self.reroute(things)(self.world)

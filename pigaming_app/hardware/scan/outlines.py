@@ -17,8 +17,9 @@ from pigaming_app.hardware.scan.background import own_brightness, own_height
 from pigaming_app.hardware.scan.convex import convex_parts
 from pigaming_app.hardware.scan.edges import refined
 from pigaming_app.hardware.scan.heights import Map, Mask, Rectified, Surface
-from pigaming_app.hardware.scan.things import Outline, ProjectorPlace, Thing, ThingKind, area, moved_outwards
+from pigaming_app.hardware.scan.things import Outline, ProjectorPlace, Thing, ThingKind, moved_outwards
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.sim.things.convex import signed_area
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 LOWEST, HIGHEST = 9.0, 420.0  # mm, of tall things
@@ -131,7 +132,11 @@ def _counts(outline: Outline, narrow: float, ground: GroundPlane) -> bool:
     """True if an outline is not a sliver and lies in the arena, at least partly. `narrow`: mm."""
     _, sides, _ = opencv().minAreaRect(outline.astype(np.float32))
     inside = (outline > 0.0).all(axis=1) & (outline < (WIDTH, HEIGHT)).all(axis=1)
-    return min(sides) * ground.mm > narrow and area(outline) * ground.mm**2 > SMALL and bool(inside.any())
+    return (
+        min(sides) * ground.mm > narrow
+        and abs(signed_area(outline.tolist())) * ground.mm**2 > SMALL
+        and bool(inside.any())
+    )
 
 
 def _hidden(bodies: Sequence[tuple[Outline, float]], ground: GroundPlane, projector: ProjectorPlace) -> Pixels:

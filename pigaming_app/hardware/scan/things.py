@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.scan.hull import hull
-from pigaming_app.sim.things.spec import MAX_MARGIN, ThingSpec, Use
+from pigaming_app.sim.things.convex import contains, is_convex, signed_area
+from pigaming_app.sim.things.spec import CORNERS, MAX_MARGIN, MOST, ThingSpec, Use
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
 VERSION = 1
-MOST = 24  # things on a mat
-CORNERS = 48  # of an outline, at most
 
 Outline = NDArray[np.float64]  # (n, 2) arena px, convex, clockwise on screen
 
@@ -76,11 +75,7 @@ class Thing:
 
     def contains(self, x: float, y: float) -> bool:
         """True for a point on the thing, as for a mouse that points at it; arena px."""
-        corners = self.points
-        ways = np.roll(corners, -1, axis=0) - corners
-        away = np.array((x, y)) - corners
-        turns = ways[:, 0] * away[:, 1] - ways[:, 1] * away[:, 0]
-        return bool((turns >= 0.0).all() or (turns <= 0.0).all())
+        return contains(hull(self.outline), x, y)
 
 
 @dataclass(frozen=True)
@@ -181,11 +176,11 @@ def _thing(entry: TomlTable) -> Thing:
         raise entry.error("outline", f"3 to {CORNERS} points are needed")
     row = TomlTable({f"[{i + 1}]": point for i, point in enumerate(points)}, f"{entry.path}outline")
     outline = tuple((x, y) for x, y in (row.numbers(key, 2, -1000.0, 3000.0) for key in row.entries))
-    if not _is_convex(np.array(outline)):
+    if not (is_convex(outline) or is_convex(outline[::-1])):
         raise entry.error("outline", "not convex")
     kind = ThingKind(entry.word("kind", [str(kind) for kind in ThingKind]))
     uses = (Use.WALL,) if kind is ThingKind.TALL else (Use.LINE, Use.MUD)
-    use = entry.word("use", [str(use) for use in uses]) if "use" in entry else uses[0]  # 1.8.0 wrote none
+    use = entry.word("use", [str(use) for use in uses]) if "use" in entry else uses[0]
     return Thing(
         kind,
         outline,
@@ -195,19 +190,8 @@ def _thing(entry: TomlTable) -> Thing:
     )
 
 
-def _is_convex(corners: Outline) -> bool:
-    ways = np.roll(corners, -1, axis=0) - corners
-    after = np.roll(ways, -1, axis=0)
-    turns = ways[:, 0] * after[:, 1] - ways[:, 1] * after[:, 0]
-    return bool((turns > -1.0).all() or (turns < 1.0).all()) and bool(abs(turns).max() > 1.0)
-
-
 def largest(things: Sequence[Thing]) -> tuple[Thing, ...]:
     """The MOST largest things, the tall ones first."""
-    return tuple(sorted(things, key=lambda thing: (thing.kind != ThingKind.TALL, -area(thing.points)))[:MOST])
-
-
-def area(corners: Outline) -> float:
-    """Area of an outline, px^2."""
-    after = np.roll(corners, -1, axis=0)
-    return abs(float((corners[:, 0] * after[:, 1] - after[:, 0] * corners[:, 1]).sum())) / 2.0
+    return tuple(
+        sorted(things, key=lambda thing: (thing.kind != ThingKind.TALL, -abs(signed_area(thing.outline))))[:MOST]
+    )

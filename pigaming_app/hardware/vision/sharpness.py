@@ -22,6 +22,7 @@ ENDS = 8  # darkest and brightest samples that give black and white
 LOW, HIGH = 0.1587, 0.8413  # of a Gaussian at one standard deviation to each side
 INTERPOLATED = 1.0 / 6.0  # px^2, variance added by linear interpolation
 FLAT = 12.0  # grey levels of contrast below which an edge is ignored
+SATURATED, SATURATED_SHARE = 254, 0.02  # grey level; share of a marker's px beyond noise
 SHARPEST = 0.3  # px, of a picture whose every px is black or white
 
 
@@ -38,6 +39,16 @@ def blur_of(cv: Any, image: Image, marks: Sequence[DetectedMarker]) -> list[floa
         if edges:
             blurs.append(float(np.sqrt(max(SHARPEST**2, float(np.median(edges)) ** 2 - INTERPOLATED))))
     return blurs
+
+
+def overexposed(image: Image, marks: Sequence[DetectedMarker]) -> bool:
+    """True if the white of a marker is saturated: its edges then look sharper than they are."""
+    for mark in marks:
+        (left, top), (right, bottom) = mark.corners.min(axis=0).astype(int), mark.corners.max(axis=0).astype(int)
+        inside = image[max(0, top) : bottom + 1, max(0, left) : right + 1]
+        if np.count_nonzero(inside >= SATURATED) > SATURATED_SHARE * inside.size:
+            return True
+    return False
 
 
 def _edge(cv: Any, image: Image, begin: NDArray[np.float64], end: NDArray[np.float64]) -> float | None:

@@ -20,12 +20,10 @@ from pigaming_app.ui.draw.text import fit_size, write_lines
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import Caption, caption
-from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, X, overlay
+from pigaming_app.ui.widgets.dialog import FOOT, HEAD, ICON, PROMPTS, ROOM, TEXT_X, W, X, overlay
 
 IDLE = 600.0  # s without input before the return to the title
 HOLD = 1.0  # s, hold time of FIRE to release the stop
-ICON = X + 150, HEAD + 112
-TEXT_X, ROOM = X + 280, W - 280 - 64
 RING = X + 150, FOOT - 96
 
 

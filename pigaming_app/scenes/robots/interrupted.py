@@ -7,11 +7,9 @@ from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
-from pigaming_app.hardware.scan.things import Layout
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.pause import PausedMatch
-from pigaming_app.scenes.things.match_watch import MatchWatch
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.ui.input.events import Device
 
@@ -36,10 +34,6 @@ class InterruptedMatch(PausedMatch, Protocol):
     match: Match
     plant: MixedPlant
     session: RobotSession
-    watch: MatchWatch
-
-    def rebuild(self, layout: Layout) -> bool:
-        """Go on among things that were scanned anew; false if that is impossible."""
 
     @property
     def real(self) -> set[int]:

@@ -26,6 +26,7 @@ from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import LEAD_SECONDS, NOTICE_SECONDS, MatchScene, fresh_rounds, rematch_setup
+from pigaming_app.scenes.real_replays import reroute_of
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
@@ -89,7 +90,8 @@ class RealMatch(MatchScene):
         self.discs = MarkerDiscs(rig)
         self.gathering: TakePlaces | None = TakePlaces(context, plant, lambda: self.access.hint_device)
         self.watch = MatchWatch(session, rig)
-        plant.things = MovingThings(self.match.state, len(self.match.arena.walls), self.things)
+        walls, reroute = len(self.match.arena.walls), reroute_of(self.match)
+        plant.things = MovingThings(self.match.state, walls, self.things, reroute)
         if context.settings.blocks and session.ground is not None:
             rig.viewers.append(BlockWalls(session.ground, plant.things).process)
         self.released = False  # rig released
@@ -148,6 +150,7 @@ class RealMatch(MatchScene):
         """Advance the match, unless a robot in it has a fault."""
         if self.restart_requested or self.stop_requested:
             return super().update(seconds)
+        self.watch.look()
         seconds = self.session.advance(seconds)
         self._publish()
         if self.gathering is not None:

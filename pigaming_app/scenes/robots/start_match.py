@@ -51,7 +51,8 @@ def match_of(
         return RealMatch(context, setup, devices, real, context.session, again, game_choice, rounds, arena)
     except ArenaError as error:
         log.warning("%s", error)
-        return UnplayablePage(context, setup, devices, real, partial(again, rounds=rounds))
+        anew = partial(again, setup, devices, real, rounds=rounds)
+        return UnplayablePage(context, setup, devices, anew, partial(anew, things=()))
     except RobotsUnavailable as error:
         log.warning("%s", english().long_sentence(error.message))
         return UnavailablePage(context, setup, devices, real, error.message, partial(again, rounds=rounds))

@@ -17,8 +17,9 @@ from pigaming_app.scenes.robots.fault_page import fault_caption, fault_sentence
 from pigaming_app.scenes.robots.flood_light import UNSEEN as UNSEEN_AFTER
 from pigaming_app.scenes.robots.flood_light import FloodLight, looking
 from pigaming_app.scenes.robots.marker_discs import MOAT, RING, pointer, tag
+from pigaming_app.scenes.things.outlines import frame
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -28,13 +29,10 @@ from pigaming_app.ui.draw import (
     LINE,
     MIST,
     PLAYERS,
-    STEEL,
-    THIN,
     GlowCanvas,
-    cut_box,
     dim,
 )
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
@@ -142,14 +140,6 @@ class TakePlaces:
         x = min(max(LEFT + place.pose[0], margin), 1920 - margin)
         y = TOP + place.pose[1]
         sheet.draw(screen, x, y + (BESIDE if y < TOP + HEIGHT / 2 else -BESIDE))
-
-
-@cached
-def frame() -> LitImage:
-    """Outline of the arena, dim."""
-    layer = Layer(LEFT, TOP, WIDTH, HEIGHT)
-    layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
-    return layer.render()
 
 
 @cached

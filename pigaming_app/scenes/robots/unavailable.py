@@ -10,14 +10,13 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import sheet_title
-from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
 from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.scenes.views.fault_icons import sign
 from pigaming_app.ui.draw import ALARM, ICE, MIST
 from pigaming_app.ui.draw.layers import Layer, backdrop
 from pigaming_app.ui.draw.text import write_lines
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
+from pigaming_app.ui.widgets.dialog import HEAD, ICON, PROMPTS, ROOM, TEXT_X, W, overlay
 
 UNCALIBRATED = ("none", "damaged", "changed", "version", "other_display")  # messages that require calibration
 IDLE = 90.0  # s without input before the return to the title

@@ -19,10 +19,9 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
-from pigaming_app.scenes.robots.avoid_discs import nearest
-from pigaming_app.scenes.robots.take_places import frame
-from pigaming_app.scenes.things.outlines import COLORS, HALO, draw_thing
+from pigaming_app.scenes.things.outlines import COLORS, HALO, draw_thing, frame
 from pigaming_app.scenes.things.playable import PlayableArenas
+from pigaming_app.scenes.things.steps import draw_steps
 from pigaming_app.scenes.things.sweep_page import SweepPage
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.storage.safe_files import NotSaved
@@ -35,7 +34,6 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 IDLE = 600.0  # s without input until the title
 TITLE_Y, HINTS_Y, FOOT_Y = 42, 102, 1060  # px, outside the arena
-STEPS = ("things.step_put", "things.step_light", "things.step_scan")
 LINE_W, PITCH = 1180, 56  # px, of the sentences on the mat
 
 log = logging.getLogger("pigaming")
@@ -196,7 +194,7 @@ class ArenaPage:
         if self.fault is not None:
             lines += [(line, ALARM) for line in wrap(words.sentence(self.fault), BODY, LINE_W)]
         elif not self.layout.things:
-            lines += [(line, ICE) for step in STEPS for line in wrap(words(step), BODY, LINE_W)]
+            draw_steps(screen, words)
         for game, names in self.arenas.blocked.items() if self.arenas else ():
             titles = ", ".join(arena_title(load_cached(game, name), words.language) for name in names)
             sentence = words("things.blocked", game=words(f"games.{game}"), arenas=titles)
@@ -205,8 +203,9 @@ class ArenaPage:
             return
         home = pygame.Rect(960 - LINE_W // 2, 0, LINE_W, PITCH * len(lines))
         home.centery = 590
-        taken = [(*_box(thing).center, max(_box(thing).size) / 2) for thing in self.layout.things]
-        x, y = nearest(home, 1.0, taken, []) or home.topleft
+        boxes = [_box(thing) for thing in self.layout.things]
+        places = (home.move(dx, dy) for dx in (0, -210, 210) for dy in range(0, 400, 20) for dy in (dy, -dy))
+        x, y = next((place for place in places if place.collidelist(boxes) < 0), home).topleft
         for i, (line, color) in enumerate(lines):
             size = BODY if color != MIST else 34
             text(line, size, color, "body", "c", LINE_W).draw(screen, x + LINE_W // 2, y + PITCH * i + PITCH // 2)

@@ -14,12 +14,13 @@ FARTHEST = 5000.0  # px; positions beyond are those of robots that were never se
 class MatchWatch:
     """The watch of one match, if the mat was scanned in this session with the present calibration.
 
-    It looks only while `note` is called with every picture. `places`: where things have moved, arena px.
+    It looks only while `note` and `look` are called with every picture. `places`: where things have moved, arena px.
     """
 
     def __init__(self, session: RobotSession, rig: Rig) -> None:
         self.session, self.rig = session, rig
         self._watch: ThingsWatch | None = None
+        self._drawn: tuple[pygame.Surface, float] | None = None
         self._viewer = self._view
 
     @property
@@ -36,7 +37,7 @@ class MatchWatch:
 
     def pause(self) -> None:
         """Stop looking. Idempotent."""
-        self._watch = None
+        self._watch = self._drawn = None
         if self._viewer in self.rig.viewers:
             self.rig.viewers.remove(self._viewer)
 
@@ -46,14 +47,20 @@ class MatchWatch:
         self.session.expected = None
 
     def note(self, screen: pygame.Surface) -> None:
-        """Take the picture that is about to be shown, if one is needed."""
+        """Remember the picture that is about to be shown; notices may still be drawn on it."""
+        self._drawn = screen, self.rig.clock()
+
+    def look(self) -> None:
+        """Take the picture that was shown last, if one is needed; call it before the next one is drawn."""
         watch, looking = self._watch, self._viewer in self.rig.viewers
         if watch is None:
             return
         if watch.wants != looking:
             (self.rig.viewers.append if watch.wants else self.rig.viewers.remove)(self._viewer)
-        if watch.wants:
-            watch.note_canvas(lambda: pixels_of(screen), self.rig.clock())
+        if watch.wants and self._drawn is not None:
+            screen, drawn = self._drawn
+            watch.note_canvas(lambda: pixels_of(screen), drawn)
+        self._drawn = None
 
     def _view(self, frame: CameraFrame) -> None:
         if watch := self._watch:

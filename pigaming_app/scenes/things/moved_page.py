@@ -2,15 +2,18 @@
 
 import math
 from collections.abc import Sequence
+from typing import Protocol
 
 import pygame
 
+from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.scan.rig_scan import RigScan
 from pigaming_app.hardware.scan.things import Layout, LayoutError
+from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import load_layout
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
-from pigaming_app.scenes.play.pause import Pause
-from pigaming_app.scenes.robots.interrupted import InterruptedMatch
+from pigaming_app.scenes.play.pause import Pause, PausedMatch
+from pigaming_app.scenes.things.match_watch import MatchWatch
 from pigaming_app.scenes.things.sweep_page import SweepPage
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, ICE, LABEL, LINE, MIST, GlowCanvas
@@ -27,10 +30,21 @@ RADIUS = 76  # px of the rings
 HEAD = pygame.Rect(0, 0, 1920, 138)
 
 
+class MatchAmongThings(PausedMatch, Protocol):
+    """A paused match with real robots among things."""
+
+    plant: MixedPlant
+    session: RobotSession
+    watch: MatchWatch
+
+    def rebuild(self, layout: Layout) -> bool:
+        """Go on among things that were scanned anew; false if that is impossible."""
+
+
 class MovedPage:
     """The page. `places`: where things were moved, arena px."""
 
-    def __init__(self, match: InterruptedMatch, places: Sequence[tuple[float, float]]) -> None:
+    def __init__(self, match: MatchAmongThings, places: Sequence[tuple[float, float]]) -> None:
         self.match, self.context, self.places = match, match.context, list(places)
         self.layout: Layout | None = None  # of a new scan, until the match has taken it over
         self.sentence = ""

@@ -9,7 +9,9 @@ from pigaming_app.hardware.scan.things import moved_outwards
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.things.convex import Outline
 from pigaming_app.sim.things.spec import ThingSpec, Use
-from pigaming_app.ui.draw import LINE, STEEL, WALL, Color, GlowCanvas
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import LINE, STEEL, THIN, WALL, Color, GlowCanvas, cut_box, dim
+from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
@@ -60,3 +62,11 @@ def _sprite(outline: Outline, use: Use, margin: int, color: Color, bold: bool) -
 
 def _around(outline: Outline, px: float) -> list[tuple[float, float]]:
     return [(x, y) for x, y in moved_outwards(np.array(outline), px).tolist()]
+
+
+@cached
+def frame() -> LitImage:
+    """Outline of the arena, dim."""
+    layer = Layer(LEFT, TOP, WIDTH, HEIGHT)
+    layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
+    return layer.render()

@@ -1,6 +1,6 @@
 """Page before a match whose arena cannot be played with the things on the mat: build again, or play without them."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Sequence
 
 import pygame
 
@@ -8,33 +8,31 @@ from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.play.pause import sheet_title
-from pigaming_app.scenes.robots.fault_page import ICON, ROOM, TEXT_X
-from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.scenes.things.arena_page import ArenaPage
 from pigaming_app.scenes.things.outlines import boxes
 from pigaming_app.ui.draw import ALARM, ICE, MIST
 from pigaming_app.ui.draw.layers import Layer, backdrop
 from pigaming_app.ui.draw.text import write_lines
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, overlay
+from pigaming_app.ui.widgets.dialog import HEAD, ICON, PROMPTS, ROOM, TEXT_X, W, overlay
 
 IDLE = 90.0  # s without input before the return to the title
 
 
 class UnplayablePage:
-    """The page. `match_of`: match factory, for the same seats."""
+    """The page. `again` and `without` make the match with the things, as they are then, and without."""
 
     def __init__(
         self,
         context: Context,
         setup: Setup,
         devices: Sequence[Device | None],
-        real: Collection[int],
-        match_of: MatchOf,
+        again: Callable[[], Scene],
+        without: Callable[[], Scene],
     ) -> None:
-        self.context, self.setup, self.devices, self.real, self.match_of = context, setup, devices, real, match_of
+        self.context, self.setup, self.devices, self.again, self.without = context, setup, devices, again, without
         self.picture: pygame.Surface | None = None
         self.building = False
         self.access = Access(context, lambda: self.devices)
@@ -57,7 +55,7 @@ class UnplayablePage:
                 return Push(ArenaPage(self.context, lambda: self.devices))
             case Button.X:
                 self.context.sounds.play("accept")
-                return Swap(self.match_of(self.setup, self.devices, self.real, things=()))
+                return Swap(self.without())
             case Button.BACK:
                 self.context.sounds.play("back")
                 return Pop()
@@ -66,7 +64,7 @@ class UnplayablePage:
     def update(self, seconds: float) -> StackOperation:
         """Try again after the arena was built."""
         if self.building:
-            return Swap(self.match_of(self.setup, self.devices, self.real))
+            return Swap(self.again())
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()

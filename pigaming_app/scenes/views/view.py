@@ -132,6 +132,7 @@ class MatchView:
             screen.fill((0, 0, 0))
             screen.blit(self.background.surface, shaken)
         self.things.lights(under)
+        self.things.clear(screen)
         screen.set_clip((LEFT, TOP, WIDTH, HEIGHT))
         screen.fblits(under, ADD)
         screen.set_clip(None)

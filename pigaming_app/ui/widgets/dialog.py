@@ -15,6 +15,8 @@ X, W = span(2, 8)
 Y, H = 216, 648
 HEAD, FOOT = Y + 208, Y + 528  # the two horizontal lines of the sheet
 PROMPTS = Y + 588  # the row of prompts
+ICON = X + 150, HEAD + 112  # of a sheet with an icon and sentences
+TEXT_X, ROOM = X + 280, W - 280 - 64
 
 
 def overlay(

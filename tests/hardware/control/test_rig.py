@@ -104,6 +104,7 @@ def test_threads_look_and_talk_and_end_when_it_is_closed():
 
 
 def test_a_tracker_that_breaks_once_is_logged_and_goes_on_with_the_next_picture(monkeypatch, caplog):
+    monkeypatch.setattr("pigaming_app.hardware.control.rig.RETRY", 0.02)
     tracker = Tracker()
     process = tracker.process
 

@@ -26,14 +26,14 @@ def test_time_passes_up_to_what_is_allowed_and_no_further():
     passing.start()
     try:
         assert eventually(lambda: arena.clock() > 0.2 - 2 * STEP)
-        time.sleep(0.2)
+        time.sleep(0.1)
         assert arena.clock() <= 0.2 + STEP
         passing.limit = 0.4
         assert eventually(lambda: arena.clock() > 0.3)
     finally:
         passing.close()
     ended = arena.clock()
-    time.sleep(0.1)
+    time.sleep(0.05)
     assert arena.clock() == ended
 
 
@@ -45,7 +45,7 @@ def test_time_waits_until_its_pictures_are_taken():
     try:
         assert eventually(lambda: arena.camera.overdue > OVERDUE)
         waited = arena.clock()
-        time.sleep(0.2)
+        time.sleep(0.1)
         assert arena.clock() - waited <= 2 * STEP
         assert arena.camera.newest() is not None
         assert eventually(lambda: arena.camera.newest() is None and arena.clock() > waited + 0.05)

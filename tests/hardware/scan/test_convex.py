@@ -6,7 +6,7 @@ import pytest
 cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.scan.convex import convex_parts  # noqa: E402
-from pigaming_app.hardware.scan.things import area  # noqa: E402
+from pigaming_app.sim.things.convex import signed_area  # noqa: E402
 
 ORIGIN = (160, 140)  # canvas px of arena px 0, 0
 
@@ -36,4 +36,4 @@ def test_an_angle_of_two_boxes_is_two_outlines():
     mask = painted([(20, 20), (220, 20), (220, 60), (20, 60)], [(20, 20), (60, 20), (60, 200), (20, 200)])
     parts = convex_parts(mask, ORIGIN)
     assert len(parts) == 2
-    assert sum(map(area, parts)) == pytest.approx(float(mask.sum()), rel=0.08)
+    assert sum(abs(signed_area(part.tolist())) for part in parts) == pytest.approx(float(mask.sum()), rel=0.08)

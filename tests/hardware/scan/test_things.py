@@ -1,8 +1,11 @@
 """Things as games get them: outlines, their file, removal by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from pigaming_app.games.arenas import load, with_things
 from pigaming_app.hardware.scan.things import (
     MOST,
     Layout,
@@ -16,6 +19,8 @@ from pigaming_app.hardware.scan.things import (
     to_toml,
 )
 from pigaming_app.hardware.session.store import load_things, save_things
+from pigaming_app.sim.things.convex import is_convex
+from pigaming_app.sim.things.spec import Use
 from tests.hardware.sentences import refused
 
 BOX = Thing(ThingKind.TALL, ((100.0, 100.0), (200.0, 110.0), (190.0, 180.0), (95.0, 170.0)), 82.5, 3.25)
@@ -41,6 +46,25 @@ def test_the_things_stay_on_the_mat_until_the_next_start(tmp_path):
     assert load_things(path) == Layout()
     save_things(LAYOUT, path)
     assert load_things(path) == LAYOUT
+
+
+def test_tape_is_mud_by_choice_and_everything_tall_a_wall():
+    chosen = read(to_toml(LAYOUT.replaced(TAPE, TAPE.as_mud(True))))
+    assert [thing.use for thing in chosen.things] == [Use.WALL, Use.MUD]
+    assert BOX.as_mud(True).use is Use.WALL
+    old = "\n".join(line for line in to_toml(LAYOUT).splitlines() if not line.startswith("use"))
+    assert read(old) == LAYOUT
+
+
+def test_an_arena_gets_things_with_straight_sides_in_either_order_of_corners():
+    noisy = Thing(ThingKind.TALL, ((0.0, 0.0), (50.0, 0.04), (100.0, 0.0), (100.0, 60.0), (0.0, 60.0)), 80.0, 3.0)
+    spec = noisy.spec
+    assert is_convex(spec.outline)
+    assert len(spec.outline) == 4
+    assert replace(noisy, outline=noisy.outline[::-1]).spec == spec
+    arena = load("pitanks", "classic")
+    assert with_things("pitanks", arena, [spec]).things == (spec,)
+    assert with_things("pitanks", arena, []) is arena
 
 
 @pytest.mark.parametrize(

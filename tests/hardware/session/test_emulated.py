@@ -16,7 +16,7 @@ from pigaming_app.sim.world import DT, HZ, ROBOTS, World
 
 @pytest.fixture(scope="module")
 def session() -> Iterator[EmulatedSession]:
-    session = EmulatedSession(3, live=False, lighting=Lighting(3))
+    session = EmulatedSession(1, live=False, lighting=Lighting(1))
     session.find()
     yield session
     session.end()

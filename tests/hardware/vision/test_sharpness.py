@@ -6,7 +6,7 @@ import pytest
 cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.vision.markers import MarkerDetector  # noqa: E402
-from pigaming_app.hardware.vision.sharpness import blur_of  # noqa: E402
+from pigaming_app.hardware.vision.sharpness import blur_of, overexposed  # noqa: E402
 
 FINE = 8  # texels per px
 
@@ -25,3 +25,6 @@ def test_a_known_blur_is_measured_on_a_turned_and_noisy_marker(blur):
     (measured,) = blur_of(cv2, image, detector.refine(image, detector.detect(image)))
     assert measured == pytest.approx(blur, abs=0.1, rel=0.06)
     assert blur_of(cv2, np.full_like(image, 90), detector.detect(image)) == []
+    bright = np.clip(image * 1.5, 0, 255).astype(np.uint8)
+    assert overexposed(bright, detector.detect(image))
+    assert not overexposed(image, detector.detect(image))

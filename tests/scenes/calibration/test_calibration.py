@@ -7,6 +7,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pygame
@@ -43,16 +44,36 @@ from tests.scenes.operated import Operated
 LONG = 30.0  # s, timeout of a test
 
 
+class Wizard(NamedTuple):
+    """A calibration by the wizard, with its page's state before, and its result on top."""
+
+    home: Path
+    arcade: Operated
+    first: CalibrationPage
+    before: str
+    result: ResultPage
+
+
 @pytest.fixture(scope="module")
-def made() -> Iterator[CalibrationResult]:
-    """A calibration by the wizard, shared by the tests of later pages."""
+def wizard() -> Iterator[Wizard]:
+    """Calibrate once, after a look at the preview."""
     with tempfile.TemporaryDirectory() as home, pytest.MonkeyPatch.context() as patch:
         patch.setenv("PIGAMING_HOME", home)
         pygame.display.init()
         arcade = Operated(Controls(), EmulatedCalibrationSite(2))
-        arcade.open(CalibrationPage(arcade.context, arcade.site))
+        first = CalibrationPage(arcade.context, arcade.site)
+        arcade.open(first)
+        for _ in range(20):
+            arcade.picture()
+        before = first.state
         arcade.begin()
-        yield arcade.pictures(ResultPage).finding
+        yield Wizard(Path(home), arcade, first, before, arcade.pictures(ResultPage))
+
+
+@pytest.fixture(scope="module")
+def made(wizard: Wizard) -> CalibrationResult:
+    """The calibration, shared by the tests of later pages."""
+    return wizard.result.finding
 
 
 def boards(arcade: Operated, made: CalibrationResult) -> BoardsPage:
@@ -74,19 +95,16 @@ def arcade(controls: Controls, _home: None) -> Operated:
     return arcade
 
 
-def test_an_operator_previews_calibrates_and_saves(arcade: Operated, tmp_path: Path) -> None:
-    for _ in range(20):
-        arcade.picture()
-    first = arcade.shown(CalibrationPage)
+def test_an_operator_previews_calibrates_and_saves(wizard: Wizard) -> None:
+    home, arcade, first, before, result = wizard
     assert first.preview is not None
     assert first.preview.size == (1920, 1080)
-    assert first.state == arcade.context.words("hardware.none")
-    arcade.begin()
-    result = arcade.pictures(ResultPage)
+    assert before == arcade.context.words("hardware.none")
     assert result.finding.good
+    assert result.finding.residuals is not None
     assert result.finding.residuals.mean_mm < 1.5
     assert result.finding.residuals.max_mm < 3.0
-    arcade.shown(ResultPage)
+    assert arcade.shown(ResultPage) is result
     arcade.press(Button.FIRE)
     assert arcade.stack.top is first
     ground = store.load(store.calibration_file(arcade.site.name), arcade.context.canvas.projection, (1920, 1080))
@@ -94,7 +112,7 @@ def test_an_operator_previews_calibrates_and_saves(arcade: Operated, tmp_path: P
     for _ in range(5):
         arcade.picture()
     assert f"{ground.mean_mm:.1f} mm" in first.state
-    assert not (tmp_path / "config" / "calibration.toml").exists(), "an emulated one is not the real one"
+    assert not (home / "config" / "calibration.toml").exists(), "an emulated one is not the real one"
 
 
 def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:

@@ -10,6 +10,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration import camera_task as looking
+from pigaming_app.hardware.calibration import procedure as calibrating
 from pigaming_app.hardware.calibration.site import Measurements, RealCalibrationSite
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
@@ -115,12 +116,14 @@ def test_a_camera_that_fails_to_open_is_reported_and_retried(
     arcade.press(Button.BACK)
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
 def test_a_camera_without_a_board_and_a_stalled_one_are_reported(
     controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(RealCalibrationSite, "settle", 0.05)
-    monkeypatch.setattr(looking, "BLIND", 0.5)
+    monkeypatch.setattr(calibrating, "LIT", 0.05)
+    monkeypatch.setattr(looking, "BLIND", 0.3)
     driver = Driver()
     arcade = real(controls, driver)
     arcade.begin()

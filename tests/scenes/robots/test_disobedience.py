@@ -11,7 +11,6 @@ from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.ui.input.events import Button
-from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import begun, match_for, play, until
 
@@ -48,7 +47,8 @@ def paired(arcade: Arcade) -> PairAgain:
     raise AssertionError("nothing is said after 20 s")
 
 
-@pytest.mark.parametrize("fault", one_in(5, WIRING))
+@pytest.mark.long
+@pytest.mark.parametrize("fault", WIRING)
 def test_a_fault_present_from_the_start_is_named_within_three_seconds(
     arcade: Arcade, mat: EmulatedSession, fault: str
 ) -> None:

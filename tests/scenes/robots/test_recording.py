@@ -27,7 +27,8 @@ pytest.importorskip("cv2")
 class MatSession:
     """A session on the simulated mat, whose robots begin at their places."""
 
-    emulated, radio, mm, fault, expected = True, True, 1.3, None, None
+    emulated, radio, mm, fault = True, True, 1.3, None
+    ground = expected = None
 
     def __init__(self) -> None:
         self.mat = Mat()

@@ -24,7 +24,8 @@ from pigaming_app.ui.draw.surface_cache import cached
 
 TURNS = 360  # headings of a sprite
 REACH = 48  # px of light beyond an outline, besides its margin
-BUILD = 0.002  # s a frame for building sprites
+RIM = 8  # px of light beyond the margin of a wall that covers the ground
+BUILD = 0.001  # s a frame for building sprites
 GLOW = 0.9
 Shape = tuple[Point, ...]  # corners, whole px from their mean, with the longest side along x
 
@@ -39,6 +40,7 @@ class Placed(NamedTuple):
     turn: int
     margin: int
     dark: Shape  # canvas px; empty for flat things
+    bed: Shape  # canvas px, the area from which its light replaces the ground
 
 
 class ThingsOnMat:
@@ -47,7 +49,9 @@ class ThingsOnMat:
     def __init__(self, style: str, things: Sequence[ThingSpec] = ()) -> None:
         self.style = style
         self.placed: list[Placed] = []
-        self.sprites: list[tuple[Shape, Sprite] | None] = []
+        self.sprites: list[tuple[Shape, Sprite] | None] = []  # the latest of each thing
+        self.begun: tuple[int, tuple[Use, Shape, int, int]] | None = None  # thing and sprite that is being built
+        self.next = 0  # thing whose sprite is looked up first
         self.show(things)
 
     def show(self, things: Sequence[ThingSpec]) -> None:
@@ -61,24 +65,44 @@ class ThingsOnMat:
 
     def lights(self, batch: Batch) -> None:
         """Append the light around and on all things to a batch of light on the ground."""
-        with budget.until(clock() + BUILD):
-            for i, thing in enumerate(self.placed):
-                try:
-                    self.sprites[i] = thing.shape, halo(self.style, *thing[2:6])
-                except Unfinished:
-                    break
+        self._build()
         for thing, sprite in zip(self.placed, self.sprites, strict=True):
             if sprite and sprite[0] == thing.shape:
                 put(batch, sprite[1], thing.x, thing.y)
 
+    def _build(self) -> None:
+        """Look up the sprites, in turn, and build missing ones while there is time.
+
+        One that was begun is finished first, so that even a thing that keeps turning gets its light.
+        """
+        todo = [(i, thing[2:6]) for i, thing in enumerate(self.placed)]
+        todo = [*([self.begun] if self.begun else []), *todo[self.next :], *todo[: self.next]]
+        self.begun = None
+        with budget.until(clock() + BUILD):
+            for i, sprite in todo:
+                try:
+                    light = halo(self.style, *sprite)
+                except Unfinished:
+                    self.begun, self.next = (i, sprite), i
+                    break
+                if i < len(self.sprites):
+                    self.sprites[i] = sprite[1], light
+
+    def clear(self, screen: pygame.Surface) -> None:
+        """Black out the ground below all things and the light on their edges, within the arena."""
+        _black_out(screen, [thing.bed for thing in self.placed])
+
     def cover(self, screen: pygame.Surface) -> None:
         """Black out all things that light must not fall on, within the arena."""
-        before = screen.get_clip()
-        screen.set_clip(before.clip(pygame.Rect(LEFT, TOP, int(WIDTH), int(HEIGHT))))
-        for thing in self.placed:
-            if thing.dark:
-                pygame.draw.polygon(screen, BLACK, thing.dark)
-        screen.set_clip(before)
+        _black_out(screen, [thing.dark for thing in self.placed if thing.dark])
+
+
+def _black_out(screen: pygame.Surface, areas: Sequence[Shape]) -> None:
+    before = screen.get_clip()
+    screen.set_clip(before.clip(pygame.Rect(LEFT, TOP, int(WIDTH), int(HEIGHT))))
+    for area in areas:
+        pygame.draw.polygon(screen, BLACK, area)
+    screen.set_clip(before)
 
 
 @lru_cache(maxsize=64)
@@ -91,10 +115,13 @@ def place(thing: ThingSpec) -> Placed:
     angle = math.atan2(by - ay, bx - ax)
     c, s = math.cos(angle), math.sin(angle)
     shape = tuple((float(round(c * px + s * py)), float(round(c * py - s * px))) for px, py in corners)
-    margin = math.ceil(thing.margin) if thing.use is Use.WALL else 0
-    dark = grown([(LEFT + px, TOP + py) for px, py in thing.outline], margin) if thing.use is Use.WALL else ()
     turn = round(angle / math.tau * TURNS) % TURNS
-    return Placed(LEFT + x, TOP + y, thing.use, shape, turn, margin, tuple(dark))
+    on_canvas = [(LEFT + px, TOP + py) for px, py in thing.outline]
+    if thing.use is not Use.WALL:
+        return Placed(LEFT + x, TOP + y, thing.use, shape, turn, 0, (), tuple(on_canvas))
+    margin = math.ceil(thing.margin)
+    dark, bed = tuple(grown(on_canvas, margin)), tuple(grown(on_canvas, margin + RIM))
+    return Placed(LEFT + x, TOP + y, thing.use, shape, turn, margin, dark, bed)
 
 
 @cached
