@@ -74,6 +74,7 @@ class EmulatedSession:
         self._wifi = wifi
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._traits = traits
+        self._refresh: int | None = None  # usual interval of complete renders, while every one is complete
         self._count = things
         self._things: list[Prism] = []  # to stand on the mat
         self._arena: EmulatedArena | None = None
@@ -280,8 +281,12 @@ class EmulatedSession:
         return Link(self.network.open, self.arena.clock, WifiProtocol(self.network), "Wi-Fi")
 
     def _render(self, rig: "Rig") -> None:
-        """Render complete pictures for those who look at more than the robots."""
-        self.arena.camera.painter.refresh = 1 if rig.viewers else WHOLE if self.live else QUICK
+        """Render complete pictures while somebody looks at more than the robots."""
+        painter = self.arena.camera.painter
+        if rig.viewers and self._refresh is None:
+            self._refresh, painter.refresh = painter.refresh, 1
+        elif not rig.viewers and self._refresh is not None:
+            painter.refresh, self._refresh = self._refresh, None
 
     def _light(self, rig: "Rig") -> None:
         """Project the floor, and a disc at each robot's predicted position when the light lands."""
