@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import dist
 
 import pytest
 
@@ -154,9 +155,9 @@ def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_p
     arcade.press(Button.FIRE)
     frames(arcade, mat, lambda top: isinstance(top, RealMatch), 60.0)
     frames(arcade, mat, lambda _: bool(match.match.state.shifts), 10.0)
-    x, y = mat.arena.outline(replace(moved, outline=corners)).mean(axis=0).tolist()
-    assert any(abs(u - x) + abs(v - y) < 10.0 for u, v in (one.middle for one in match.plant.shown_things or ()))
-    assert any(abs(u - x) + abs(v - y) < 10.0 for u, v in (one.middle for one in load_layout(mat).things))
+    there = mat.arena.outline(replace(moved, outline=corners)).mean(axis=0).tolist()
+    assert any(dist(one.middle, there) < 10.0 for one in match.plant.shown_things or ())
+    assert any(dist(one.middle, there) < 10.0 for one in load_layout(mat).things)
 
 
 @pytest.mark.long
