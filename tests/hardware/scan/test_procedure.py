@@ -73,12 +73,16 @@ def spot(x, y):
 
 @pytest.mark.parametrize(
     ("masks", "changed"),
-    [([spot(50, 50)] * 3, True), ([spot(50, 50), spot(90, 50), spot(130, 50)], False), ([spot(50, 50)] * 2, False)],
+    [
+        ([spot(50, 50)] * PATIENCE, True),
+        ([spot(50 + 40 * i, 50) for i in range(PATIENCE)], False),
+        ([spot(50, 50)] * (PATIENCE - 1), False),
+    ],
     ids=["a thing was moved", "a hand passed", "not yet"],
 )
 def test_things_have_moved_if_the_same_place_disagrees_in_a_row(masks, changed):
     watch = Eyes(*masks)
-    for _ in masks[:PATIENCE]:
+    for _ in masks:
         watch.check(np.zeros((2, 2), np.uint8), [], [])
     assert watch.changed == changed
     assert watch.places == ([pytest.approx((158.0, 178.0))] if changed else [])
