@@ -145,7 +145,7 @@ def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_p
     arcade.open(match)
     frames(arcade, mat, lambda _: match.gathering is None, 60.0)
     began = match.match.seconds
-    frames(arcade, mat, lambda top: isinstance(top, MovedPage) or match.match.seconds > began + 60.0, 120.0)
+    frames(arcade, mat, lambda top: isinstance(top, MovedPage) or match.match.seconds > began + 20.0, 60.0)
     assert not isinstance(arcade.stack.top, MovedPage)
 
     moved = mat.arena.things[len(things) - 1]
