@@ -28,8 +28,8 @@ from tests.scenes.robots.test_recording import MatSession
 
 pytest.importorskip("cv2")
 
-PUSHED = 60.0  # mm
-NOTICED = 10.0  # s
+PUSHED = 100.0  # mm
+NOTICED = 30.0  # s
 BOXES = {
     "pitanks": ((20.0, -450.0), (-300.0, -150.0), (450.0, 250.0)),
     "factory": ((-200.0, -450.0), (0.0, 0.0)),
