@@ -150,11 +150,11 @@ def test_a_race_is_driven_round_things_in_nearly_the_same_time():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("brain", ["hand1", "level5"])
+@pytest.mark.parametrize("brain", ["hand1", "hand3", "level2", "level5"])
 @pytest.mark.parametrize("name", arenas("race"))
 def test_every_driver_finishes_among_random_things(brain, name):
     played = 0
-    for arena in playable("race", name, range(2), 6):
+    for arena in playable("race", name, range(3), 6):
         match = match_of("race", arena, brain, goal=2, minutes=4.0, variant="party")
         while not match.over:
             match.tick()
