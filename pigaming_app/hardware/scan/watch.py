@@ -1,8 +1,9 @@
 """Watch over the things during a match: once a second, the camera picture is compared with the expected one.
 
 The scene hands over the pictures it projects around that moment (`wants`, `note_canvas`); the expected light lies
-between their least and greatest, so that moving content cannot disagree. Slow changes of the room light are left out,
-as are robots. A disagreement counts if it stays in its place for PATIENCE checks in a row.
+between their least and greatest, so that moving content cannot disagree. The room light may change: it is measured by
+the median of a wide neighbourhood, which no thing fills. Robots are left out. A disagreement counts if it stays in its
+place for PATIENCE checks in a row.
 """
 
 from collections import deque
@@ -23,11 +24,15 @@ LIGHT_AFTER = 0.035  # s from drawing a picture to its light
 SLACK = 0.07  # s by which the time of a camera frame, or of the light, may be wrong
 WAIT = 0.2  # s after which a camera frame is used though no later picture of the canvas was kept
 BURST = 0.3  # s before a check from which on pictures of the canvas are kept
-PATIENCE = 4  # checks in a row
+PATIENCE = 3  # checks in a row
 LEAST, SHARE = 9.0, 0.35  # grey levels, and share of the projected light, by which a cell may be off
 SMALL = 900.0  # mm^2, least area of a disagreement
-WIDE = 61  # cells, window of slow changes of the room light
-ROOM = 10.0  # grey levels by which one cell counts towards them at most
+WIDE = 61  # cells, window in which the room light changes alike
+DARK = 10.0  # grey levels of room light, below which its relative change is noise
+STEADY = (
+    3.0,
+    0.1,
+)  # grey levels, and share of the light, by which the expectation of a cell may vary that measures light
 MARKERS = 260  # px, edge of the corner markers' squares on the canvas, which the drift monitor watches
 
 
@@ -83,11 +88,11 @@ class ThingsWatch:
         seen, light = expected.seen(image), expected.light(canvases)
         usable = expected.usable & ~self._hidden(robots)
         low, high = light.room + light.least, light.room + light.most
-        gain = _gain(seen, np.float32(0.5) * (low + high), usable & (high - low < 0.1 * high + 3.0))
-        beyond = seen - np.clip(seen, gain * low, gain * high)
-        slow = _slow(np.where(usable, seen - gain * 0.5 * (low + high), np.float32(0.0)), usable)
-        brighter, darker = beyond - np.maximum(slow, 0.0), -beyond + np.minimum(slow, 0.0)
-        off = np.where(beyond > 0.0, brighter, darker)
+        middle, steady = np.float32(0.5) * (low + high), usable & (high - low < STEADY[0] + STEADY[1] * high)
+        gain = _gain(seen, middle, steady)
+        room = gain * (light.room + np.float32(DARK))
+        change = room * _room_change((seen - gain * middle) / room, steady)
+        off = np.abs(seen - np.clip(seen, gain * low + change, gain * high + change))
         wrong = usable & (off > LEAST + SHARE * gain * light.most)
         return np.asarray(cv.morphologyEx(wrong.astype(np.uint8), cv.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0)
 
@@ -107,11 +112,14 @@ def _gain(seen: Map, expected: Map, usable: Mask) -> np.float32:
     return np.float32(np.clip(np.median(seen[bright] / expected[bright]), 0.4, 2.5))
 
 
-def _slow(difference: Map, usable: Mask) -> Map:
-    """Smooth part of a difference: the room light has changed."""
-    cv = opencv()
-    weight = cv.blur(usable.astype(np.float32), (WIDE, WIDE)) + np.float32(1e-3)
-    return np.asarray(cv.blur(np.clip(difference, -ROOM, ROOM), (WIDE, WIDE)) / weight)
+def _room_change(share: Map, steady: Mask) -> Map:
+    """Relative change of the room light round each cell: the median of the steady cells' shares, at most 1."""
+    cv, wide = opencv(), (WIDE, WIDE)
+    bounded = np.where(steady, np.clip(share, -0.15, 0.15), np.float32(0.0))
+    around = cv.blur(bounded, wide) / (cv.blur(steady.astype(np.float32), wide) + np.float32(1e-3))
+    levels = np.clip(np.where(steady, share, around) * 127.0 + 128.5, 0.0, 255.0).astype(np.uint8)
+    change = (cv.medianBlur(levels, WIDE).astype(np.float32) - np.float32(128.0)) / np.float32(127.0)
+    return np.asarray(cv.blur(change, (9, 9)))
 
 
 def _large_parts(mask: Mask, mm: float) -> list[Place]:

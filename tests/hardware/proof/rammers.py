@@ -13,9 +13,8 @@ from pigaming_app.hardware.emulator.things.contact import Obstacle, distance, ob
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.hardware.proof.things_watch import scanned
-from pigaming_app.hardware.scan.things import ThingKind
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.things.spec import ThingSpec, Use
+from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HZ, ROBOTS
 
 RAM, BACK = 3 * HZ, HZ  # ticks for which a player drives at a thing at most, and away from it
@@ -82,10 +81,7 @@ def specs_of(bed: Testbed) -> list[ThingSpec]:
     """Scan the mat of a testbed: its things as a game gets them; flat ones as lines. Raises RuntimeError."""
     layout = scanned(bed).layout
     assert layout is not None
-    return [
-        ThingSpec(Use.WALL if thing.kind is ThingKind.TALL else Use.LINE, thing.outline, thing.margin_px)
-        for thing in layout.things
-    ]
+    return [thing.spec for thing in layout.things]
 
 
 def _gap(thing: Obstacle, x: float, y: float) -> float:

@@ -22,7 +22,7 @@ OPEN_FLOOR = '[title]\nen = "Open floor"\npt = "Sala"\n' + "".join(
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("seed", [1])
+@pytest.mark.parametrize("seed", [1, 2, 3])
 def test_robots_that_are_driven_into_things_at_full_stick_never_touch_them(seed):
     bed = MeasuredBed(seed, 30.0)
     bed.furnish(some_things(seed, 8, bed.arena.optics, STARTS))

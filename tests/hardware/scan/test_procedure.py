@@ -5,6 +5,7 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
+from pigaming_app.hardware.scan.expected import Light  # noqa: E402
 from pigaming_app.hardware.scan.patterns import PATTERNS  # noqa: E402
 from pigaming_app.hardware.scan.procedure import Scan  # noqa: E402
 from pigaming_app.hardware.scan.watch import PATIENCE, ThingsWatch  # noqa: E402
@@ -86,3 +87,33 @@ def test_things_have_moved_if_the_same_place_disagrees_in_a_row(masks, changed):
         watch.check(np.zeros((2, 2), np.uint8), [], [])
     assert watch.changed == changed
     assert watch.places == ([pytest.approx((158.0, 178.0))] if changed else [])
+
+
+class Mirror:
+    """An expectation of a mat in room light alone, whose camera pictures are given as grey levels of its cells."""
+
+    def __init__(self, room):
+        self.room, self.usable = room, np.ones(room.shape, bool)
+        self.ground, self.projector = nominal(), None
+
+    def seen(self, image):
+        return image
+
+    def light(self, shown):
+        return Light(self.room, np.zeros_like(self.room), np.zeros_like(self.room))
+
+
+@pytest.mark.parametrize("share", [-0.3, 0.4])
+def test_a_bright_or_dark_spot_of_room_light_is_no_change_but_a_small_box_in_it_is(share):
+    y, x = np.mgrid[0:180, 0:320].astype(np.float32)
+    room = np.full((180, 320), 100.0, np.float32) - 0.1 * x
+    noise = np.random.default_rng(2).normal(0.0, 1.5, room.shape)
+    spot_light = 1.0 + share * np.exp(-(((x - 200) / 80) ** 2) - ((y - 150) / 65) ** 2)
+    seen = (room * spot_light + noise).astype(np.float32)
+    watch = ThingsWatch(Mirror(room), lambda: 0.0)
+    assert not watch.disagreement(seen, [], []).any()
+    seen[140:148, 200:208] *= 0.5
+    rows, columns = np.nonzero(watch.disagreement(seen, [], []))
+    assert len(rows) >= 50
+    assert 139 <= rows.min() <= rows.max() <= 148
+    assert 199 <= columns.min() <= columns.max() <= 208
