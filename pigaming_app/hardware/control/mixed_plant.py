@@ -95,7 +95,7 @@ class MixedPlant(RealPlant):
         if self.things is None or self.world.over:
             return
         simulated = [robot for i, robot in enumerate(self.world.robots) if robot.present and i not in self.real]
-        moves = self.things.update(self.rig.clock(), simulated)
+        moves = self.things.update(simulated)
         if self.recorder:
             self.recorder.moves += moves
 

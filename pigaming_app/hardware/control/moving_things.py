@@ -16,7 +16,6 @@ from pigaming_app.sim.things.convex import distance
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.toml_table import FieldError
 
-PERIOD = 1.0 / 30.0  # s between two changes, at least
 SAME = 1.5  # px by which a corner may move before a thing counts as moved
 NEAR = 15.0  # px between the middles of the same mud in two scans
 
@@ -48,23 +47,20 @@ class MovingThings:
         self.world, self.first, self.reroute = world, first, reroute
         self.wanted: Things = tuple(things)
         self.shown: Things = self.wanted  # in the world
-        self._changed = float("-inf")  # s
         self._routed = self.wanted  # known to the plan, or refused for it
         self._planned: tuple[Things, Callable[[Any], None]] | None = None  # to be applied
         self._planner: threading.Thread | None = None
 
-    def update(self, now: float, simulated: Sequence[Any]) -> list[ThingsMove]:
+    def update(self, simulated: Sequence[Any]) -> list[ThingsMove]:
         """Replace the walls if things have moved; returns the changes. `simulated`: robots that no thing may cover."""
-        moves = [self._replace(now, simulated), self._route()]
+        moves = [self._replace(simulated), self._route()]
         return [move for move in moves if move is not None]
 
-    def _replace(self, now: float, simulated: Sequence[Any]) -> ThingsMove | None:
-        if now - self._changed < PERIOD:
-            return None
+    def _replace(self, simulated: Sequence[Any]) -> ThingsMove | None:
         free = tuple(thing for thing in self.wanted if not any(_covers(thing, robot) for robot in simulated))
         if alike(free, self.shown):
             return None
-        self._changed, self.shown = now, free
+        self.shown = free
         try:
             replace_things(self.world, free, self.first)
         except FieldError as error:  # before it has changed anything

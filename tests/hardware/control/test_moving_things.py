@@ -7,7 +7,7 @@ import pytest
 from pigaming_app.games.arenas import load
 from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.match_recording import MatchFileError, MatchRecorder
-from pigaming_app.hardware.control.moving_things import PERIOD, MovingThings, ThingsMove, same_mud
+from pigaming_app.hardware.control.moving_things import MovingThings, ThingsMove, same_mud
 from pigaming_app.hardware.control.recorded_plant import RecordedPlant, RobotTrack
 from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import in_wall
@@ -33,16 +33,15 @@ def test_a_wall_follows_its_thing_but_waits_for_the_robot_that_it_would_cover():
     things.wanted = (square(800.0, 450.0),)
     robot = made.robots[0]
     robot.x, robot.y = 800.0, 380.0
-    assert things.update(0.0, [robot]) == []  # 70 px from the middle: the wall would reach the robot
+    assert things.update([robot]) == []  # 70 px from the middle: the wall would reach the robot
     assert made.wall_count == first
     robot.y = 200.0
-    assert things.update(0.1, [robot]) == [ThingsMove(0, things.wanted)]
+    assert things.update([robot]) == [ThingsMove(0, things.wanted)]
     assert in_wall(made, 800.0, 450.0)
     things.wanted = (square(830.0, 450.0),)
-    assert things.update(0.1 + 0.5 * PERIOD, []) == []  # at most 30 times a second
-    assert len(things.update(0.1 + 1.1 * PERIOD, [])) == 1
+    assert len(things.update([])) == 1  # at the very next tick
     things.wanted = (square(831.0, 450.0),)
-    assert things.update(1.0, []) == []  # noise
+    assert things.update([]) == []  # noise
     assert made.shifts == 2
 
 
@@ -73,10 +72,10 @@ def test_a_plan_round_moved_things_is_made_in_a_thread_and_recorded_with_its_tic
     made = world()
     things = MovingThings(made, made.wall_count, (), lambda _: lambda match: setattr(match, "random", 7))
     things.wanted = (square(800.0, 100.0),)
-    assert [move.routed for move in things.update(0.0, [])] == [False]
+    assert [move.routed for move in things.update([])] == [False]
     assert things._planner is not None
     things._planner.join()
-    assert [move.routed for move in things.update(0.01, [])] == [True]
+    assert [move.routed for move in things.update([])] == [True]
     assert made.random == 7
 
 
