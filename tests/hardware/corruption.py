@@ -1,4 +1,4 @@
-"""Corrupt drive packets: wrong bits, other bytes, exchanged bytes, or bytes lost and others inserted."""
+"""Corrupt packets: wrong bits, other bytes, exchanged bytes, or bytes lost and others inserted."""
 
 import numpy as np
 
@@ -10,24 +10,30 @@ GOOD = 500  # different packets before corruption
 
 
 def corrupt_packets(count, seed=1):
-    """`count` drive packets of which each differs from every good one, uint8 (count, 18)."""
-    random = np.random.default_rng(seed)
-    wheels = random.uniform(-1.0, 1.0, (GOOD, 4, 2)).tolist()
+    """`count` drive packets of which each differs from the good one that it was, uint8 (count, 18)."""
+    wheels = np.random.default_rng(seed).uniform(-1.0, 1.0, (GOOD, 4, 2)).tolist()
     good = [drive_packet(ARENA, i % 128, [WheelCommand(*pair) for pair in crew]) for i, crew in enumerate(wheels)]
-    packets = np.frombuffer(b"".join(good), np.uint8).reshape(GOOD, -1)
-    chosen = random.integers(0, GOOD, count)
+    return corrupted(good, count, seed)
+
+
+def corrupted(good, count, seed=1):
+    """`count` times one of these packets of equal length with one to eight changes, uint8 (count, length)."""
+    random = np.random.default_rng(seed)
+    packets = np.frombuffer(b"".join(good), np.uint8).reshape(len(good), -1)
+    chosen = random.integers(0, len(good), count)
     broken, rows, length = packets[chosen], np.arange(count), packets.shape[1]
-    way = random.integers(0, 4, count)
-    for _ in range(4):
+    way, times = random.integers(0, 4, count), random.integers(1, 9, count)
+    for change in range(8):
+        kind = np.where(change < times, way, -1)
         at, other = random.integers(1, length, count), random.integers(1, length, count)
         flip, value = 1 << random.integers(0, 7, count), random.integers(0, 128, count)
-        broken[rows, at] ^= np.where(way == 0, flip, 0).astype(np.uint8)
-        broken[rows, at] = np.where(way == 1, value, broken[rows, at])
+        broken[rows, at] ^= np.where(kind == 0, flip, 0).astype(np.uint8)
+        broken[rows, at] = np.where(kind == 1, value, broken[rows, at])
         one, two = broken[rows, at], broken[rows, other]
-        broken[rows, at], broken[rows, other] = np.where(way == 2, two, one), np.where(way == 2, one, two)
+        broken[rows, at], broken[rows, other] = np.where(kind == 2, two, one), np.where(kind == 2, one, two)
         shifted = np.where(np.arange(length) >= at[:, None], np.roll(broken, -1, axis=1), broken)
         shifted[:, -1] = value
-        broken = np.where((way == 3)[:, None], shifted, broken).astype(np.uint8)
+        broken = np.where((kind == 3)[:, None], shifted, broken).astype(np.uint8)
     same = (broken == packets[chosen]).all(axis=1)
     broken[same, 5] ^= 1
     return broken

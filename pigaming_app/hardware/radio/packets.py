@@ -5,6 +5,7 @@ Pure functions and a stream decoder, without ports or clocks. Every byte but the
 ends with a CRC-32.
 """
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 from zlib import crc32
@@ -18,6 +19,7 @@ DRIVE, REPORT = 0xD1, 0xD5
 OLD_REPORT = 0xD4  # report of firmware 1, which does not know D1 packets; decoded only to name such a robot
 CRC_BYTES = 5  # 32 bits in 7-bit bytes
 LENGTHS = {DRIVE: 5 + 2 * ROBOTS + CRC_BYTES, REPORT: 9 + CRC_BYTES, OLD_REPORT: 7}  # bytes
+START = re.compile(rb"[\x80-\xff]")  # first byte of a packet
 SEQUENCE = 128  # sequence numbers run from 0 to 127 and wrap; robots ignore a packet with an unchanged one
 NO_ARENA, LAST_ARENA = 0, 16383  # ids of arenas are 1 to LAST_ARENA; a robot without one neither drives nor is driven
 VERSION = 2  # of firmware that speaks this protocol
@@ -108,14 +110,15 @@ class PacketDecoder:
         complete = []
         while self._buffer:
             length = LENGTHS.get(self._buffer[0], 0)
-            packet = bytes(self._buffer[:length])
-            broken = next((at for at, byte in enumerate(packet) if at and byte >= 0x80), 0)
-            if length and not broken and len(packet) < length:
+            following = START.search(self._buffer, 1)
+            end = following.start() if following else len(self._buffer)
+            if following is None and end < length:
                 break
-            good = length > 0 and not broken and _is_valid(packet)
-            if good:
+            packet = bytes(self._buffer[:length])
+            if 0 < length <= end and _is_valid(packet):
                 complete.append(packet)
+                end = length
             else:
-                self.garbage += broken or 1
-            del self._buffer[: length if good else broken or 1]
+                self.garbage += end
+            del self._buffer[:end]
         return complete

@@ -26,12 +26,15 @@ class RosUnavailable(OperatorError):
 
 
 def require_roscore() -> None:
-    """Raises RosUnavailable without rospy, or if no roscore answers."""
+    """Raises RosUnavailable without rospy and its messages, or if no roscore answers."""
     if SYSTEM not in sys.path:
         sys.path.append(SYSTEM)  # last: packages of our own environment come first
     try:
+        import geometry_msgs.msg  # noqa: F401
         import rosgraph
         import rospy  # noqa: F401
+        import sensor_msgs.msg  # noqa: F401
+        import std_msgs.msg  # noqa: F401
     except ImportError as error:
         raise RosUnavailable(OperatorMessage("ros_missing", package=error.name or "rospy")) from None
     if not rosgraph.is_master_online():

@@ -12,11 +12,16 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.hardware.ros.node import SYSTEM
+
 ROOT = Path(__file__).resolve().parents[3]
 JOB = (sys.executable, "-X", "pigaming", "main.py")
+PACKAGES = ("rospy", "geometry_msgs", "sensor_msgs", "std_msgs")
 NEEDS_ROSCORE = pytest.mark.skipif(
-    shutil.which("roscore") is None, reason="no roscore: apt-get install ros-core python3-rospy"
+    shutil.which("roscore") is None or not all(Path(SYSTEM, name).exists() for name in PACKAGES),
+    reason="no roscore: apt-get install ros-core python3-rospy python3-geometry-msgs python3-sensor-msgs",
 )
+WITH_SIGINT = ("env", "--default-signal=INT")  # a shell starts its background jobs with SIGINT ignored, inherited here
 
 
 class Watched:
@@ -65,7 +70,9 @@ class Network:
         until(lambda: self.topics() is not None)
 
     def start(self, *command):
-        self.running.append(subprocess.Popen(command, env=self.environment, cwd=ROOT, stdout=subprocess.DEVNULL))
+        self.running.append(
+            subprocess.Popen((*WITH_SIGINT, *command), env=self.environment, cwd=ROOT, stdout=subprocess.DEVNULL)
+        )
         return self.running[-1]
 
     def watch(self, topic):

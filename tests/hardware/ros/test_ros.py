@@ -6,11 +6,13 @@ import sys
 import time
 from math import pi
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
 from pigaming_app.hardware.ros.robots import RosLink, RosPoses
 from pigaming_app.hardware.ros.units import ArenaFrame
 from pigaming_app.hardware.session.ros import RosSession
@@ -36,6 +38,18 @@ class Node:
 
     def close(self):
         self.closed = True
+
+
+@pytest.mark.parametrize("missing", ["rospy", "geometry_msgs", "sensor_msgs"])
+def test_a_package_that_is_missing_is_named_in_one_line(monkeypatch, missing):
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    for name in ("rosgraph", "rospy", "geometry_msgs", "geometry_msgs.msg", "sensor_msgs", "sensor_msgs.msg"):
+        monkeypatch.setitem(sys.modules, name, None if name.partition(".")[0] == missing else ModuleType(name))
+    for name in ("std_msgs", "std_msgs.msg"):
+        monkeypatch.setitem(sys.modules, name, ModuleType(name))
+    with pytest.raises(RosUnavailable) as refusal:
+        require_roscore()
+    assert refusal.value.message.values["package"].startswith(missing)
 
 
 def test_units_are_those_of_rep_103_and_come_back():

@@ -137,9 +137,22 @@ def _marked(number: int, along: Map, across: Map, plain: Map) -> Map:
 
 def _blocks(thing: Prism, x: Map, y: Map, z: Map) -> NDArray[np.bool_]:
     """True where a thing is between a point and the projector."""
+    if not _may_block(thing, x, y, float(z.min())):
+        return np.zeros(x.shape, np.bool_)
     up = np.float32(LAMP[2]) - z
     low, high, _ = cut(thing, x, y, (np.float32(LAMP[0]) - x) / up, (np.float32(LAMP[1]) - y) / up)
     return np.asarray(np.minimum(high, np.float32(thing.height) - z) > np.maximum(low, np.float32(TOUCH)))
+
+
+def _may_block(thing: Prism, x: Map, y: Map, lowest: float) -> bool:
+    """False if no ray from these points to the projector is over a thing before it is above it."""
+    share = max(0.0, (thing.height - lowest) / (float(LAMP[2]) - lowest))
+    for axis, lamp, corners in zip((x, y), LAMP, zip(*thing.outline, strict=True), strict=False):
+        first, last = float(axis.min()), float(axis.max())
+        first, last = min(first, first + share * (lamp - first)), max(last, last + share * (lamp - last))
+        if last < min(corners) or first > max(corners):
+            return False
+    return True
 
 
 def _canvas(optics: Optics, x: Map, y: Map, z: Map) -> tuple[Map, Map]:
