@@ -28,6 +28,7 @@ ENVIRONMENT = {
     "SDL_AUDIODRIVER": "dummy",
     "PYGAME_HIDE_SUPPORT_PROMPT": "1",
     "PYTHONDONTWRITEBYTECODE": "",
+    "OPENCV_FOR_THREADS_NUM": "1",  # there is a worker for every core
 }
 
 
