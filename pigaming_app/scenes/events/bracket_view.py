@@ -1,8 +1,8 @@
-"""The bracket of an event: the matches of each round as boxes in columns, from left to right, on as many pages as needed."""
+"""The bracket of an event: the matches of each round as boxes in columns, on as many pages as needed."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import groupby, pairwise
 
 import pygame
 
@@ -78,7 +78,7 @@ def page_with(pages: Sequence[Page], number: int | None) -> int:
 def draw_bracket(screen: pygame.Surface, page: Page, heads: Sequence[str]) -> None:
     """Draw a page. `heads`: one for each column."""
     places = {box: place for i, column in enumerate(page) for box, place in placed(column, i)}
-    for before, after in zip(page, page[1:], strict=False):
+    for before, after in pairwise(page):
         if (before.stage, before.round) != (after.stage, after.round):
             for start, end in _ways(before, after, places):
                 way(end[0] - start[0], end[1] - start[1]).draw(screen, start[0], min(start[1], end[1]))
@@ -142,7 +142,9 @@ def _filled(boxes: list[Box]) -> Iterator[tuple[Box, ...]]:
         yield tuple(boxes[i : i + each])
 
 
-def _ways(before: Column, after: Column, places: dict[Box, pygame.Rect]) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
+def _ways(
+    before: Column, after: Column, places: dict[Box, pygame.Rect]
+) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
     """From each match to the next one of those who advance from it: ends of the lines, px."""
     for box in before.boxes:
         for other in after.boxes:

@@ -50,7 +50,9 @@ class EventsPage:
         """Read the list of events."""
         self.context.sounds.music(True)
         self.saved = event_files.saved_events(folders().data / event_files.FOLDER)[: ROWS - 1]
-        self.focus.set_spots([FocusSpot(name, row_box(i)) for i, name in enumerate((NEW, *map(str, range(len(self.saved)))))])
+        self.focus.set_spots(
+            [FocusSpot(name, row_box(i)) for i, name in enumerate((NEW, *map(str, range(len(self.saved)))))]
+        )
 
     def handle(self, event: InputEvent) -> StackOperation:
         """FIRE opens an event, or begins a new one."""

@@ -24,7 +24,7 @@ IDLE = 60.0  # s without input before the return to the table
 MESSAGE_SECONDS = 5.0
 ROWS, TOP, HIGH, PITCH = 7, 212, 88, 104  # px
 NOTES = ("note_referee", "note_robot", "note_agreed", "note_seats")
-NOTE, SAVE = "note", "save"  # rows below the entrants
+NOTE, SAVE = " note", " save"  # rows below the entrants, whose names begin with no space
 
 log = logging.getLogger("pigaming")
 
@@ -116,7 +116,11 @@ class Correction:
         self.names = sorted(fixture.entrants, key=lambda name: (self.places[name], name))
         self.note = 0
         self.focus = Focus(setting_row.spots((*self.names, NOTE, SAVE)))
-        hints = [(Button.RIGHT, "options.hint_change"), (Button.START, "events.hint_save"), (Button.BACK, "events.hint_back")]
+        hints = [
+            (Button.RIGHT, "options.hint_change"),
+            (Button.START, "events.hint_save"),
+            (Button.BACK, "events.hint_back"),
+        ]
         self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 
     def on_enter(self) -> None:
@@ -151,7 +155,7 @@ class Correction:
         setting_row.glow_bar(screen, self.focus.box)
         for spot in self.focus.spots:
             value, box, hot = self._value(spot.name), spot.rect, spot.name == self.focus.name
-            said = spot.name if spot.name in self.names else words(f"events.{spot.name}")
+            said = spot.name if spot.name in self.names else words(f"events.{spot.name.strip()}")
             setting_row.label(said, hot).draw(screen, box.x + 40, box.centery)
             setting_row.value(value.kind, value.options, value.chosen, hot).draw(screen, box.x, box.centery)
         self.focus.draw(screen)

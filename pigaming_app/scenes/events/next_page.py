@@ -8,16 +8,20 @@ once in the background.
 import logging
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import takewhile
 
 import pygame
 
 from pigaming_app.ai.registry import level_of
-from pigaming_app.events.spec import DEFAULT_AI, Fixture
+from pigaming_app.events.event import Event
+from pigaming_app.events.match_setup import outcome_of, setup_of
+from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
+from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
+from pigaming_app.games.setup import ChoiceError
 from pigaming_app.scenes.events import next_view as view
-from pigaming_app.scenes.events.ended import outcome_of, setup_of
 from pigaming_app.scenes.events.podium_page import PodiumPage
-from pigaming_app.scenes.events.quick_match import QuickMatch
+from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
@@ -29,6 +33,7 @@ from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.robots.start_match import match_of
+from pigaming_app.sim.arena import ArenaError
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
@@ -53,8 +58,8 @@ class NextMatch:
     def __init__(self, context: Context, running: RunningEvent, said: str = "", show: bool = False) -> None:
         self.context, self.running, self.show = context, running, show
         self.claims: dict[int, Device] = {}  # by seat
-        self.quick: QuickMatch | None = None
-        self.many = False  # play one match of AIs after the other
+        self.quick: QuickMatches | None = None  # matches of AIs in the background
+        self._known: tuple[Event, Setup | None] | None = None  # the match, as long as the event is the same
         self.clock, self.ready = 0.0, 0.0
         self.going = False  # a match is wanted, but not loaded yet
         self.message, self.message_left = said, MESSAGE_SECONDS if said else 0.0
@@ -71,10 +76,8 @@ class NextMatch:
         self.ready = 0.0
 
     def on_leave(self) -> None:
-        """Stop a match in the background: it counts as not played."""
-        if self.quick:
-            self.quick.end()
-            self.quick = None
+        """Stop the matches in the background."""
+        self._stop_quick()
 
     @property
     def fixture(self) -> Fixture | None:
@@ -101,7 +104,9 @@ class NextMatch:
         if self.clock < INPUT_LOCKOUT or self.going:
             return None
         if self.quick:
-            self.many = self.many and event.button in (Button.POINT, Button.FOUND, Button.LOST)
+            if event.button is Button.BACK:
+                self._stop_quick()
+                self.context.sounds.play("back")
             return None
         if event.button in (Button.POINT, Button.FOUND, Button.LOST, Button.STOP):
             return None
@@ -143,9 +148,9 @@ class NextMatch:
             return Swap(PodiumPage(self.context, self.running))
         if self.going:
             return self._begin()
-        if self.quick and self.quick.over:
-            self._finish_quick()
-        elif not self.quick:
+        if self.quick:
+            self._record_quick(self.quick)
+        else:
             self.ready = self.ready + seconds if self.people and not self.waiting else 0.0
             shown = self.show and not self.people and self.clock > SHOW_AFTER
             if shown or self.ready > ALL_READY:
@@ -177,7 +182,7 @@ class NextMatch:
         """The prompts of this match."""
         late = [(Button.DOWN, "events.hint_late")] if self._late_allowed else []
         if self.quick:
-            hints = [(Button.BACK, "events.hint_stop")] if self.many else []
+            hints = [(Button.BACK, "events.hint_stop")]
         elif self.people:
             hints = [
                 (Button.START, "events.hint_begin"),
@@ -257,15 +262,13 @@ class NextMatch:
 
     @property
     def _late_allowed(self) -> bool:
-        return self.running.event.accepts_late
+        return self.running.accepts_late
 
     def _names(self) -> list[str]:
         return [entrant.name for entrant in self.running.event.entrants]
 
     def _add(self, name: str) -> str:
         """Enter a late person; returns the sentence why not, or an empty one."""
-        from pigaming_app.events.spec import Entrant
-
         words = self.context.words
         if name in self._names():
             return words("events.taken", name=name)
@@ -291,24 +294,23 @@ class NextMatch:
         fixture = self.fixture
         assert fixture is not None
         if not self.people:
-            self.many = True
             self._play_quick()
             return
         event = self.running.event
         for seat in self.waiting:
             event = event.substitute(fixture.entrants[seat], DEFAULT_AI)
-        claims = dict(self.claims)
         if event is not self.running.event and self._change(event):
-            self.claims = claims
             self._say("events.stand_in", "join")
 
-    def _change(self, event: "object") -> bool:
+    def _change(self, event: Event) -> bool:
         """Save a changed event; false, with a message, if that is impossible."""
-        if not self.running.change(event):  # type: ignore[arg-type]
+        before, saved = self.fixture, self.running.change(event)
+        if self.fixture != before:
+            self.claims.clear()
+            self.ready = 0.0
+        if not saved:
             self._say("app.unsaved", "error")
-            return False
-        self.claims, self.clock = {}, INPUT_LOCKOUT
-        return True
+        return saved
 
     def _say(self, key: str, sound: str = "refused") -> None:
         self.message, self.message_left = key, MESSAGE_SECONDS
@@ -328,7 +330,11 @@ class NextMatch:
         """Swap to the match, or return None while it is being loaded."""
         fixture = self.fixture
         assert fixture is not None
-        setup = setup_of(self.running.event, fixture)
+        setup = self._setup_of(fixture)
+        if setup is None:
+            self.going = False
+            self._say("events.failed", "error")
+            return None
         if not self.context.preloader.ready(setup.game, setup.arena):
             return None
         devices = [self.claims.get(seat) for seat in range(4)]
@@ -336,32 +342,50 @@ class NextMatch:
         after = partial(after_match, self.running, fixture)
         return Swap(match_of(self.context, setup, devices, real, after=after))
 
+    def _setup_of(self, fixture: Fixture) -> Setup | None:
+        """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
+        if self._known is None or self._known[0] is not self.running.event:
+            try:
+                self._known = self.running.event, setup_of(self.running.event, fixture)
+            except (ChoiceError, ArenaError) as reason:
+                log.warning("%s", reason)
+                self._known = self.running.event, None
+        return self._known[1]
+
     def _play_quick(self) -> None:
-        fixture = self.fixture
-        assert fixture is not None
+        """Play the matches up to the next one with people in the background."""
+        open_now = self.running.event.open
         try:
-            self.quick = QuickMatch(self.running.event, fixture)
+            self.quick = QuickMatches(self.running.event, list(takewhile(self.running.without_people, open_now)))
         except OSError as error:
             log.warning("%s", error)
             self._say("events.failed", "error")
 
-    def _finish_quick(self) -> None:
-        """Record the match played in the background, and begin the next one."""
-        quick, self.quick = self.quick, None
-        assert quick is not None
-        if quick.outcome is None or not self._change(self.running.event.record(quick.outcome)):
-            self.many = False
-            self._say("events.failed", "error")
-            return
-        fixture = self.fixture
-        if self.many and fixture and self.running.without_people(fixture):
-            self._play_quick()
+    def _record_quick(self, quick: QuickMatches) -> None:
+        """Record what has been played in the background; after the last one, those that are open now."""
+        if outcome := quick.next_outcome():
+            if not self._change(self.running.event.record(outcome)):
+                self._stop_quick()
+        elif quick.over:
+            self._stop_quick()
+            if quick.left:
+                self._say("events.failed", "error")
+            elif (fixture := self.fixture) and self.running.without_people(fixture):
+                self._play_quick()
+
+    def _stop_quick(self) -> None:
+        """Stop the matches in the background; those without a result count as not played."""
+        if self.quick:
+            self.quick.end()
+            self.quick = None
 
     # ---- drawing
 
     def _what(self, fixture: Fixture) -> str:
         """Game, length and arena in one line."""
-        words, setup = self.context.words, setup_of(self.running.event, fixture)
+        words, setup = self.context.words, self._setup_of(fixture)
+        if setup is None:
+            return words(f"games.{fixture.game}")
         arena = arena_title(load_cached(setup.game, setup.arena), words.language)
         length = match_length(words, games()[setup.game], setup.minutes, setup.goal)
         return "  ·  ".join((words(f"games.{setup.game}"), length, arena))
@@ -423,9 +447,9 @@ class NextMatch:
 
 
 def after_match(running: RunningEvent, fixture: Fixture, scene: MatchScene) -> AfterMatch:
-    """The next page after a match, whose result is on the disk by then. A match that was ended by hand is still open."""
+    """The next page after a match, whose result is on the disk by then. One that was ended by hand is still open."""
     if not scene.match.over:
         return NextMatch(scene.context, running, "events.unplayed")
-    outcome = outcome_of(fixture, scene.match.outcome())
+    outcome = outcome_of(fixture, scene.match.outcome().rows)
     saved = running.change(running.event.record(outcome))
     return NextMatch(scene.context, running, "" if saved else "app.unsaved", show=not scene.humans)

@@ -189,7 +189,13 @@ def _bracket(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]
         _write(page, head, 44, (x, 580), SOFT, room=wide - 20)
         pitch = (FOOT - top) / len(fixtures)
         for k, fixture in enumerate(fixtures):
-            _match(page, event, fixture, names, pygame.Rect(round(x), round(top + pitch * k), round(wide - 24), round(pitch)))
+            _match(
+                page,
+                event,
+                fixture,
+                names,
+                pygame.Rect(round(x), round(top + pitch * k), round(wide - 24), round(pitch)),
+            )
             yield
 
 
@@ -206,4 +212,11 @@ def _match(page: pygame.Surface, event: Event, fixture: Fixture, names: tuple[st
         if name in best:
             tick = [(box.x + 14 + line * a, y + line * b) for a, b in ((0.0, 0.05), (0.14, 0.2), (0.4, -0.2))]
             pygame.draw.lines(page, MEDALS[0], False, tick, max(3, round(line / 9)))
-        _write(page, name, round(line * 0.7), (box.x + 20 + line * 0.5, y), INK if name in best else SOFT, room=box.w - 34 - line * 0.5)
+        _write(
+            page,
+            name,
+            round(line * 0.7),
+            (box.x + 20 + line * 0.5, y),
+            INK if name in best else SOFT,
+            room=box.w - 34 - line * 0.5,
+        )

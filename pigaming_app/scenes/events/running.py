@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
-from pigaming_app.events.spec import Fixture
+from pigaming_app.events.spec import MOST, Fixture
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
@@ -23,14 +23,21 @@ class RunningEvent:
     devices: dict[str, Device] = field(default_factory=dict)
 
     def change(self, event: Event) -> bool:
-        """Save the event and take it over; false, and nothing has changed, if it cannot be saved."""
+        """Take the event over and save it; false if it cannot be saved, and is lost when the arcade ends."""
+        self.event = event
         try:
             event_files.save(self.path, event)
         except NotSaved as reason:
             log.warning("%s", reason)
             return False
-        self.event = event
         return True
+
+    @property
+    def accepts_late(self) -> bool:
+        """True as long as late entrants may join: until a match of round two has been played."""
+        event = self.event
+        begun = any(fixture.round > 1 and fixture.number in event.outcomes for fixture in event.fixtures)
+        return not begun and not event.over and len(event.entrants) < MOST
 
     def brain(self, name: str) -> str:
         """The brain of an entrant now; empty: a person."""
@@ -50,7 +57,9 @@ class RunningEvent:
 def progress_line(words: Words, event: Event) -> str:
     """Round, and matches played of those known."""
     played = len(event.outcomes)
-    return words("events.progress", round=max(1, event.round), match=min(played + 1, len(event.fixtures)), of=len(event.fixtures))
+    return words(
+        "events.progress", round=max(1, event.round), match=min(played + 1, len(event.fixtures)), of=len(event.fixtures)
+    )
 
 
 def stage_name(words: Words, stage: str, number: int) -> str:

@@ -145,7 +145,9 @@ class TablePage:
 
     def _posted(self, poster: PosterJob) -> None:
         self.wrong = not poster.saved
-        self.message = self.context.words("events.poster", name=poster.name) if poster.saved else self.context.words("app.unsaved")
+        self.message = (
+            self.context.words("events.poster", name=poster.name) if poster.saved else self.context.words("app.unsaved")
+        )
         self.message_left = MESSAGE_SECONDS
         self.context.sounds.play("error" if self.wrong else "ready")
 
@@ -161,9 +163,7 @@ def through(running: RunningEvent, fixture: Fixture, outcome: Outcome) -> tuple[
 
 def rows_of(words: Words, standings: tuple[Standing, ...], ais: set[str]) -> tuple[TableRow, ...]:
     """The rows of a table: points, wins, matches, and the first tie-break."""
-    return tuple(
-        TableRow(row.place, row.entrant, figures_of(words, row), row.entrant in ais) for row in standings
-    )
+    return tuple(TableRow(row.place, row.entrant, figures_of(words, row), row.entrant in ais) for row in standings)
 
 
 def figures_of(words: Words, row: Standing) -> tuple[str, ...]:

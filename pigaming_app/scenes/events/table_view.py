@@ -108,7 +108,13 @@ def table_row(row: TableRow, w: int, h: int, columns: int) -> Steps[LitImage]:
         there = size if k == 0 else round(size * 0.8)
         right = w - 28 - k * cell
         layer.canvas.text(
-            figure, fit_size(figure, there, cell - 20), right, middle, color if k == 0 else MIST, "hero" if k == 0 else "head", "r"
+            figure,
+            fit_size(figure, there, cell - 20),
+            right,
+            middle,
+            color if k == 0 else MIST,
+            "hero" if k == 0 else "head",
+            "r",
         )
     yield
     return (yield from layer.render_steps())

@@ -21,8 +21,8 @@ ROUNDS = {
 
 @dataclass
 class Draft:
-    """What has been chosen so far. `game`: one, or BY_TURNS; `order`: of the games of a Grand Prix; `arena`: of a single
-    game; `length`: one of LENGTHS; `fill`: true if AIs take the seats that would stay empty.
+    """What has been chosen so far. `game`: one, or BY_TURNS; `order`: of the games of a Grand Prix; `arena`: of a
+    single game; `length`: one of LENGTHS; `fill`: true if AIs take the seats that would stay empty.
     """
 
     format: Format = Format.KNOCKOUT
@@ -56,7 +56,15 @@ class Draft:
     def rows(self) -> tuple[str, ...]:
         """The rows that offer a choice."""
         prix = self.format is Format.GRAND_PRIX
-        rows = ("format", "order" if prix else "game", "arena", "length", "seats", "rounds", *(("fill",) if prix else ()))
+        rows = (
+            "format",
+            "order" if prix else "game",
+            "arena",
+            "length",
+            "seats",
+            "rounds",
+            *(("fill",) if prix else ()),
+        )
         return tuple(row for row in rows if len(self.options(row)) > 1)
 
     def options(self, row: str) -> tuple[object, ...]:

@@ -88,7 +88,9 @@ class EntrantsPage:
         for spot in self.focus.spots:
             hot = spot.name == self.focus.name
             if spot.name in DEEDS:
-                chip(self._label(spot.name), spot.rect.w, "focus" if hot else "off", DEED_H).draw(screen, *spot.rect.topleft)
+                chip(self._label(spot.name), spot.rect.w, "focus" if hot else "off", DEED_H).draw(
+                    screen, *spot.rect.topleft
+                )
             else:
                 entrant = self._entrant(spot.name)
                 cell(entrant.name, bool(entrant.brain), hot).draw(screen, *spot.rect.topleft)
@@ -201,7 +203,9 @@ class EntrantsPage:
 
     def _spots(self) -> list[FocusSpot]:
         cells = [
-            FocusSpot(str(i), pygame.Rect(LEFT + PITCH_X * (i % COLUMNS), TOP + PITCH_Y * (i // COLUMNS), CELL_W, CELL_H))
+            FocusSpot(
+                str(i), pygame.Rect(LEFT + PITCH_X * (i % COLUMNS), TOP + PITCH_Y * (i // COLUMNS), CELL_W, CELL_H)
+            )
             for i in range(len(self.draft.entrants))
         ]
         w = (RIGHT - LEFT - DEED_GAP * (len(DEEDS) - 1)) // len(DEEDS)
@@ -210,7 +214,7 @@ class EntrantsPage:
 
 
 def brains_for(played: tuple[str, ...]) -> tuple[str, ...]:
-    """AIs that play all these games: the levels, in a single game its other ones, in PiTanks the visitors' robots, too."""
+    """AIs that play all these games: the levels; in a single game its other ones, in PiTanks visitors' robots, too."""
     if len(played) > 1:
         return LEVELS
     saved = [str(file_of(name)) for name in names()] if played == ("pitanks",) else []

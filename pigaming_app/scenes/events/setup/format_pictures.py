@@ -21,7 +21,11 @@ def picture(form: Format) -> LitImage:
 def _bracket(ink: GlowCanvas) -> None:
     for i, y in enumerate((-105, -35, 35, 105)):
         ink.line(cut_box(-160, y - 22, 84, 44, 8), PLAYERS[i], THIN, True)
-        ink.line([(-76, y), (-48, y), (-48, y + (35 if i % 2 == 0 else -35)), (-20, y + (35 if i % 2 == 0 else -35))], STEEL, THIN)
+        ink.line(
+            [(-76, y), (-48, y), (-48, y + (35 if i % 2 == 0 else -35)), (-20, y + (35 if i % 2 == 0 else -35))],
+            STEEL,
+            THIN,
+        )
     for y, color in ((-70, PLAYERS[0]), (70, PLAYERS[2])):
         ink.line(cut_box(-20, y - 22, 84, 44, 8), color, THIN, True)
         ink.line([(64, y), (84, y), (84, 0), (100, 0)], STEEL, THIN)
@@ -42,12 +46,12 @@ def _swiss(ink: GlowCanvas) -> None:
     for column in range(3):
         for row in range(4):
             color = PLAYERS[row] if column == 2 else dim(PLAYERS[(row * (3 if column == 0 else 1) + column) % 4], 0.7)
-            ink.line(cut_box(-156 + 120 * column, -120 + 64 * row, 72, 48, 8), color, LINE if column == 2 else THIN, True)
+            ink.line(
+                cut_box(-156 + 120 * column, -120 + 64 * row, 72, 48, 8), color, LINE if column == 2 else THIN, True
+            )
         if column < 2:
             for one, other in ((0, 1), (1, 0), (2, 3), (3, 2)):
-                ink.line(
-                    [(-78 + 120 * column, -96 + 64 * one), (-42 + 120 * column, -96 + 64 * other)], STEEL, THIN
-                )
+                ink.line([(-78 + 120 * column, -96 + 64 * one), (-42 + 120 * column, -96 + 64 * other)], STEEL, THIN)
 
 
 def _podium(ink: GlowCanvas) -> None:

@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.results.spelling import Spelling
-from pigaming_app.ui.draw import ALARM, BODY, BOLD, FOCUS, HERO, ICE, LABEL, MIST, STEEL, THIN, cut_box, panel
+from pigaming_app.ui.draw import ALARM, BODY, BOLD, HERO, ICE, LABEL, MIST, STEEL, THIN, cut_box, panel
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
@@ -35,7 +35,11 @@ class LettersPage:
         self.spelling = Spelling()
         self.refusal = ""
         self.age = 0.0
-        hints = [(Button.FIRE, "results.next_letter"), (Button.START, "events.hint_enter"), (Button.BACK, "events.hint_back")]
+        hints = [
+            (Button.FIRE, "results.next_letter"),
+            (Button.START, "events.hint_enter"),
+            (Button.BACK, "events.hint_back"),
+        ]
         self.prompts = context.prompts(hints)
 
     def on_enter(self) -> None:

@@ -126,5 +126,3 @@ class SetupPage:
             minutes = {"short": variant.minutes[0], "normal": variant.default_minutes, "long": variant.minutes[-1]}
             return words("setup.min", minutes=minutes[length])
         return words(f"events.{length}")
-
-
