@@ -45,7 +45,7 @@ class Event:
         """The matches that can be played now, the next one first."""
         return tuple(fixture for fixture in self.fixtures if fixture.number not in self.progress.outcomes)
 
-    @property
+    @cached_property
     def outcomes(self) -> dict[int, Outcome]:
         """The results by number of the match; walkovers have the note WALKOVER."""
         return dict(self.progress.outcomes)

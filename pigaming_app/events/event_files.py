@@ -57,15 +57,27 @@ def save(path: Path, event: Event) -> None:
         write_with_backup(path, to_text(event))
 
 
-def update(path: Path, change: Callable[[Event], Event]) -> Event:
-    """Change the event in the file, also while another process does. Raises NotSaved, or ValueError of the change."""
+def update(path: Path, change: Callable[[Event], Event], known: Event | None = None) -> Event:
+    """Change the event in the file, also while another process does. Raises NotSaved, or ValueError of the change.
+
+    `known`: the event as it was last saved, which spares parsing the file if nobody else has changed it.
+    """
     with locked(path):
-        event, problems = load(path)
+        event = known if known is not None and _is_saved(path, known) else None
         if event is None:
-            raise ValueError(problems[-1] if problems else f"{path}: no such event")
+            event, problems = load(path)
+            if event is None:
+                raise ValueError(problems[-1] if problems else f"{path}: no such event")
         event = change(event)
         write_with_backup(path, to_text(event))
     return event
+
+
+def _is_saved(path: Path, event: Event) -> bool:
+    try:
+        return read_text(path, MAX_BYTES) == to_text(event)
+    except (OSError, ValueError):
+        return False
 
 
 def saved_events(folder: Path) -> list[Listed]:
