@@ -9,6 +9,7 @@ import pygame
 
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
+from pigaming_app.events.match_setup import check_playable
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
@@ -96,6 +97,7 @@ class EventsPage:
         event = Event(draft.spec(title, secrets.randbelow(SEEDS) + 1))
         try:
             _ = event.progress
+            check_playable(event.spec)
             folder.mkdir(parents=True, exist_ok=True)
             running = RunningEvent(Path(event_files.path_of(title, folder)), event)
             event_files.save(running.path, event)

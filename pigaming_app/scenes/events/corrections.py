@@ -4,11 +4,13 @@ import logging
 
 import pygame
 
+from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import WALKOVER, Fixture, Outcome
 from pigaming_app.scenes.events.running import RunningEvent, stage_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
@@ -38,14 +40,20 @@ class ResultsList:
         self.focus = Focus([FocusSpot("0", row_box(0))])
         hints = [
             (Button.FIRE, "events.hint_correct"),
+            (Button.Y, "events.hint_again"),
             (Button.RIGHT, "events.hint_page"),
             (Button.BACK, "events.hint_back"),
         ]
         self.navigation = Navigation(context, self.focus, hints, IDLE)
         self._show()
 
+    def prewarm(self, milliseconds: float) -> bool:
+        """Nothing to do: its rows are rendered as they are drawn."""
+        return True
+
     def on_enter(self) -> None:
-        """First display, or return from a correction."""
+        """First display, or return from a correction or a match."""
+        self.context.sounds.music(True)
         self._show()
 
     def handle(self, event: InputEvent) -> StackOperation:
@@ -56,6 +64,8 @@ class ResultsList:
             self._show()
             self.context.sounds.play("move")
             return None
+        if event.button is Button.Y and self.shown:
+            return self._watch(self.shown[int(self.focus.name)])
         chosen = self.focus.activated(event)
         if chosen is None or not self.shown:
             return self.navigation.handle(event)
@@ -86,6 +96,20 @@ class ResultsList:
         self.navigation.prompts.draw(screen)
 
     # ---- inside
+
+    def _watch(self, fixture: Fixture) -> StackOperation:
+        """Play a match of AIs again: it goes as before, and does not count."""
+        event = self.running.event
+        try:
+            setup = setup_of(event, fixture) if self.running.without_people(fixture) else None
+        except ValueError as reason:
+            log.warning("%s", reason)
+            setup = None
+        if setup is None or not self.context.preloader.ready(setup.game, setup.arena):
+            self.context.sounds.play("refused")
+            return None
+        self.context.sounds.play("accept")
+        return Swap(MatchScene(self.context, setup, after=lambda scene: ResultsList(self.context, self.running)))
 
     @property
     def pages(self) -> int:

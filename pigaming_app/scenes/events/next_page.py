@@ -18,7 +18,6 @@ from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError
 from pigaming_app.scenes.events import next_view as view
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
@@ -33,7 +32,6 @@ from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.robots.start_match import match_of
-from pigaming_app.sim.arena import ArenaError
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
@@ -340,14 +338,17 @@ class NextMatch:
         devices = [self.claims.get(seat) for seat in range(4)]
         real = [seat - 1 for seat in self.context.settings.real] if self.context.robots else []
         after = partial(after_match, self.running, fixture)
-        return Swap(match_of(self.context, setup, devices, real, after=after))
+        scene = match_of(self.context, setup, devices, real, after=after)
+        if isinstance(scene, MatchScene):
+            scene.names = fixture.entrants
+        return Swap(scene)
 
     def _setup_of(self, fixture: Fixture) -> Setup | None:
         """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
         if self._known is None or self._known[0] is not self.running.event:
             try:
                 self._known = self.running.event, setup_of(self.running.event, fixture)
-            except (ChoiceError, ArenaError) as reason:
+            except ValueError as reason:
                 log.warning("%s", reason)
                 self._known = self.running.event, None
         return self._known[1]

@@ -1,7 +1,9 @@
 """The entrants of a new event: by letters, from the clipboard or a dropped file, and AIs; then it begins."""
 
 import logging
-from collections.abc import Callable, Iterable
+import re
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from string import ascii_uppercase
 
@@ -9,15 +11,16 @@ import pygame
 
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.registry import LEVELS, RIVALS, level_of
-from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant
+from pigaming_app.events.entrant_lists import entrants_of_text
+from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
 from pigaming_app.scenes.events.setup.draft import Draft
-from pigaming_app.scenes.events.setup.entrant_lists import names_in, names_of_file
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.lab.saved_robots import file_of, names
+from pigaming_app.storage.parsing import read_text
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
@@ -30,6 +33,8 @@ from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
 IDLE = 180.0  # s without input before the return to the title
 MESSAGE_SECONDS = 4.0
+MAX_LIST = 100_000  # bytes of a dropped file
+TEAMS = 4  # that can be chosen here
 COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 212  # px
 DEEDS_Y, DEED_H, DEED_GAP = 872, 70, 24  # px
 LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN = "letters", "add_ai", "strength", "paste", "begin"
@@ -51,6 +56,7 @@ class EntrantsPage:
         hints = [
             (Button.FIRE, "events.hint_choose"),
             (Button.X, "events.hint_remove"),
+            *([(Button.Y, "events.hint_team")] if draft.format is Format.GRAND_PRIX else []),
             (Button.START, "events.hint_begin"),
             (Button.BACK, "events.hint_back"),
         ]
@@ -68,6 +74,9 @@ class EntrantsPage:
             return self._do(BEGIN)
         if event.button is Button.X:
             self._remove(self.focus.name)
+            return None
+        if event.button is Button.Y and self.draft.format is Format.GRAND_PRIX:
+            self._change_team(self.focus.name)
             return None
         chosen = self.focus.activated(event)
         if event.button is Button.CLICK:
@@ -93,7 +102,7 @@ class EntrantsPage:
                 )
             else:
                 entrant = self._entrant(spot.name)
-                cell(entrant.name, bool(entrant.brain), hot).draw(screen, *spot.rect.topleft)
+                cell(entrant.name, entrant.team, bool(entrant.brain), hot).draw(screen, *spot.rect.topleft)
         if not draft.entrants:
             text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 470)
             text(words("events.drop"), BODY, MIST).draw(screen, 960, 560)
@@ -119,29 +128,50 @@ class EntrantsPage:
         self.focus.set_spots(self._spots())
         return ""
 
-    def add_all(self, found: Iterable[str]) -> None:
+    def add_list(self, text: str) -> None:
         """Enter everybody of a list, and show how many."""
         words, count = self.context.words, 0
-        for name in found:
-            count += not self._add(Entrant(HARMLESS if is_rude(name) else name))
-        self.navigation.show_message(words("events.added", count=count) if count else words("events.no_names"))
-        self.context.sounds.play("ready" if count else "refused")
+        try:
+            found = entrants_of_text(one_a_line(text))
+        except ValueError as error:
+            log.warning("list of entrants: %s", error)
+            self._refuse(words("events.unread"))
+            return
+        for entrant in found:
+            name = HARMLESS if is_rude(entrant.name.upper()) else entrant.name
+            count += not self._add(replace(entrant, name=name))
+        if count:
+            self.navigation.show_message(words("events.added", count=count))
+            self.context.sounds.play("ready")
+        else:
+            self._refuse(words("events.no_names"))
 
     def _read(self, path: Path) -> None:
         try:
-            self.add_all(names_of_file(path))
+            self.add_list(read_text(path, MAX_LIST))
         except (OSError, ValueError) as error:
             log.warning("%s: %s", path.name, error)
-            self.navigation.show_message(self.context.words("events.unread"))
-            self.context.sounds.play("refused")
+            self._refuse(self.context.words("events.unread"))
 
     def _paste(self) -> None:
         try:
-            found = names_in(pygame.scrap.get_text())
+            self.add_list(pygame.scrap.get_text())
         except pygame.error as error:
             log.warning("clipboard: %s", error)
-            found = []
-        self.add_all(found)
+            self._refuse(self.context.words("events.no_names"))
+
+    def _refuse(self, sentence: str) -> None:
+        self.navigation.show_message(sentence)
+        self.context.sounds.play("refused")
+
+    def _change_team(self, spot: str) -> None:
+        """The next team of an entrant; after the last one, none."""
+        if spot not in DEEDS:
+            entrant = self._entrant(spot)
+            teams = ("", *(self.context.words(f"events.team_{number}") for number in range(1, TEAMS + 1)))
+            now = teams.index(entrant.team) if entrant.team in teams else 0
+            self.draft.entrants[int(spot)] = replace(entrant, team=teams[(now + 1) % len(teams)])
+            self.context.sounds.play("move")
 
     def _remove(self, spot: str) -> None:
         if spot in DEEDS:
@@ -221,14 +251,23 @@ def brains_for(played: tuple[str, ...]) -> tuple[str, ...]:
     return (*RIVALS[played[0]], *saved)
 
 
+def one_a_line(text: str) -> str:
+    """A list with one entrant in each line, also if all of them stand in one line."""
+    text = text.replace("\0", "").strip()
+    return text if "\n" in text or "\r" in text else re.sub(r"\s*[;,\t]\s*", "\n", text)
+
+
 @cached
-def cell(name: str, ai: bool, hot: bool) -> LitImage:
+def cell(name: str, team: str, ai: bool, hot: bool) -> LitImage:
     """An entrant; top left at (0, 0)."""
     layer = Layer(0, 0, CELL_W, CELL_H)
     layer.glow.line(cut_box(0, 0, CELL_W, CELL_H, 12), FOCUS if hot else STEEL, THIN, True)
     left = 58 if ai else 16
     if ai:
         icon(layer.glow, "ai", 34, CELL_H / 2, 18, MIST, 3)
-    size = fit_size(name, LABEL, CELL_W - left - 14, "hero")
-    layer.canvas.text(name, size, (left + CELL_W - 14) / 2, CELL_H / 2, FOCUS if hot else ICE, "hero", "c")
+    right = CELL_W - (60 if team else 14)
+    if team:
+        layer.canvas.text(team, fit_size(team, BODY, 40), CELL_W - 34, CELL_H / 2, MIST, "head", "c")
+    size = fit_size(name, LABEL, right - left, "hero")
+    layer.canvas.text(name, size, (left + right) / 2, CELL_H / 2, FOCUS if hot else ICE, "hero", "c")
     return layer.render()
