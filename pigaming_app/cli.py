@@ -20,6 +20,7 @@ JOBS = {  # modules of `jobs`
     "replay": "show or verify a recorded match",
     "duel": "many matches between two AIs",
     "league": "a round robin of AIs, with ratings",
+    "event": "tournaments and Grand Prix of AIs and people",
     "train": "train an AI from nothing",
     "bench": "performance on this machine",
     "calibrate": "calibration of projector, mat and camera",

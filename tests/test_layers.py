@@ -34,12 +34,13 @@ ONLY_IN = {
     "onnxruntime": {"ai"},
     "ray": {"ai"},
     "pymunk": {"jobs"},
+    "PIL": {"scenes"},
     "gymnasium": {"gym"},
     "pettingzoo": {"gym"},
     "torch": set(),
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
-DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray"}
+DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray", "PIL"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
 DEPENDENCIES |= ROS
 FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.py") if "micropython" not in path.parts)]

@@ -212,6 +212,8 @@ class App:
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
+            elif event.type == pygame.DROPFILE:
+                self.context.dropped.append(Path(event.file))
         first = not self.shown
         with budget.frame(self.unfinished > 0 or freed):
             self._dispatch(events, seconds)

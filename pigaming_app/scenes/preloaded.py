@@ -11,6 +11,7 @@ MODULES = (
     "pigaming_app.scenes.title.attract",
     "pigaming_app.scenes.replays.page",
     "pigaming_app.scenes.ladder.choice",
+    "pigaming_app.scenes.events.choice",
     "pigaming_app.scenes.lab.scene",
     "pigaming_app.scenes.lab.menu",
     "pigaming_app.scenes.lab.name_page",

@@ -6,10 +6,21 @@ from dataclasses import dataclass
 from pigaming_app.ai.registry import POINT, RIVALS
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength
+from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
+from pigaming_app.scenes.events.choice import EventsPage
+from pigaming_app.scenes.events.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.next_page import NextMatch
+from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.setup.draft import Draft
+from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
+from pigaming_app.scenes.events.setup.letters_page import LettersPage
+from pigaming_app.scenes.events.setup.page import SetupPage
+from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
@@ -37,6 +48,7 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.events import drawn
 
 FACTS = {
     "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},
@@ -183,7 +195,80 @@ def strengths(arcade: Arcade) -> Strengths:
     return scene
 
 
+def event_setup(form: Format, row: str) -> Callable[[Arcade], Scene]:
+    def opened(arcade: Arcade) -> Scene:
+        draft = Draft()
+        draft.choose("format", form)
+        scene = SetupPage(arcade.context, draft, lambda draft: "")
+        scene.focus.move_to(row)
+        return scene
+
+    return opened
+
+
+def entrants(count: int) -> Callable[[Arcade], Scene]:
+    def opened(arcade: Arcade) -> Scene:
+        found = [Entrant(name, "level3" * (i % 3 == 1), "D" * (i % 2)) for i, name in enumerate(drawn.names(count))]
+        draft = Draft(Format.GRAND_PRIX, entrants=[*found[1:], Entrant("WWWWWWWWWWWW")])
+        return EntrantsPage(arcade.context, draft, lambda draft: "")
+
+    return opened
+
+
+def event(form: Format, count: int, seats: int, matches: int, brains: str = "") -> RunningEvent:
+    return drawn.running(drawn.played(drawn.an_event(form, count, seats, brains), matches))
+
+
+def next_match(count: int, seats: int, brains: str = "", said: str = "") -> Callable[[Arcade], Scene]:
+    return lambda arcade: NextMatch(arcade.context, event(Format.SWISS, count, seats, 1, brains), said)
+
+
+def event_table(form: Format, count: int, page: int = 0, seats: int = 2) -> Callable[[Arcade], Scene]:
+    def opened(arcade: Arcade) -> Scene:
+        scene = TablePage(arcade.context, event(form, count, seats, count))
+        scene.page, scene.age = page, 9.0
+        return scene
+
+    return opened
+
+
+def event_podium(arcade: Arcade) -> Scene:
+    scene = PodiumPage(arcade.context, event(Format.ROUND_ROBIN, 4, 2, 99))
+    scene.age = 9.0
+    return scene
+
+
+def correction(arcade: Arcade) -> Scene:
+    run = event(Format.KNOCKOUT, 16, 4, 3)
+    return Correction(arcade.context, run, run.event.fixtures[0])
+
+
+def events(arcade: Arcade) -> Scene:
+    for i, form in enumerate(Format):
+        drawn.running(drawn.played(drawn.an_event(form, 12, 4, title=30 * "W"), 3 * i), f"event-{i}")
+    scene = EventsPage(arcade.context)
+    scene.on_enter()
+    return scene
+
+
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
+    "events": events,
+    **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
+    "event setup order": event_setup(Format.GRAND_PRIX, "order"),
+    "no entrants": lambda arcade: EntrantsPage(arcade.context, Draft(), lambda draft: ""),
+    "entrants": entrants(64),
+    "event letters": lambda arcade: LettersPage(arcade.context, lambda name: "", lambda: drawn.names(20)),
+    "next match": next_match(64, 4),
+    "next match of two": next_match(5, 2, said="events.missing"),
+    "next match of AIs": next_match(8, 3, "level5"),
+    **{f"event table {count}": event_table(Format.SWISS, count) for count in (3, 8, 16, 64)},
+    **{
+        f"event bracket {count}": event_table(Format.KNOCKOUT, count, seats=4 - 2 * (count < 16))
+        for count in (3, 8, 64)
+    },
+    "event results": lambda arcade: ResultsList(arcade.context, event(Format.KNOCKOUT, 64, 4, 12)),
+    "correction": correction,
+    "event podium": event_podium,
     "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
     "ladder resumed": ladder("", rung=5, wins=1, losses=1, beaten=4, lost=999),
     "ladder assisted": ladder("assisted", rung=3, beaten=2),

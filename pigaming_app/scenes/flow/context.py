@@ -4,6 +4,7 @@ import logging
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.experiments.compiler import Compiler
@@ -47,6 +48,7 @@ class Context:
     highlights: Highlights = field(default_factory=Highlights)  # for attract mode
     sticks: Callable[[int, bool], StickState | None] = lambda *_: None  # joysticks of a network: see RosSession
     match_watchers: list[Callable[[dict[str, Any]], None]] = field(default_factory=list)  # get the state of a match
+    dropped: list[Path] = field(default_factory=list)  # files dropped onto the window
     emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # callbacks that stop robots at once
 
     def __post_init__(self) -> None:

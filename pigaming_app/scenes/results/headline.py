@@ -16,17 +16,22 @@ from pigaming_app.ui.input.events import Device
 
 @dataclass(frozen=True)
 class EndedMatch:
-    """A match and how it ended. `absent`: seats of people replaced by an AI; `devices`: of each seat."""
+    """A match and how it ended. `absent`: seats of people replaced by an AI; `devices`: of each seat; `names`: of the
+    first seats in an event.
+    """
 
     setup: Setup
     outcome: Outcome
     humans: Sequence[int]
     absent: Sequence[int]
     devices: Sequence[Device | None]
+    names: Sequence[str] = ()
 
 
-def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int] = ()) -> str:
-    """Title for a completed match; an AI has driven for the people in `absent`."""
+def headline(
+    words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int] = (), names: Sequence[str] = ()
+) -> str:
+    """Title for a completed match; an AI has driven for the people in `absent`. `names`: see `EndedMatch`."""
     if is_allied(setup):
         return words(f"results.stars_{stars(outcome)}")
     if not outcome.winners:
@@ -34,6 +39,8 @@ def headline(words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int]
     seat = outcome.winners[0]
     if in_teams(outcome, setup):
         return words("results.team_wins", team=team_name(words, setup, setup.seats[seat].team))
+    if seat < len(names):
+        return words("results.name_wins", name=names[seat])
     brain = setup.seats[seat].brain
     if brain == "human":
         return words("results.stand_in_wins" if seat in absent else "results.wins", player=seat + 1)

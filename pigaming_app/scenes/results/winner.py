@@ -83,7 +83,7 @@ class WinnersMoment:
         half = (len(self.seats) - 1) / 2
         self.places = [(MIDDLE[0] + pitch * (i - half), MIDDLE[1]) for i in range(len(self.seats))]
         self.color = winning_color(self.outcome, self.setup)
-        self.name = headline(context.words, self.outcome, self.setup, ended.absent)
+        self.name = headline(context.words, self.outcome, self.setup, ended.absent, ended.names)
         self.size = fit_size(self.name, HERO * 3 // 4, 1640, "hero")
         self.celebration = Celebration(self.setup.game, self.seats, self._colors())
         cheerful = self.stars != 0

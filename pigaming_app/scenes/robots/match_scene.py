@@ -28,6 +28,7 @@ from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import LEAD_SECONDS, NOTICE_SECONDS, MatchScene, fresh_rounds, rematch_setup
 from pigaming_app.scenes.real_replays import reroute_of
 from pigaming_app.scenes.results.scene import SceneFactory
+from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
 from pigaming_app.scenes.robots.interrupted import MatchOf
 from pigaming_app.scenes.robots.marker_discs import MarkerDiscs
@@ -67,6 +68,7 @@ class RealMatch(MatchScene):
         game_choice: SceneFactory | None = None,
         rounds: Rounds | None = None,
         arena: Arena | None = None,
+        after: Callable[[MatchScene], AfterMatch] | None = None,
     ) -> None:
         if reason := context.robots_problem:
             raise RobotsUnavailable(reason)
@@ -80,6 +82,7 @@ class RealMatch(MatchScene):
             plant=lambda world: MixedPlant(world, rig, chosen),
             game_choice=game_choice,
             rounds=rounds,
+            after=after,
             arena=arena,
         )
         plant = self.match.plant

@@ -126,6 +126,10 @@ class Title:
             from pigaming_app.scenes.ladder.choice import LadderChoice
 
             return LadderChoice(self.context, self.game)
+        if name == "events":
+            from pigaming_app.scenes.events.choice import EventsPage
+
+            return EventsPage(self.context)
         if name == "replays":
             from pigaming_app.scenes.replays.page import ReplaysPage
 
@@ -165,7 +169,7 @@ class Title:
         return spots
 
     def _menu(self) -> tuple[str, ...]:
-        items = "howto", "ladder", "lab", "replays", "options"
+        items = "howto", "ladder", "events", "lab", "replays", "options"
         return items if self.context.kiosk else (*items, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:

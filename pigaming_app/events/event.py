@@ -1,0 +1,105 @@
+"""An event: a spec and a journal. Everything else follows from these two, so they are all that a file holds."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from pigaming_app.events import standings
+from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Recorded, Substituted, Withdrawn
+from pigaming_app.events.progress import Progress
+from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Outcome, Standing, check_spec
+
+
+@dataclass(frozen=True)
+class Event:
+    """A value: each change returns the event with one more entry, or raises ValueError with one plain sentence."""
+
+    spec: EventSpec
+    journal: tuple[Entry, ...] = ()
+
+    @cached_property
+    def progress(self) -> Progress:
+        """The state after the journal. Raises ValueError if spec or journal are impossible."""
+        check_spec(self.spec)
+        progress = Progress(self.spec, self.spec.entrants).drawn()
+        for entry in self.journal:
+            progress = progress.after(entry)
+        return progress
+
+    @property
+    def entrants(self) -> tuple[Entrant, ...]:
+        """Everybody who was ever entered, by the seeding, late ones last; each with the brain of now."""
+        return self.progress.entrants
+
+    @property
+    def withdrawn(self) -> frozenset[str]:
+        """Names of those who have withdrawn."""
+        return self.progress.withdrawn
+
+    @cached_property
+    def fixtures(self) -> tuple[Fixture, ...]:
+        """Every match known so far, played or open, in order of play. A bye is no match."""
+        return tuple(sorted(self.progress.fixtures, key=self.progress.order_of_play))
+
+    @cached_property
+    def open(self) -> tuple[Fixture, ...]:
+        """The matches that can be played now, the next one first."""
+        return tuple(fixture for fixture in self.fixtures if fixture.number not in self.progress.outcomes)
+
+    @cached_property
+    def outcomes(self) -> dict[int, Outcome]:
+        """The results by number of the match; walkovers have the note WALKOVER."""
+        return dict(self.progress.outcomes)
+
+    @property
+    def byes(self) -> dict[int, tuple[str, ...]]:
+        """Who has a bye, by round."""
+        return {drawn.number: drawn.byes for drawn in self.progress.rounds if drawn.byes}
+
+    @cached_property
+    def standings(self) -> tuple[Standing, ...]:
+        """The table, best first."""
+        return standings.standings(self.progress)
+
+    @cached_property
+    def team_standings(self) -> tuple[Standing, ...]:
+        """The table of teams, best first; empty without teams. `entrant` is the team."""
+        return standings.team_standings(self.progress)
+
+    @property
+    def round(self) -> int:
+        """Round of the next match; after the last one that of the last."""
+        return self.open[0].round if self.open else max((one.number for one in self.progress.rounds), default=1)
+
+    @property
+    def over(self) -> bool:
+        """True if there is nothing left to play."""
+        return not self.open
+
+    def record(self, outcome: Outcome) -> "Event":
+        """With the result of an open match."""
+        return self._with(Recorded(outcome))
+
+    def correct(self, outcome: Outcome) -> "Event":
+        """With another result of a match that has been played; its note gives the reason."""
+        return self._with(Corrected(outcome))
+
+    def add(self, entrant: Entrant) -> "Event":
+        """With a late entrant, before a match of round two has been played."""
+        return self._with(Added(entrant))
+
+    def withdraw(self, name: str) -> "Event":
+        """Without an entrant, whose open matches are walkovers; those of three or four are played by the others."""
+        return self._with(Withdrawn(name))
+
+    def postpone(self, fixture: int) -> "Event":
+        """With others before this open match."""
+        return self._with(Postponed(fixture))
+
+    def substitute(self, name: str, brain: str) -> "Event":
+        """With an AI in the place of an entrant, under the same name; an empty brain: a person again."""
+        return self._with(Substituted(name, brain))
+
+    def _with(self, entry: Entry) -> "Event":
+        event = Event(self.spec, (*self.journal, entry))
+        event.__dict__["progress"] = self.progress.after(entry)  # the cached value: no replay from the beginning
+        return event

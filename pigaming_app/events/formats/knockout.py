@@ -1,0 +1,120 @@
+"""Knock-out with a second chance (double elimination): whoever has lost two matches is out.
+
+The unbeaten play in the winners' bracket, those with one defeat in the losers' bracket; the winners' bracket pauses while
+more are left in the other one. The last of either meet in the final; if the unbeaten loses it, a second final decides.
+
+Matches of two follow the standard bracket: the two best seeds can meet in its final only, the four best in its
+semi-finals. To the next power of two, byes of the first round go to the best seeds. Losers cross over to the other half
+of the bracket, and do not meet again as far as that is possible; an odd one out in the losers' bracket, of those with
+the fewest byes the best seed, has a bye. In matches of three or four there are no byes: the matches are of equal size
+and strength (serpentine), and the better half wins (of four two, of three two, of two one), or with `quarter` the first
+alone. If places are equal at the cut, the higher score, then the better seed goes on.
+
+A late entrant has missed one round, and so begins in the losers' bracket.
+"""
+
+from collections.abc import Sequence
+from itertools import zip_longest
+
+from pigaming_app.events.formats.field import Draw, Field, Match
+from pigaming_app.events.formats.grouping import mixed, neighbours, serpentine
+from pigaming_app.events.spec import Advance, Fixture, Outcome
+
+WINNERS, LOSERS, FINAL = "winners", "losers", "final"
+OUT = 2  # defeats
+
+
+def next_round(field: Field) -> Draw | None:
+    """The next round; None once the event is decided."""
+    lost = defeats(field)
+    unbeaten = [name for name in field.present if lost[name] == 0]
+    beaten = [name for name in field.present if lost[name] == 1]
+    if len(unbeaten) + len(beaten) < 2:
+        return None
+    if len(unbeaten) <= 1 and len(beaten) <= 2 and len(unbeaten) + len(beaten) == 2:
+        finals = bool(unbeaten) or any(one.stage == FINAL for drawn in field.rounds for one in drawn.fixtures)
+        return Draw((Match((*unbeaten, *beaten), FINAL if finals else LOSERS),))
+    matches: list[Match] = []
+    byes: list[str] = []
+    if len(unbeaten) > 1 and len(beaten) <= len(unbeaten):
+        groups, byes = _winners(field, unbeaten)
+        matches += [Match(group, WINNERS) for group in groups]
+    if len(beaten) > 1:
+        groups, rested = _losers(field, beaten)
+        matches += [Match(group, LOSERS) for group in groups]
+        byes += rested
+    return Draw(tuple(matches), tuple(byes))
+
+
+def through(fixture: Fixture, outcome: Outcome, seeding: Sequence[str], advance: Advance) -> frozenset[str]:
+    """Who wins a match: of the last four places only those that go on."""
+    if fixture.stage == FINAL:
+        advance = Advance.QUARTER
+    order = [
+        name
+        for place in outcome.places
+        for name in sorted(place, key=lambda one: (-outcome.scores.get(one, 0.0), seeding.index(one)))
+    ]
+    share = 2 if advance == Advance.HALF else 4
+    return frozenset(order[: -(-len(fixture.entrants) // share)])
+
+
+def defeats(field: Field) -> dict[str, int]:
+    """Lost matches of everybody; a missed first round is one."""
+    lost = {name: int(name in field.late) for name in field.entrants}
+    for drawn in field.rounds:
+        for fixture in drawn.fixtures:
+            if outcome := field.outcomes.get(fixture.number):
+                for name in {*fixture.entrants} - through(fixture, outcome, field.entrants, field.spec.advance):
+                    lost[name] += 1
+    return lost
+
+
+def bracket(size: int) -> list[int]:
+    """Seeds, from 1, by their place in a bracket of a power of two: 1, 8, 4, 5, 2, 7, 3, 6."""
+    seeds = [1]
+    while len(seeds) < size:
+        seeds = [one for seed in seeds for one in (seed, 2 * len(seeds) + 1 - seed)]
+    return seeds
+
+
+def places_in_bracket(field: Field) -> dict[str, int]:
+    """Place of everybody in the bracket of the first round, from 0; of late entrants behind it."""
+    starters = [name for name in field.entrants if name not in field.late]
+    size = 1 << (len(starters) - 1).bit_length()
+    place = {starters[seed - 1]: i for i, seed in enumerate(bracket(size)) if seed <= len(starters)}
+    return place | {name: size + i for i, name in enumerate(sorted(field.late, key=field.entrants.index))}
+
+
+def _winners(field: Field, names: Sequence[str]) -> tuple[list[tuple[str, ...]], list[str]]:
+    if field.spec.seats > 2:
+        return mixed(serpentine(names, field.spec.seats), field.meetings()), []
+    place = places_in_bracket(field)
+    number = 1 + sum(any(one.stage == WINNERS for one in drawn.fixtures) for drawn in field.rounds)
+    slots: dict[int, list[str]] = {}
+    while not any(len(slot) > 1 for slot in slots.values()):  # withdrawals can leave a round without a match
+        slots = {}
+        for name in sorted(names, key=place.__getitem__):
+            slots.setdefault(place[name] >> number, []).append(name)
+        number += 1
+    groups = [tuple(slot) for slot in slots.values() if len(slot) > 1]
+    return groups, [slot[0] for slot in slots.values() if len(slot) == 1]
+
+
+def _losers(field: Field, names: Sequence[str]) -> tuple[list[tuple[str, ...]], list[str]]:
+    met = field.meetings()
+    if field.spec.seats > 2:
+        return mixed(serpentine(names, field.spec.seats), met), []
+    left, rested = list(names), []
+    if len(left) % 2:
+        byes = field.byes()
+        rested = [min(left, key=lambda name: byes[name])]
+        left.remove(rested[0])
+    place = places_in_bracket(field)
+    left.sort(key=place.__getitem__)
+    played = {name for drawn in field.rounds for one in drawn.fixtures if one.stage == LOSERS for name in one.entrants}
+    stayed = [name for name in left if name in played]
+    fallen = [name for name in left if name not in played]
+    if stayed and fallen:
+        left = [name for pair in zip_longest(stayed, reversed(fallen)) for name in pair if name]
+    return neighbours(left, 2, met), rested

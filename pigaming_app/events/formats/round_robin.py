@@ -1,0 +1,89 @@
+"""Round robin: everybody meets everybody.
+
+Matches of two follow the Berger tables (FIDE Handbook C.05, annex 1, "Details of Berger tables"; the same as the circle
+method of R. Schurig, 1886): of an even number n the last stays, all others move on by n/2 places from round to round. Of
+an odd number, whoever would meet the missing last one has a bye. The first of a pair takes the first seat. In a second
+cycle, seats are exchanged.
+
+Matches of three or four: in every round all play, in groups that are exchanged until as few as possible meet again, and
+there are rounds until each two have met as often as there are cycles, but at most three times as many as a perfect
+design would need.
+"""
+
+from collections.abc import Sequence
+from random import Random
+
+from pigaming_app.events.formats.field import Draw, Field, Match, meetings
+from pigaming_app.events.formats.grouping import mixed, serpentine
+
+CYCLES = 1  # by default
+PATIENCE = 3  # times the rounds of a perfect design
+
+
+def rounds(field: Field) -> list[Draw]:
+    """The rounds that are not drawn yet. Late entrants, who have missed the first one, join in from the second one on."""
+    cycles = field.spec.rounds or CYCLES
+    first = tuple(name for name in field.entrants if name not in field.late)
+    draws = _pairs if field.spec.seats == 2 else _groups
+    whole = draws(first, field.spec.seats, cycles)
+    if not field.late:
+        return whole[len(field.rounds) :]
+    played = {frozenset(match.entrants) for match in whole[0].matches}
+    again = []
+    for draw in draws(field.entrants, field.spec.seats, cycles):
+        left = []
+        for match in draw.matches:
+            if frozenset(match.entrants) in played:
+                played.remove(frozenset(match.entrants))
+            else:
+                left.append(match)
+        if left:
+            again.append(Draw(tuple(left), draw.byes))
+    return again[len(field.rounds) - 1 :]
+
+
+def berger(count: int) -> list[list[tuple[int, int]]]:
+    """The Berger table for an even number of entrants, numbered from 1: pairs of each round, first seat first."""
+    last, half = count, count // 2
+    table = []
+    for number in range(count - 1):
+        one = number * half % (count - 1) + 1  # meets the last
+        pairs = [(one, last) if number % 2 == 0 else (last, one)]
+        for k in range(1, half):
+            pairs.append((1 + (one - 1 + k) % (count - 1), 1 + (one - 1 - k) % (count - 1)))
+        table.append(pairs)
+    return table
+
+
+def _pairs(names: Sequence[str], seats: int, cycles: int) -> list[Draw]:
+    count = len(names) + len(names) % 2
+    draws = []
+    for cycle in range(cycles):
+        for pairs in berger(count):
+            matches, byes = [], []
+            for pair in pairs:
+                one, other = pair if cycle % 2 == 0 else pair[::-1]
+                if max(pair) > len(names):
+                    byes.append(names[min(pair) - 1])
+                else:
+                    matches.append(Match((names[one - 1], names[other - 1]), seated=True))
+            draws.append(Draw(tuple(matches), tuple(byes)))
+    return draws
+
+
+def _groups(names: Sequence[str], seats: int, cycles: int) -> list[Draw]:
+    perfect = -(-cycles * (len(names) - 1) // (min(seats, len(names)) - 1))
+    every = len(names) * (len(names) - 1) // 2
+    draws: list[Draw] = []
+    met: dict[frozenset[str], int] = {}
+    while len(draws) < perfect * PATIENCE:
+        if len(met) == every and min(met.values()) >= cycles:
+            break
+        order = list(names)
+        if draws:
+            Random(len(draws)).shuffle(order)
+        groups = mixed(serpentine(order, seats), met)
+        draws.append(Draw(tuple(Match(group) for group in groups)))
+        for pair, times in meetings(iter(groups)).items():
+            met[pair] = met.get(pair, 0) + times
+    return draws

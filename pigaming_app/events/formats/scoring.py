@@ -1,0 +1,30 @@
+"""Points of a match, alike for two and for more: the share of the opponents that were beaten, a tie as half."""
+
+from pigaming_app.events.formats.field import Field
+from pigaming_app.events.spec import Outcome
+
+BYE = 1.0  # points, as for a win (FIDE Handbook C.04.1, Basic rules for Swiss systems)
+
+
+def points(outcome: Outcome) -> dict[str, float]:
+    """Points of each entrant, 0 to 1: between two 1, 1/2 or 0. Whoever is alone and absent has none."""
+    count = sum(map(len, outcome.places))
+    found: dict[str, float] = {}
+    ahead = 0
+    for place in outcome.places:
+        for name in place:
+            beaten = count - ahead - len(place) + (len(place) - 1) / 2
+            found[name] = beaten / (count - 1) if count > 1 else 0.0
+        ahead += len(place)
+    return found
+
+
+def scores(field: Field) -> dict[str, float]:
+    """Points of everybody so far, with those of byes."""
+    total = dict.fromkeys(field.entrants, 0.0)
+    for outcome in field.outcomes.values():
+        for name, gained in points(outcome).items():
+            total[name] += gained
+    for name, byes in field.byes().items():
+        total[name] += byes * BYE
+    return total

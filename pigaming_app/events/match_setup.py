@@ -1,0 +1,88 @@
+"""From a fixture to the setup of its match, and from the result of the match to the outcome."""
+
+from collections.abc import Iterable, Sequence
+
+from pigaming_app.ai.registry import find_brain, known_brains
+from pigaming_app.events.event import Event
+from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Outcome
+from pigaming_app.games.arenas import load
+from pigaming_app.games.game import ALLIES, ALONE, FREE, Row, Setup, Variant
+from pigaming_app.games.registry import games
+from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
+from pigaming_app.sim.world import ROBOTS
+
+
+def setup_of(event: Event, fixture: Fixture, person: str = "human") -> Setup:
+    """The match of a fixture; `person`: the driver of an entrant without a brain. Raises ChoiceError.
+
+    Entrants of one team play together where the rules know teams.
+    """
+    spec = event.spec
+    by_name = {entrant.name: entrant for entrant in event.entrants}
+    playing = [by_name[name] for name in fixture.entrants]
+    brains = [entrant.brain or person for entrant in playing] + [spec.fill] * fixture.fill
+    variant = variant_of(spec, fixture.game)
+    return make_setup(
+        fixture.game,
+        brains,
+        fixture.arena or None,
+        spec.minutes.get(fixture.game) or None,
+        fixture.seed,
+        variant.name,
+        _teams(variant, playing),
+        known_brains(fixture.game, brains),
+    )
+
+
+def check_playable(spec: EventSpec) -> None:
+    """Raises ChoiceError or ArenaError, with one line, unless every entrant can play every game of the event."""
+    for game in spec.games:
+        variant = variant_of(spec, game)
+        for brain in dict.fromkeys([*(entrant.brain for entrant in spec.entrants), spec.fill]):
+            if brain:
+                find_brain(game, brain)
+        arena = spec.arenas.get(game) or None
+        seats = ["idle"] * spec.seats
+        setup = make_setup(game, seats, arena, spec.minutes.get(game) or None, 1, variant.name, None, seats)
+        load(game, setup.arena)
+
+
+def variant_of(spec: EventSpec, game: str) -> Variant:
+    """The rules of a game of the event. Raises ChoiceError."""
+    require_one_of("game", game, list(games()))
+    variants = games()[game].variants
+    name = spec.variants.get(game) or games()[game].default.name
+    require_one_of("variant", name, list(variants))
+    if variants[name].team_mode == ALLIES:
+        raise ChoiceError(f"{game}, {name}: all play together, so nobody wins")
+    return variants[name]
+
+
+def outcome_of(fixture: Fixture, rows: Iterable[Row], note: str = "") -> Outcome:
+    """The outcome of a match; AIs on filled seats have no place."""
+    own = [row for row in rows if row.seat < len(fixture.entrants)]
+    names = {row.seat: fixture.entrants[row.seat] for row in own}
+    places = sorted({row.place for row in own})
+    return Outcome(
+        fixture.number,
+        tuple(tuple(sorted(names[row.seat] for row in own if row.place == place)) for place in places),
+        {names[row.seat]: float(row.score) for row in own},
+        note,
+    )
+
+
+def _teams(variant: Variant, playing: Sequence[Entrant]) -> tuple[int, ...]:
+    """The team of each seat: that of the entrants, if the rules permit it and there are two or more."""
+    sides = [entrant.team or f"\0{entrant.name}" for entrant in playing]  # no team has such a name
+    different = [*dict.fromkeys(sides)]
+    fair = len(different) == 2 and max(sides.count(side) for side in different) <= 2
+    if variant.team_mode == ALONE or len(different) < 2 or (variant.team_mode != FREE and not fair):
+        return variant.teams
+    numbers = [different.index(side) for side in sides]
+    free = [number for number in range(ROBOTS) if number not in numbers] or [0]
+    rest = range(len(numbers), ROBOTS)
+    if variant.team_mode == FREE:
+        return (*numbers, *(free[(seat - len(numbers)) % len(free)] for seat in rest))
+    for _ in rest:
+        numbers.append(int(numbers.count(0) > numbers.count(1)))
+    return tuple(numbers)

@@ -1,0 +1,210 @@
+"""The event as it stands after the entries of the journal: rounds, results, who is there.
+
+A round is drawn as soon as the one before it is complete, and drawn anew, after a correction or with a late entrant, as
+long as none of its matches has been played.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from pigaming_app.events.formats import knockout
+from pigaming_app.events.formats.draws import NEXT, SCHEDULES
+from pigaming_app.events.formats.field import Draw, Field
+from pigaming_app.events.formats.grouping import seated
+from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Recorded, Substituted, Withdrawn
+from pigaming_app.events.spec import MOST, WALKOVER, Entrant, EventSpec, Fixture, Format, Outcome, Round, check_name
+
+SEED_STEP = 10_000  # between the seeds of two events, more than an event has matches
+
+
+@dataclass(frozen=True)
+class Progress:
+    """A value; `after` is the next one."""
+
+    spec: EventSpec
+    entrants: tuple[Entrant, ...]  # by their seeding, late ones last, with the brains of now
+    late: frozenset[str] = frozenset()
+    withdrawn: frozenset[str] = frozenset()
+    rounds: tuple[Round, ...] = ()
+    outcomes: Mapping[int, Outcome] = field(default_factory=dict)  # by fixture, walkovers included
+    postponed: Mapping[int, int] = field(default_factory=dict)  # times, by fixture
+
+    def after(self, entry: Entry) -> "Progress":
+        """The event after this entry. Raises ValueError, with one sentence, if it is not possible."""
+        match entry:
+            case Recorded(outcome):
+                return self._recorded(outcome)
+            case Corrected(outcome):
+                return self._corrected(outcome)
+            case Added(entrant):
+                return self._added(entrant)
+            case Withdrawn(name):
+                return self._without(name)
+            case Postponed(number):
+                self._open_fixture(number)
+                return replace(self, postponed={**self.postponed, number: self.postponed.get(number, 0) + 1})
+            case Substituted(name, brain):
+                self._present(name)
+                entrants = (replace(one, brain=brain) if one.name == name else one for one in self.entrants)
+                return replace(self, entrants=tuple(entrants))
+
+    @property
+    def fixtures(self) -> tuple[Fixture, ...]:
+        """All fixtures by number."""
+        return tuple(fixture for drawn in self.rounds for fixture in drawn.fixtures)
+
+    def order_of_play(self, fixture: Fixture) -> tuple[int, int, int]:
+        """A key to sort by: a postponed match follows its round, and where all rounds are known the next one too."""
+        later = self.postponed.get(fixture.number, 0)
+        return fixture.round + (later if self.spec.format in SCHEDULES else 0), later, fixture.number
+
+    def as_field(self) -> Field:
+        """What a draw may look at."""
+        names = tuple(entrant.name for entrant in self.entrants)
+        return Field(self.spec, names, self.late, self.withdrawn, self.rounds, self.outcomes)
+
+    def drawn(self) -> "Progress":
+        """With every round that can be drawn now."""
+        progress = self._with_walkovers()
+        while draws := progress._draws():
+            for draw in draws:
+                progress = progress._with_round(draw)
+            progress = progress._with_walkovers()
+        return progress
+
+    def _draws(self) -> Sequence[Draw]:
+        if schedule := SCHEDULES.get(self.spec.format):
+            return schedule(self.as_field())
+        if any(fixture.number not in self.outcomes for fixture in self.fixtures):
+            return ()
+        draw = NEXT[self.spec.format](self.as_field())
+        return (draw,) if draw else ()
+
+    def _with_round(self, draw: Draw) -> "Progress":
+        number, first = len(self.rounds) + 1, len(self.fixtures) + 1
+        spec, game = self.spec, self.spec.game_of(len(self.rounds) + 1)
+        sat = {entrant.name: [0] * 4 for entrant in self.entrants}
+        for fixture in self.fixtures:
+            for seat, name in enumerate(fixture.entrants):
+                sat[name][seat] += 1
+        fixtures = tuple(
+            Fixture(
+                number=first + i,
+                round=number,
+                stage=match.stage,
+                game=game,
+                arena=spec.arenas.get(game, ""),
+                entrants=match.entrants if match.seated else seated(match.entrants, sat),
+                seed=spec.seed * SEED_STEP + first + i,
+                fill=spec.seats - len(match.entrants) if spec.fill else 0,
+            )
+            for i, match in enumerate(draw.matches)
+        )
+        return replace(self, rounds=(*self.rounds, Round(number, fixtures, draw.byes)))
+
+    def _with_walkovers(self) -> "Progress":
+        """Open matches without those who have withdrawn; whoever would be alone wins."""
+        if not self.withdrawn:
+            return self
+        outcomes, rounds = dict(self.outcomes), []
+        for drawn in self.rounds:
+            fixtures = []
+            for fixture in drawn.fixtures:
+                here = tuple(name for name in fixture.entrants if name not in self.withdrawn)
+                if fixture.number not in outcomes and here != fixture.entrants:
+                    if len(here) > 1:
+                        fixture = replace(fixture, entrants=here)
+                    else:
+                        away = tuple(sorted({*fixture.entrants} - {*here}))
+                        places = (here, away) if here else (away,)
+                        outcomes[fixture.number] = Outcome(fixture.number, places, note=WALKOVER)
+                fixtures.append(fixture)
+            rounds.append(replace(drawn, fixtures=tuple(fixtures)))
+        return replace(self, rounds=tuple(rounds), outcomes=outcomes)
+
+    def _recorded(self, outcome: Outcome) -> "Progress":
+        fixture = self._open_fixture(outcome.fixture)
+        outcomes = {**self.outcomes, outcome.fixture: checked(outcome, fixture)}
+        progress = replace(self, outcomes=outcomes)
+        return progress if self.spec.format in SCHEDULES else progress.drawn()
+
+    def _corrected(self, outcome: Outcome) -> "Progress":
+        before = self.outcomes.get(outcome.fixture)
+        if before is None or before.note == WALKOVER:
+            raise ValueError(f"match {outcome.fixture} has not been played")
+        if not outcome.note.strip():
+            raise ValueError("a correction needs a note")
+        fixture = self.fixtures[outcome.fixture - 1]
+        corrected = checked(outcome, fixture)
+        progress = replace(self, outcomes={**self.outcomes, outcome.fixture: corrected})
+        if self.spec.format == Format.KNOCKOUT:
+            names, advance = self.as_field().entrants, self.spec.advance
+            if knockout.through(fixture, before, names, advance) != knockout.through(fixture, corrected, names, advance):
+                later = [str(one.number) for one in self.fixtures if one.round > fixture.round and self._played(one)]
+                if later:
+                    which = f"match {later[0]} has" if len(later) == 1 else f"matches {', '.join(later)} have"
+                    raise ValueError(f"match {fixture.number} decides who goes on, and {which} been played since")
+        return progress if self.spec.format in SCHEDULES else progress._without_unplayed_rounds().drawn()
+
+    def _added(self, entrant: Entrant) -> "Progress":
+        check_name(entrant.name)
+        if entrant.team:
+            check_name(entrant.team, "team")
+        if any(one.name == entrant.name for one in self.entrants):
+            raise ValueError(f"{entrant.name} is entered already")
+        if len(self.entrants) == MOST:
+            raise ValueError(f"an event has at most {MOST} entrants")
+        progress = self._without_unplayed_rounds()
+        if len(progress.rounds) > 1:
+            raise ValueError(f"{entrant.name} is too late: round 2 has begun")
+        late = self.late | {entrant.name} if progress.rounds else self.late
+        return replace(progress, entrants=(*self.entrants, entrant), late=late).drawn()
+
+    def _without(self, name: str) -> "Progress":
+        self._present(name)
+        progress = replace(self, withdrawn=self.withdrawn | {name})
+        if self.spec.format != Format.ROUND_ROBIN:
+            progress = progress._without_unplayed_rounds()
+        return progress.drawn()
+
+    def _without_unplayed_rounds(self) -> "Progress":
+        """Without the rounds behind the last one of which a match has been played."""
+        kept = max((fixture.round for fixture in self.fixtures if self._played(fixture)), default=0)
+        rounds = self.rounds[:kept]
+        numbers = {fixture.number for drawn in rounds for fixture in drawn.fixtures}
+        return replace(
+            self,
+            rounds=rounds,
+            outcomes={number: outcome for number, outcome in self.outcomes.items() if number in numbers},
+            postponed={number: times for number, times in self.postponed.items() if number in numbers},
+        )
+
+    def _played(self, fixture: Fixture) -> bool:
+        outcome = self.outcomes.get(fixture.number)
+        return outcome is not None and outcome.note != WALKOVER
+
+    def _open_fixture(self, number: int) -> Fixture:
+        fixtures = self.fixtures
+        if not 0 < number <= len(fixtures):
+            raise ValueError(f"there is no match {number}")
+        if number in self.outcomes:
+            raise ValueError(f"match {number} has been played")
+        return fixtures[number - 1]
+
+    def _present(self, name: str) -> None:
+        if all(entrant.name != name for entrant in self.entrants):
+            raise ValueError(f"{name} is not entered")
+        if name in self.withdrawn:
+            raise ValueError(f"{name} has withdrawn")
+
+
+def checked(outcome: Outcome, fixture: Fixture) -> Outcome:
+    """The outcome with equal places in one order. Raises ValueError unless it has every entrant of the match once."""
+    named = sorted(name for place in outcome.places for name in place)
+    if named != sorted(fixture.entrants) or not all(outcome.places):
+        raise ValueError(f"match {fixture.number} is between {', '.join(fixture.entrants)}, each with one place")
+    if not {*outcome.scores} <= {*fixture.entrants}:
+        raise ValueError(f"match {fixture.number} has scores of {', '.join(fixture.entrants)} only")
+    if outcome.note == WALKOVER:
+        raise ValueError(f"{WALKOVER!r} is not a note of a match")
+    return replace(outcome, places=tuple(tuple(sorted(place)) for place in outcome.places))

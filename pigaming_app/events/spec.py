@@ -1,0 +1,150 @@
+"""The data types of an event: its spec, which never changes, and the values derived from spec and journal."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+
+FEWEST, MOST = 3, 64  # entrants
+SEATS = (2, 3, 4)  # entrants of a match
+MAX_ROUNDS = 64
+MOST_MATCHES = 4096  # of two in a round robin
+MAX_NAME = 12  # characters of an entrant or a team
+MAX_TITLE = 60  # characters
+WALKOVER = "walkover"  # note of an outcome without a match: the opponent has withdrawn
+DEFAULT_AI = "level3"  # takes the seat of an entrant without a brain, where nobody can play
+
+
+class Format(StrEnum):
+    """How entrants are matched."""
+
+    KNOCKOUT = "knockout"
+    ROUND_ROBIN = "roundrobin"
+    SWISS = "swiss"
+    GRAND_PRIX = "grandprix"
+
+
+class Advance(StrEnum):
+    """Who wins a knock-out match: the better half (of four two, of three two, of two one), or the best quarter (one)."""
+
+    HALF = "half"
+    QUARTER = "quarter"
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """A person (`brain` is empty) or an AI. `brain`: a registered name, or the path of a file."""
+
+    name: str
+    brain: str = ""
+    team: str = ""
+
+
+@dataclass(frozen=True)
+class EventSpec:
+    """Everything that is decided before the first match. Entrants stand in the order of their seeding, best first.
+
+    `rounds`: of a Swiss or a Grand Prix; of a round robin, how often everybody meets everybody; 0: the default of the
+    format. A knock-out ends with its final, whatever the number. Round n is of game n, again from the first after the
+    last. `arenas`, `minutes` and `variants` are by game; what is missing, empty or 0 is the game's default. `fill`: the
+    AI on the seats of a Grand Prix that would stay empty; empty: they stay empty.
+    """
+
+    title: str
+    format: Format
+    games: tuple[str, ...]
+    entrants: tuple[Entrant, ...]
+    rounds: int = 0
+    seats: int = 2
+    arenas: Mapping[str, str] = field(default_factory=dict)
+    minutes: Mapping[str, float] = field(default_factory=dict)
+    variants: Mapping[str, str] = field(default_factory=dict)
+    seed: int = 1
+    advance: Advance = Advance.HALF
+    fill: str = ""
+
+    def game_of(self, round_number: int) -> str:
+        """The game of a round, from 1."""
+        return self.games[(round_number - 1) % len(self.games)]
+
+    def with_entrants(self, entrants: tuple[Entrant, ...]) -> "EventSpec":
+        """The spec with other entrants."""
+        return replace(self, entrants=entrants)
+
+
+@dataclass(frozen=True)
+class Fixture:
+    """A match of the event. `entrants`: names in the order of the seats; `fill`: seats behind them that AIs take."""
+
+    number: int  # from 1
+    round: int  # from 1
+    stage: str  # "" or, in a knock-out, "winners", "losers", "final"
+    game: str
+    arena: str  # empty: the game's default
+    entrants: tuple[str, ...]
+    seed: int
+    fill: int = 0
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Result of a fixture. `places`: the entrants of each place, best first; equal ones together, sorted by name."""
+
+    fixture: int
+    places: tuple[tuple[str, ...], ...]
+    scores: Mapping[str, float] = field(default_factory=dict)
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """One row of the table. `tie_breaks`: by name, in the order in which they count; `place`: equal rows share one."""
+
+    place: int
+    entrant: str
+    points: float
+    wins: int
+    played: int
+    tie_breaks: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Round:
+    """A drawn round: its fixtures, and the entrants who have a bye."""
+
+    number: int
+    fixtures: tuple[Fixture, ...]
+    byes: tuple[str, ...] = ()
+
+
+def check_name(name: str, what: str = "name") -> None:
+    """Raises ValueError unless this can be the name of an entrant or a team."""
+    if not 0 < len(name) <= MAX_NAME or not name.isprintable() or name != name.strip():
+        raise ValueError(f"{name[:40]!r}: a {what} has 1 to {MAX_NAME} printable characters")
+
+
+def check_spec(spec: EventSpec) -> None:
+    """Raises ValueError, with one sentence, for a spec that cannot be played."""
+    count = len(spec.entrants)
+    if not FEWEST <= count <= MOST:
+        raise ValueError(f"an event has {FEWEST} to {MOST} entrants, not {count}")
+    names = [entrant.name for entrant in spec.entrants]
+    for entrant in spec.entrants:
+        check_name(entrant.name)
+        if entrant.team:
+            check_name(entrant.team, "team")
+        if names.count(entrant.name) > 1:
+            raise ValueError(f"{entrant.name} is entered twice")
+    if not spec.games:
+        raise ValueError("an event needs a game")
+    if spec.seats not in SEATS:
+        raise ValueError(f"a match has 2 to 4 seats, not {spec.seats}")
+    if not 0 <= spec.rounds <= MAX_ROUNDS:
+        raise ValueError(f"an event has at most {MAX_ROUNDS} rounds, not {spec.rounds}")
+    if spec.format == Format.ROUND_ROBIN and max(1, spec.rounds) * count * (count - 1) // 2 > MOST_MATCHES:
+        raise ValueError(f"{spec.rounds} times {count} entrants are more than {MOST_MATCHES} matches")
+    if spec.format == Format.SWISS and spec.seats == 2 and spec.rounds > count - 1:
+        raise ValueError(f"{count} entrants can play at most {count - 1} Swiss rounds, not {spec.rounds}")
+    if spec.fill and spec.format != Format.GRAND_PRIX:
+        raise ValueError("AIs fill the seats of a Grand Prix only")
+    if not 0 < len(spec.title) <= MAX_TITLE or not spec.title.isprintable():
+        raise ValueError(f"a title has 1 to {MAX_TITLE} printable characters")

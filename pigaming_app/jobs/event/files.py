@@ -1,0 +1,25 @@
+"""The file of an event, on the command line."""
+
+import sys
+from argparse import ArgumentParser
+from pathlib import Path
+
+from pigaming_app.events import event_files
+from pigaming_app.events.event import Event
+from pigaming_app.jobs.terminal.options import path
+from pigaming_app.jobs.terminal.refusal import Refusal
+
+
+def file_option(parser: ArgumentParser) -> None:
+    """Declare the file as a positional argument."""
+    parser.add_argument("file", type=path, metavar="FILE", help="the event")
+
+
+def loaded(file: Path) -> Event:
+    """The event of a file; a damaged one is replaced by its backup. Raises Refusal."""
+    event, problems = event_files.load(file)
+    if event is None:
+        raise Refusal(problems[-1] if problems else f"{file}: no such event")
+    for problem in problems:
+        print(f"PiGaming: {problem}", file=sys.stderr)
+    return event

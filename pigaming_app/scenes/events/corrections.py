@@ -1,0 +1,267 @@
+"""The results of an event, newest first, and the correction of one of them with a note."""
+
+import logging
+
+import pygame
+
+from pigaming_app.events.match_setup import setup_of
+from pigaming_app.events.spec import WALKOVER, Fixture, Outcome
+from pigaming_app.scenes.events.running import RunningEvent, stage_name
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets import setting_row
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
+
+IDLE = 60.0  # s without input before the return to the table
+MESSAGE_SECONDS = 5.0
+ROWS, TOP, HIGH, PITCH = 7, 212, 88, 104  # px
+NOTES = ("note_referee", "note_robot", "note_agreed", "note_seats")
+NOTE, SAVE = " note", " save"  # rows below the entrants, whose names begin with no space
+
+log = logging.getLogger("pigaming")
+
+
+class ResultsList:
+    """The matches that have been played, on pages of ROWS."""
+
+    def __init__(self, context: Context, running: RunningEvent) -> None:
+        self.context, self.running = context, running
+        self.page = 0
+        self.focus = Focus([FocusSpot("0", row_box(0))])
+        hints = [
+            (Button.FIRE, "events.hint_correct"),
+            (Button.Y, "events.hint_again"),
+            (Button.RIGHT, "events.hint_page"),
+            (Button.BACK, "events.hint_back"),
+        ]
+        self.navigation = Navigation(context, self.focus, hints, IDLE)
+        self._show()
+
+    def prewarm(self, milliseconds: float) -> bool:
+        """Nothing to do: its rows are rendered as they are drawn."""
+        return True
+
+    def on_enter(self) -> None:
+        """First display, or return from a correction or a match."""
+        self.context.sounds.music(True)
+        self._show()
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """UP and DOWN select a result, LEFT and RIGHT turn the page, FIRE corrects it."""
+        event = self.navigation.prompts.as_button(event)
+        if event.button in (Button.LEFT, Button.RIGHT):
+            self.page = max(0, min(self.pages - 1, self.page + (1 if event.button is Button.RIGHT else -1)))
+            self._show()
+            self.context.sounds.play("move")
+            return None
+        if event.button is Button.Y and self.shown:
+            return self._watch(self.shown[int(self.focus.name)])
+        chosen = self.focus.activated(event)
+        if chosen is None or not self.shown:
+            return self.navigation.handle(event)
+        self.context.sounds.play("accept")
+        return Push(Correction(self.context, self.running, self.shown[int(chosen)]))
+
+    def update(self, seconds: float) -> StackOperation:
+        """Animate; return to the table when idle."""
+        self.navigation.update(seconds)
+        return Pop() if self.context.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words, event = self.context.words, self.running.event
+        screen.blit(backdrop(), (0, 0))
+        pages = words("events.page", page=self.page + 1, of=self.pages) if self.pages > 1 else ""
+        heading(words("events.results"), pages).draw(screen)
+        if not self.shown:
+            text(words("events.no_results"), LABEL, MIST, "head").draw(screen, 960, 540)
+        black_out(screen, *(row_box(i) for i in range(len(self.shown))))
+        for i, fixture in enumerate(self.shown):
+            outcome = event.outcomes[fixture.number]
+            where = stage_name(words, fixture.stage, fixture.round)
+            line = "   ".join(f"{place}. {' = '.join(names)}" for place, names in places_of(outcome))
+            noted = bool(outcome.note)
+            result_row(where, line, noted, self.focus.name == str(i)).draw(screen, *row_box(i).topleft)
+        if self.shown:
+            self.focus.draw(screen)
+        self.navigation.prompts.draw(screen)
+
+    # ---- inside
+
+    def _watch(self, fixture: Fixture) -> StackOperation:
+        """Play a match of AIs again: it goes as before, and does not count."""
+        event = self.running.event
+        try:
+            setup = setup_of(event, fixture) if self.running.without_people(fixture) else None
+        except ValueError as reason:
+            log.warning("%s", reason)
+            setup = None
+        if setup is None or not self.context.preloader.ready(setup.game, setup.arena):
+            self.context.sounds.play("refused")
+            return None
+        self.context.sounds.play("accept")
+        return Swap(MatchScene(self.context, setup, after=lambda scene: ResultsList(self.context, self.running)))
+
+    @property
+    def pages(self) -> int:
+        """Pages of results."""
+        return max(1, -(-len(self.played) // ROWS))
+
+    @property
+    def played(self) -> list[Fixture]:
+        """The matches with a result that can be corrected, newest first."""
+        event = self.running.event
+        recorded = [number for number, outcome in event.outcomes.items() if outcome.note != WALKOVER]
+        by_number = {fixture.number: fixture for fixture in event.fixtures}
+        return [by_number[number] for number in reversed(recorded)]
+
+    def _show(self) -> None:
+        self.shown = self.played[self.page * ROWS : (self.page + 1) * ROWS]
+        self.focus.set_spots([FocusSpot(str(i), row_box(i)) for i in range(max(1, len(self.shown)))])
+
+
+class Correction:
+    """The places of one match, and the reason why they change."""
+
+    def __init__(self, context: Context, running: RunningEvent, fixture: Fixture) -> None:
+        self.context, self.running, self.fixture = context, running, fixture
+        before = running.event.outcomes[fixture.number]
+        self.scores = before.scores
+        self.places = {name: place for place, names in places_of(before) for name in names}
+        self.names = sorted(fixture.entrants, key=lambda name: (self.places[name], name))
+        self.note = 0
+        self.focus = Focus(setting_row.spots((*self.names, NOTE, SAVE)))
+        hints = [
+            (Button.RIGHT, "options.hint_change"),
+            (Button.START, "events.hint_save"),
+            (Button.BACK, "events.hint_back"),
+        ]
+        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
+
+    def on_enter(self) -> None:
+        """Nothing to do."""
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """LEFT and RIGHT change a place or the note; START and the last row save."""
+        event = self.navigation.prompts.as_button(event)
+        row = self.focus.name
+        if event.button is Button.CLICK:
+            self.focus.handle(event)
+            row = self.focus.spot_at(event) or ""
+        if event.button is Button.START or (row == SAVE and event.button in (Button.FIRE, Button.CLICK)):
+            return self._save()
+        if row and row != SAVE:
+            by = 1 if event.button is Button.FIRE else setting_row.step_of(event, self.focus, self._value(row))
+            if by:
+                self._step(row, by)
+                return None
+        return None if event.button in (Button.LEFT, Button.RIGHT) else self.navigation.handle(event)
+
+    def update(self, seconds: float) -> StackOperation:
+        """Animate; return to the results when idle."""
+        self.navigation.update(seconds)
+        return Pop() if self.context.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words = self.context.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("events.correct"), stage_name(words, self.fixture.stage, self.fixture.round)).draw(screen)
+        black_out(screen, setting_row.PANEL)
+        setting_row.glow_bar(screen, self.focus.box)
+        for spot in self.focus.spots:
+            value, box, hot = self._value(spot.name), spot.rect, spot.name == self.focus.name
+            said = spot.name if spot.name in self.names else words(f"events.{spot.name.strip()}")
+            setting_row.label(said, hot).draw(screen, box.x + 40, box.centery)
+            setting_row.value(value.kind, value.options, value.chosen, hot).draw(screen, box.x, box.centery)
+        self.focus.draw(screen)
+        frame(*setting_row.PANEL.size).draw(screen, *setting_row.PANEL.topleft)
+        setting_row.describe(screen, words("events.correct"), words("events.correct_line"))
+        for i, (place, names) in enumerate(places_of(self.outcome)):
+            line = f"{place}.  {' = '.join(names)}"
+            text(line, LABEL, FOCUS if place == 1 else ICE, "head", "l", setting_row.PANEL.w - 80).draw(
+                screen, setting_row.PANEL.x + 40, setting_row.PANEL.y + 80 + 76 * i
+            )
+        if self.navigation.sentence:
+            caption(self.navigation.sentence, ALARM).draw(screen, 960, self.navigation.prompts.y)
+        else:
+            self.navigation.prompts.draw(screen)
+
+    @property
+    def outcome(self) -> Outcome:
+        """The result as it would be saved."""
+        ranks = sorted(set(self.places.values()))
+        places = tuple(tuple(name for name in self.names if self.places[name] == rank) for rank in ranks)
+        return Outcome(self.fixture.number, places, self.scores, self.context.words(f"events.{NOTES[self.note]}"))
+
+    # ---- inside
+
+    def _value(self, row: str) -> SettingValue:
+        words = self.context.words
+        if row == NOTE:
+            return SettingValue("arrows", tuple(words(f"events.{note}") for note in NOTES), self.note)
+        if row == SAVE:
+            return SettingValue("deed", (words("events.hint_save"),))
+        return SettingValue("toggle", tuple(str(i + 1) for i in range(len(self.names))), self._rank(row))
+
+    def _rank(self, name: str) -> int:
+        return min(self.places[name], len(self.names)) - 1
+
+    def _step(self, row: str, by: int) -> None:
+        if row == NOTE:
+            self.note = (self.note + by) % len(NOTES)
+        else:
+            self.places[row] = (self._rank(row) + by) % len(self.names) + 1
+        self.context.sounds.play("move")
+
+    def _save(self) -> StackOperation:
+        words = self.context.words
+        try:
+            event = self.running.event.correct(self.outcome)
+        except ValueError as reason:
+            log.warning("%s", reason)
+            self.navigation.show_message(words("events.uncorrectable"))
+            self.context.sounds.play("refused")
+            return None
+        if not self.running.change(event):
+            self.navigation.show_message(words("app.unsaved"))
+            self.context.sounds.play("error")
+            return None
+        self.context.sounds.play("ready")
+        return Pop()
+
+
+def places_of(outcome: Outcome) -> list[tuple[int, tuple[str, ...]]]:
+    """Each place with those who share it: after two second ones comes a fourth."""
+    found, ahead = [], 0
+    for names in outcome.places:
+        found.append((1 + ahead, names))
+        ahead += len(names)
+    return found
+
+
+def row_box(i: int) -> pygame.Rect:
+    """Rectangle of the i-th row."""
+    return pygame.Rect(LEFT, TOP + PITCH * i, RIGHT - LEFT, HIGH)
+
+
+@cached
+def result_row(where: str, line: str, noted: bool, hot: bool) -> LitImage:
+    """A result; top left at (0, 0). `noted`: it has been corrected."""
+    w = RIGHT - LEFT
+    layer = Layer(0, 0, w, HIGH)
+    layer.glow.line(cut_box(0, 0, w, HIGH, 16), FOCUS if hot else STEEL, THIN, True)
+    layer.canvas.body(where, 32, HIGH / 2, MIST, "l", fit_size(where, BODY, 400, "body"))
+    room = w - 480 - (90 if noted else 30)
+    layer.canvas.text(line, fit_size(line, LABEL, room), 470, HIGH / 2, FOCUS if hot else ICE, "head")
+    if noted:
+        icon(layer.glow, "wheel", w - 56, HIGH / 2, 22, FOCUS, 4)
+    return layer.render()

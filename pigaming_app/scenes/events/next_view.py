@@ -1,0 +1,84 @@
+"""Cards of the next match: seat, name, robot, and who drives it. Top left of a card at (0, 0); see `player_card`."""
+
+import math
+
+import pygame
+
+from pigaming_app.scenes.lobby import seat_card
+from pigaming_app.ui.draw import (
+    BODY,
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    THIN,
+    TITLE,
+    badge,
+    cut_box,
+    dim,
+    icon,
+    panel,
+    text_width,
+)
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.sprites import HEADINGS, step
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.widgets.labels import blit_sprite
+from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
+
+TOP, PITCH = 200, W + 24  # px
+NAME_Y, ROBOT_Y, SCALE, TABLE_R = 176, 350, 1.35, 92  # px; robot scale
+TAKEN, WANTED, AI = "taken", "wanted", "ai"  # states of a seat
+MESSAGE_Y, THEN_Y = 852, 916  # px
+
+
+def card_rect(index: int, count: int) -> pygame.Rect:
+    """The rectangle of one of `count` cards, centred on the page."""
+    return pygame.Rect(960 - (PITCH * count - 24) // 2 + PITCH * index, TOP, W, H)
+
+
+@cached
+@resumable
+def frame(seat: int, name: str, driver: str, state: str) -> Steps[LitImage]:
+    """A card with its seat, the name of the entrant, and which device is theirs."""
+    layer, color = Layer(0, 0, W, H), PLAYERS[seat]
+    if state == WANTED:
+        layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.8), THIN, 22, 16)
+    else:
+        panel(layer.glow, 0, 0, W, H, color, LINE if state == TAKEN else THIN)
+    badge(layer.glow, seat, 68, 70, 34)
+    sign = "ai" if state == AI else "pad"
+    icon(layer.glow, sign, 154, 70, 30, MIST, 4)
+    layer.canvas.body(driver, 206, 70, MIST, "l", fit_size(driver, BODY, W - 230, "body"))
+    layer.canvas.text(name, fit_size(name, TITLE, W - 56, "hero"), MIDDLE, NAME_Y, ICE, "hero", "c")
+    yield
+    return (yield from layer.render_steps())
+
+
+@cached
+def note_bar(sentence: str) -> LitImage:
+    """The bar of an AI: its stars, or its name."""
+    layer = Layer(*BAR)
+    layer.canvas.text(sentence, fit_size(sentence, LABEL, W - 72), MIDDLE, BAR_Y, ICE, "head", "c")
+    return layer.render()
+
+
+def draw_robot(screen: pygame.Surface, seat: int, x: int, clock: float, taken: bool) -> None:
+    """Draw the robot of a seat on its turntable; it hops once the seat is taken."""
+    turn = int(clock * (14 if taken else 3)) % seat_card.TURNS
+    seat_card.turntable(seat, turn, taken, TABLE_R).draw(screen, round(x + MIDDLE), TOP + ROBOT_Y)
+    hop = 8 * abs(math.sin(clock * 7 + seat)) if taken else 0.0
+    sprite = seat_card.robot(seat, step(seat_card.UP, HEADINGS), SCALE)
+    blit_sprite(screen, sprite, x + MIDDLE, TOP + ROBOT_Y - hop)
+
+
+def following(names: list[str], room: float) -> str:
+    """Names in one line of `room` px at LABEL size, cut with an ellipsis if needed."""
+    line = "  –  ".join(names)
+    while len(names) > 1 and text_width(line, LABEL) > room:
+        names = names[:-1]
+        line = "  –  ".join(names) + " …"
+    return line

@@ -1,0 +1,106 @@
+"""The end of an event: the robots of the first three on the podium, with their names, and confetti."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+
+import pygame
+
+from pigaming_app.events.spec import Standing
+from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
+from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand
+from pigaming_app.ui.draw import FOCUS, ICE, PLAYERS, SUB, TITLE
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
+from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.text import fit_size, word
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.labels import heading
+
+SKIP = 1.5  # s during which input is ignored
+VOLLEYS = (FIRST + 0.2, FIRST + 1.3, FIRST + 2.6, FIRST + 4.4)  # s, of confetti
+FOOT, NAME_Y = 800, 872  # px: foot of the podium, middle of the names
+NAME_ROOM = STEP_W + APART - 20  # px
+
+
+class PodiumPage:
+    """The podium of an event that is over."""
+
+    def __init__(self, context: Context, running: RunningEvent) -> None:
+        self.context, self.running = context, running
+        self.best = podium_rows(running)
+        steps = [Stand(row.place, (i,)) for i, row in enumerate(self.best)]
+        self.podium = Podium(960, FOOT, steps)
+        seats = list(range(len(self.best)))
+        self.celebration = Celebration("pitanks", seats, [PLAYERS[seat] for seat in seats])
+        self.volleys = [*VOLLEYS]
+        self.sounds = [*self.podium.sounds(), (FIRST, "fanfare", None)]
+        self.age = 0.0
+        hints = [(Button.FIRE, "events.hint_table"), (Button.BACK, "events.hint_back")]
+        self.prompts = context.prompts(hints)
+        self.queue = PrewarmQueue(self._jobs())
+
+    def prewarm(self, milliseconds: float) -> bool:
+        """Prewarm the page for at most this many milliseconds; True when complete."""
+        return self.queue.work(milliseconds)
+
+    def on_enter(self) -> None:
+        self.context.sounds.music(True)
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """FIRE shows the whole table, BACK leaves."""
+        event = self.prompts.as_button(event)
+        if self.age < SKIP:
+            return None
+        if event.button is Button.BACK:
+            self.context.sounds.play("back")
+            return Pop()
+        if event.button in (Button.FIRE, Button.START, Button.UP):
+            self.context.sounds.play("accept")
+            return Push(TablePage(self.context, self.running))
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        """Reveal the steps, then shoot confetti. A correction may have opened a match again."""
+        if not self.running.event.over:
+            return Pop()
+        self.age += seconds
+        self.queue.work(2.0)
+        self.celebration.update(seconds)
+        while self.sounds and self.sounds[0][0] <= self.age:
+            _, name, player = self.sounds.pop(0)
+            self.context.sounds.play(name, player)
+        while self.volleys and self.volleys[0] <= self.age:
+            self.volleys.pop(0)
+            self.celebration.volley()
+        return None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        screen.blit(backdrop(), (0, 0))
+        heading(self.running.event.spec.title, self.context.words("events.over"), FOCUS).draw(screen)
+        self.celebration.draw(screen)
+        self.podium.draw(screen, self.age)
+        for i, row in enumerate(self.best):
+            if self.age >= REVEALS[i] + RISE:
+                size = fit_size(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
+                x = 960 + (STEP_W + APART) * (ORDER.index(i) - 1)
+                word(row.entrant, size, FOCUS if i == 0 else ICE).draw(screen, x, NAME_Y)
+        if self.age >= SKIP:
+            self.prompts.draw(screen)
+
+    def _jobs(self) -> Iterator[Callable[[], object]]:
+        yield backdrop
+        yield lambda: run_to_end(self.podium.prewarm())
+        for color in dict.fromkeys(self.celebration.colors):
+            for shape in self.celebration.players:
+                for size in SIZES:
+                    for tumble in range(TUMBLES):
+                        yield partial(confetti, "pitanks", shape, color, size, tumble)
+
+
+def podium_rows(running: RunningEvent) -> list[Standing]:
+    """The first three of the table; of teams, if there are any."""
+    event = running.event
+    return list((event.team_standings or event.standings)[: len(HEIGHTS)])

@@ -1,0 +1,222 @@
+"""The poster of an event, A4 at 300 dpi on white paper: podium and table; of a knock-out also its bracket.
+
+PNG needs nothing else, PDF needs Pillow (the extra `events`).
+"""
+
+import logging
+from collections.abc import Iterator, Sequence
+from datetime import date
+from importlib.util import find_spec
+from io import BytesIO
+from itertools import groupby
+from pathlib import Path
+from threading import Thread
+from time import perf_counter
+
+import pygame
+
+from pigaming_app.events.event import Event
+from pigaming_app.events.formats import knockout
+from pigaming_app.events.spec import Fixture, Format, Standing
+from pigaming_app.scenes.events.running import stage_name
+from pigaming_app.storage.safe_files import NotSaved, write_atomic
+from pigaming_app.ui.draw import Color, cut_box, font
+from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.theme import line_image
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.png import png_of
+
+SIZE = W, H = 2480, 3508  # px
+DPI = 300
+MARGIN = 160  # px
+INK, SOFT, RULE, PAPER = (16, 22, 36), (96, 108, 130), (196, 204, 218), (255, 255, 255)
+MEDALS: tuple[Color, ...] = ((214, 158, 0), (128, 140, 158), (176, 104, 48))
+STEP = 0.006  # s of drawing in a frame
+TABLE_TOP, FOOT = 1420, H - MARGIN  # px
+
+log = logging.getLogger("pigaming")
+
+
+class PosterJob:
+    """Draws the poster in the frame thread, part by part, and encodes and saves it in another one."""
+
+    def __init__(self, event: Event, path: Path, words: Words) -> None:
+        self.png, self.pdf = path.with_suffix(".png"), path.with_suffix(".pdf")
+        self.saved = False
+        self._pages: list[pygame.Surface] = []
+        self._steps = draw_pages(event, words, self._pages)
+        self._thread: Thread | None = None
+
+    @property
+    def name(self) -> str:
+        """The names of the files."""
+        return f"{self.png.name}, {self.pdf.name}" if can_pdf() else self.png.name
+
+    def work(self) -> bool:
+        """Work for some milliseconds; true when the files are saved, or could not be."""
+        if self._thread:
+            return not self._thread.is_alive()
+        end = perf_counter() + STEP
+        for _ in self._steps:
+            if perf_counter() > end:
+                return False
+        self._thread = Thread(target=self._save, daemon=True)
+        self._thread.start()
+        return False
+
+    def _save(self) -> None:
+        try:
+            save(self._pages, self.png, self.pdf)
+            self.saved = True
+        except NotSaved as reason:
+            log.warning("%s", reason)
+
+
+def poster(event: Event, path: Path, words: Words) -> list[Path]:
+    """Draw and save the poster beside the file of an event; returns the files. Raises NotSaved."""
+    pages: list[pygame.Surface] = []
+    for _ in draw_pages(event, words, pages):
+        pass
+    return save(pages, path.with_suffix(".png"), path.with_suffix(".pdf"))
+
+
+def can_pdf() -> bool:
+    """True if Pillow is installed."""
+    return find_spec("PIL") is not None
+
+
+def save(pages: Sequence[pygame.Surface], png: Path, pdf: Path) -> list[Path]:
+    """Save the pages: a PNG file each, and all in one PDF file. Returns the files. Raises NotSaved."""
+    files = [png if i == 0 else png.with_stem(f"{png.stem}-{i + 1}") for i in range(len(pages))]
+    for path, page in zip(files, pages, strict=True):
+        write_atomic(path, png_of(page))
+    if not can_pdf():
+        return files
+    from PIL import Image
+
+    images = [Image.frombytes("RGB", page.get_size(), pygame.image.tobytes(page, "RGB")) for page in pages]
+    packed = BytesIO()
+    images[0].save(packed, "PDF", resolution=DPI, save_all=True, append_images=images[1:], quality=92)
+    write_atomic(pdf, packed.getvalue())
+    return [*files, pdf]
+
+
+def draw_pages(event: Event, words: Words, pages: list[pygame.Surface]) -> Iterator[None]:
+    """Draw all pages into a list, a part at each step."""
+    pages.append(page := _paper())
+    yield
+    _head(page, event, words)
+    yield
+    for i, medal in enumerate(_medals(event)):
+        _medal(page, medal, i)
+        yield
+    yield from _table(page, event, words)
+    if event.spec.format is Format.KNOCKOUT:
+        pages.append(page := _paper())
+        yield
+        _head(page, event, words)
+        yield from _bracket(page, event, words)
+
+
+def _paper() -> pygame.Surface:
+    page = pygame.Surface(SIZE, depth=24)
+    page.fill(PAPER)
+    return page
+
+
+def _write(
+    page: pygame.Surface, line: str, size: int, at: tuple[float, float], color: Color, align: str = "l", room: float = W
+) -> None:
+    """A line with its middle at y. `align`: see `text`."""
+    size = fit_size(line, size, room, "head")
+    image = line_image(line, "head", size, color)
+    x = at[0] - image.get_width() * {"l": 0.0, "c": 0.5, "r": 1.0}[align]
+    middle = font("head", size).get_ascent() - 0.35 * size
+    page.blit(image, (round(x), round(at[1] - middle)))
+
+
+def _head(page: pygame.Surface, event: Event, words: Words) -> None:
+    spec = event.spec
+    _write(page, spec.title, 190, (MARGIN, 260), INK, room=W - 2 * MARGIN)
+    line = "  ·  ".join((words(f"events.{spec.format.value}"), *(words(f"games.{game}") for game in spec.games)))
+    _write(page, line, 64, (MARGIN, 430), SOFT, room=W - 2 * MARGIN - 420)
+    _write(page, f"{date.today():%Y-%m-%d}", 64, (W - MARGIN, 430), SOFT, "r")
+    pygame.draw.line(page, INK, (MARGIN, 500), (W - MARGIN, 500), 8)
+    _write(page, "PiGaming", 52, (W / 2, H - 80), SOFT, "c")
+
+
+def _medals(event: Event) -> list[Standing]:
+    return list(event.standings[:3])
+
+
+def _medal(page: pygame.Surface, row: Standing, index: int) -> None:
+    """A step of the podium, with the name above."""
+    x = W / 2 + (0, -1, 1)[index] * 700
+    high, foot = (560, 420, 320)[index], 1290
+    color = MEDALS[min(row.place, 3) - 1]
+    box = cut_box(x - 320, foot - high, 640, high, 40)
+    pygame.draw.polygon(page, color, box, 14)
+    _write(page, str(row.place), 260 if index == 0 else 200, (x, foot - high / 2), color, "c")
+    _write(page, row.entrant, 170, (x, foot - high - 110), INK, "c", 620)
+
+
+def _table(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
+    """All places, in one to three columns."""
+    rows = event.standings
+    columns = 1 if len(rows) <= 16 else 2 if len(rows) <= 40 else 3
+    each = -(-len(rows) // columns)
+    gap = 80
+    wide = (W - 2 * MARGIN - gap * (columns - 1)) / columns
+    pitch = min(120.0, (FOOT - TABLE_TOP - 40) / max(1, each))
+    size = round(min(76, pitch * 0.62))
+    for i, row in enumerate(rows):
+        x, y = MARGIN + (i // each) * (wide + gap), TABLE_TOP + (i % each + 0.5) * pitch
+        _write(page, str(row.place), size, (x + 1.6 * size, y), SOFT, "r")
+        _write(page, row.entrant, size, (x + 2.2 * size, y), INK, room=wide - 5.6 * size)
+        _write(page, words.decimal(f"{round(row.points, 1):g}"), size, (x + wide, y), INK, "r")
+        pygame.draw.line(page, RULE, (x, y + pitch / 2), (x + wide, y + pitch / 2), 3)
+        yield
+
+
+def _bracket(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
+    """Every match, a column for each round."""
+    rounds = [list(found) for _, found in groupby(event.fixtures, key=lambda one: (one.stage, one.round))]
+    wide = (W - 2 * MARGIN) / max(1, len(rounds))
+    top, names = 660, tuple(entrant.name for entrant in event.entrants)
+    for i, fixtures in enumerate(rounds):
+        x = MARGIN + wide * i
+        head = stage_name(words, fixtures[0].stage, fixtures[0].round)
+        _write(page, head, 44, (x, 580), SOFT, room=wide - 20)
+        pitch = (FOOT - top) / len(fixtures)
+        for k, fixture in enumerate(fixtures):
+            _match(
+                page,
+                event,
+                fixture,
+                names,
+                pygame.Rect(round(x), round(top + pitch * k), round(wide - 24), round(pitch)),
+            )
+            yield
+
+
+def _match(page: pygame.Surface, event: Event, fixture: Fixture, names: tuple[str, ...], place: pygame.Rect) -> None:
+    """A match in the middle of its place; who goes on is in dark ink, with a tick."""
+    outcome = event.outcomes.get(fixture.number)
+    best = knockout.through(fixture, outcome, names, event.spec.advance) if outcome else ()
+    line = min(64.0, (place.h - 14) / len(fixture.entrants))
+    high = line * len(fixture.entrants) + 8
+    box = pygame.Rect(place.x, round(place.centery - high / 2), place.w, round(high))
+    pygame.draw.rect(page, RULE, box, 4, 10)
+    for i, name in enumerate(fixture.entrants):
+        y = box.y + 4 + line * (i + 0.5)
+        if name in best:
+            tick = [(box.x + 14 + line * a, y + line * b) for a, b in ((0.0, 0.05), (0.14, 0.2), (0.4, -0.2))]
+            pygame.draw.lines(page, MEDALS[0], False, tick, max(3, round(line / 9)))
+        _write(
+            page,
+            name,
+            round(line * 0.7),
+            (box.x + 20 + line * 0.5, y),
+            INK if name in best else SOFT,
+            room=box.w - 34 - line * 0.5,
+        )

@@ -1,0 +1,87 @@
+"""Matches of AIs in a process of their own, at full speed: they delay no frame, and end with the arcade.
+
+python -m pigaming_app.scenes.events.quick_match    takes an event and fixtures from standard input as a pickle, and
+                                                    leaves their outcomes on standard output, one after the other
+"""
+
+import logging
+import pickle
+import sys
+from collections.abc import Sequence
+from queue import Empty, SimpleQueue
+from threading import Thread
+from typing import TYPE_CHECKING
+
+from pigaming_app.ai.experiments.compiler import launch
+from pigaming_app.ai.experiments.evaluation import exit_with_parent
+
+if TYPE_CHECKING:
+    from subprocess import Popen
+
+    from pigaming_app.events.event import Event
+    from pigaming_app.events.spec import Fixture, Outcome
+
+COMMAND = (sys.executable, "-m", "pigaming_app.scenes.events.quick_match")
+
+log = logging.getLogger("pigaming")
+
+
+class QuickMatches:
+    """Matches that are being played, in this order. Raises OSError if the process cannot be started."""
+
+    def __init__(self, event: "Event", fixtures: "Sequence[Fixture]") -> None:
+        self.left = len(fixtures)
+        self._outcomes: SimpleQueue[Outcome] = SimpleQueue()
+        self._process: Popen[bytes] = launch(COMMAND, answers=True)
+        self._thread = Thread(target=self._talk, args=(pickle.dumps((event, tuple(fixtures))),), daemon=True)
+        self._thread.start()
+
+    @property
+    def over(self) -> bool:
+        """True when there is no outcome to come; `left` is then 0, unless the process has failed."""
+        return not self._thread.is_alive() and self._outcomes.empty()
+
+    def next_outcome(self) -> "Outcome | None":
+        """The next outcome, once; None if it is not there yet."""
+        try:
+            outcome = self._outcomes.get_nowait()
+        except Empty:
+            return None
+        self.left -= 1
+        return outcome
+
+    def end(self) -> None:
+        """Kill the process."""
+        self._process.kill()
+        self._thread.join()
+
+    def _talk(self, order: bytes) -> None:
+        process = self._process
+        assert process.stdin is not None
+        assert process.stdout is not None
+        try:
+            process.stdin.write(order)
+            process.stdin.flush()
+            for _ in range(self.left):
+                self._outcomes.put(pickle.load(process.stdout))
+        except (OSError, EOFError, pickle.UnpicklingError) as error:
+            log.warning("matches in the background: %s", error or "their process has ended")
+        finally:
+            process.kill()
+            process.communicate()
+
+
+def serve() -> None:
+    """Play what standard input orders."""
+    from pigaming_app.events.run_headless import HeadlessRun
+
+    event, fixtures = pickle.load(sys.stdin.buffer)
+    exit_with_parent()
+    run = HeadlessRun(event, fast=False)
+    for fixture in fixtures:
+        pickle.dump(run.play_these(event, [fixture])[0], sys.stdout.buffer)
+        sys.stdout.buffer.flush()
+
+
+if __name__ == "__main__":
+    serve()

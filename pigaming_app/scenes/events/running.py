@@ -1,0 +1,67 @@
+"""A running event and its file. A change is on the disk before any page shows it."""
+
+import logging
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from pigaming_app.events import event_files
+from pigaming_app.events.event import Event
+from pigaming_app.events.spec import MOST, Fixture
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Device
+
+log = logging.getLogger("pigaming")
+
+
+@dataclass
+class RunningEvent:
+    """The event in a file. `devices`: what each entrant has driven with, since the start of the arcade."""
+
+    path: Path
+    event: Event
+    devices: dict[str, Device] = field(default_factory=dict)
+
+    def change(self, event: Event) -> bool:
+        """Take the event over and save it; false if it cannot be saved, and is lost when the arcade ends."""
+        self.event = event
+        try:
+            event_files.save(self.path, event)
+        except NotSaved as reason:
+            log.warning("%s", reason)
+            return False
+        return True
+
+    @property
+    def accepts_late(self) -> bool:
+        """True as long as late entrants may join: until a match of round two has been played."""
+        event = self.event
+        begun = any(fixture.round > 1 and fixture.number in event.outcomes for fixture in event.fixtures)
+        return not begun and not event.over and len(event.entrants) < MOST
+
+    def brain(self, name: str) -> str:
+        """The brain of an entrant now; empty: a person."""
+        return next((entrant.brain for entrant in self.event.entrants if entrant.name == name), "")
+
+    def is_person(self, name: str) -> bool:
+        """True for an entrant who is a person, even while an AI drives."""
+        persons = {entrant.name for entrant in self.event.spec.entrants if not entrant.brain}
+        first = {entrant.name for entrant in self.event.spec.entrants}
+        return name in persons or (name not in first and not self.brain(name))
+
+    def without_people(self, fixture: Fixture) -> bool:
+        """True if only AIs play."""
+        return all(self.brain(name) for name in fixture.entrants)
+
+
+def progress_line(words: Words, event: Event) -> str:
+    """Round, and matches played of those known."""
+    played = len(event.outcomes)
+    return words(
+        "events.progress", round=max(1, event.round), match=min(played + 1, len(event.fixtures)), of=len(event.fixtures)
+    )
+
+
+def stage_name(words: Words, stage: str, number: int) -> str:
+    """The name of a stage, or of a round."""
+    return words(f"events.stage_{stage}", round=number) if stage else words("events.round", round=number)

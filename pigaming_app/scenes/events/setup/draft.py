@@ -1,0 +1,124 @@
+"""A new event while it is set up: what can be chosen for it, and its entrants."""
+
+from dataclasses import dataclass, field
+from itertools import permutations
+
+from pigaming_app.events.spec import DEFAULT_AI, SEATS, Entrant, EventSpec, Format
+from pigaming_app.games.game import Variant
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.match_choice import playable_arenas
+
+BY_TURNS = "turns"  # another game in every round
+LENGTHS = ("short", "normal", "long")
+RULES = "party"  # short matches, and an overtime instead of a tie
+ROUNDS = {
+    Format.KNOCKOUT: (1,),
+    Format.ROUND_ROBIN: (1, 2),
+    Format.SWISS: (3, 4, 5, 6, 7, 8, 9),
+    Format.GRAND_PRIX: (3, 6, 9),
+}
+
+
+@dataclass
+class Draft:
+    """What has been chosen so far. `game`: one, or BY_TURNS; `order`: of the games of a Grand Prix; `arena`: of a
+    single game; `length`: one of LENGTHS; `fill`: true if AIs take the seats that would stay empty.
+    """
+
+    format: Format = Format.KNOCKOUT
+    game: str = ""
+    order: tuple[str, ...] = ()
+    arena: str = ""
+    length: str = "normal"
+    rounds: int = 1
+    seats: int = 2
+    fill: bool = True
+    entrants: list[Entrant] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        names = tuple(games())
+        self.game, self.order = self.game or names[0], self.order or names
+        self.arena = self.arena or self.arenas[0]
+
+    @property
+    def games(self) -> tuple[str, ...]:
+        """The games that are played, in their order."""
+        if self.format is Format.GRAND_PRIX:
+            return self.order
+        return tuple(games()) if self.game == BY_TURNS else (self.game,)
+
+    @property
+    def arenas(self) -> tuple[str, ...]:
+        """The arenas of a single game; of several, only the first of each is played."""
+        return playable_arenas(self.games[0])[: 99 if len(self.games) == 1 else 1]
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        """The rows that offer a choice."""
+        prix = self.format is Format.GRAND_PRIX
+        rows = (
+            "format",
+            "order" if prix else "game",
+            "arena",
+            "length",
+            "seats",
+            "rounds",
+            *(("fill",) if prix else ()),
+        )
+        return tuple(row for row in rows if len(self.options(row)) > 1)
+
+    def options(self, row: str) -> tuple[object, ...]:
+        """The choices of a row."""
+        if row == "format":
+            return tuple(Format)
+        if row == "game":
+            return (*games(), BY_TURNS)
+        if row == "order":
+            return tuple(permutations(games()))
+        if row == "arena":
+            return self.arenas
+        if row == "length":
+            return LENGTHS if any(len(variant_of(game).minutes) > 1 for game in self.games) else ("normal",)
+        if row == "rounds":
+            return ROUNDS[self.format]
+        return SEATS if row == "seats" else (False, True)
+
+    def choose(self, row: str, option: object) -> None:
+        """Choose an option of a row; other rows follow where they have to."""
+        setattr(self, row, option)
+        if row == "format":
+            self.seats = 4 if self.format is Format.GRAND_PRIX else 2
+        for other in ("arena", "length", "rounds"):
+            choices = self.options(other)
+            if getattr(self, other) not in choices:
+                setattr(self, other, "normal" if other == "length" else choices[0])
+
+    def minutes(self, game: str) -> float:
+        """Minutes of a match of a game; 0: its default."""
+        offered = variant_of(game).minutes
+        if self.length == "normal" or len(offered) == 1:
+            return 0.0
+        return float(offered[0] if self.length == "short" else offered[-1])
+
+    def spec(self, title: str, seed: int) -> EventSpec:
+        """The event as it was chosen."""
+        prix = self.format is Format.GRAND_PRIX
+        return EventSpec(
+            title=title,
+            format=self.format,
+            games=self.games,
+            entrants=tuple(self.entrants),
+            rounds=0 if self.format is Format.KNOCKOUT else self.rounds,
+            seats=self.seats,
+            arenas={self.games[0]: self.arena} if len(self.games) == 1 else {},
+            minutes={game: minutes for game in self.games if (minutes := self.minutes(game))},
+            variants={game: RULES for game in self.games if RULES in games()[game].variants},
+            seed=seed,
+            fill=DEFAULT_AI if prix and self.fill else "",
+        )
+
+
+def variant_of(game: str) -> Variant:
+    """The rule set of events in a game."""
+    rules = games()[game]
+    return rules.variants.get(RULES, rules.default)

@@ -1,0 +1,273 @@
+"""The entrants of a new event: by letters, from the clipboard or a dropped file, and AIs; then it begins."""
+
+import logging
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from string import ascii_uppercase
+
+import pygame
+
+from pigaming_app.ai.brain_files import display_name
+from pigaming_app.ai.registry import LEVELS, RIVALS, level_of
+from pigaming_app.events.entrant_lists import entrants_of_text
+from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
+from pigaming_app.scenes.events.setup.draft import Draft
+from pigaming_app.scenes.events.setup.letters_page import LettersPage
+from pigaming_app.scenes.flow.brain_names import brain_name
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.lab.saved_robots import file_of, names
+from pigaming_app.storage.parsing import read_text
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.caption import caption
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, chip, heading
+from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
+
+IDLE = 180.0  # s without input before the return to the title
+MESSAGE_SECONDS = 4.0
+MAX_LIST = 100_000  # bytes of a dropped file
+TEAMS = 4  # that can be chosen here
+COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 212  # px
+DEEDS_Y, DEED_H, DEED_GAP = 872, 70, 24  # px
+LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN = "letters", "add_ai", "strength", "paste", "begin"
+DEEDS = (LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN)
+
+Begin = Callable[[Draft], "StackOperation | str"]
+
+log = logging.getLogger("pigaming")
+
+
+class EntrantsPage:
+    """The page of a draft. `begin`: see `SetupPage`."""
+
+    def __init__(self, context: Context, draft: Draft, begin: Begin) -> None:
+        self.context, self.draft, self.begin = context, draft, begin
+        self.brains = brains_for(draft.games)
+        self.brain = "level3"
+        self.focus = Focus(self._spots(), LETTERS)
+        hints = [
+            (Button.FIRE, "events.hint_choose"),
+            (Button.X, "events.hint_remove"),
+            *([(Button.Y, "events.hint_team")] if draft.format is Format.GRAND_PRIX else []),
+            (Button.START, "events.hint_begin"),
+            (Button.BACK, "events.hint_back"),
+        ]
+        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
+        context.dropped.clear()
+
+    def on_enter(self) -> None:
+        """First display, or return from the letters."""
+        self.focus.set_spots(self._spots())
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """FIRE does what is selected, X removes an entrant, START begins."""
+        event = self.navigation.prompts.as_button(event)
+        if event.button is Button.START:
+            return self._do(BEGIN)
+        if event.button is Button.X:
+            self._remove(self.focus.name)
+            return None
+        if event.button is Button.Y and self.draft.format is Format.GRAND_PRIX:
+            self._change_team(self.focus.name)
+            return None
+        chosen = self.focus.activated(event)
+        if event.button is Button.CLICK:
+            self.focus.handle(event)
+        return self._do(chosen) if chosen in DEEDS else self.navigation.handle(event)
+
+    def update(self, seconds: float) -> StackOperation:
+        """Read dropped files; return to the title when idle."""
+        while self.context.dropped:
+            self._read(self.context.dropped.pop(0))
+        return self.navigation.update(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words, draft = self.context.words, self.draft
+        screen.blit(backdrop(), (0, 0))
+        heading(words("events.who"), words("events.count", count=len(draft.entrants))).draw(screen)
+        black_out(screen, *(spot.rect for spot in self.focus.spots))
+        for spot in self.focus.spots:
+            hot = spot.name == self.focus.name
+            if spot.name in DEEDS:
+                chip(self._label(spot.name), spot.rect.w, "focus" if hot else "off", DEED_H).draw(
+                    screen, *spot.rect.topleft
+                )
+            else:
+                entrant = self._entrant(spot.name)
+                cell(entrant.name, entrant.team, bool(entrant.brain), hot).draw(screen, *spot.rect.topleft)
+        if not draft.entrants:
+            text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 470)
+            text(words("events.drop"), BODY, MIST).draw(screen, 960, 560)
+        self.focus.draw(screen)
+        if self.navigation.sentence:
+            caption(self.navigation.sentence, FOCUS).draw(screen, 960, self.navigation.prompts.y)
+        else:
+            self.navigation.prompts.draw(screen)
+
+    # ---- changes
+
+    def add(self, name: str) -> str:
+        """Enter a person; returns the sentence why not, or an empty one."""
+        return self._add(Entrant(name))
+
+    def _add(self, entrant: Entrant) -> str:
+        words, entrants = self.context.words, self.draft.entrants
+        if len(entrants) >= MOST:
+            return words("events.full", most=MOST)
+        if any(other.name == entrant.name for other in entrants):
+            return words("events.taken", name=entrant.name)
+        entrants.append(entrant)
+        self.focus.set_spots(self._spots())
+        return ""
+
+    def add_list(self, text: str) -> None:
+        """Enter everybody of a list, and show how many."""
+        words, count = self.context.words, 0
+        try:
+            found = entrants_of_text(one_a_line(text))
+        except ValueError as error:
+            log.warning("list of entrants: %s", error)
+            self._refuse(words("events.unread"))
+            return
+        for entrant in found:
+            name = HARMLESS if is_rude(entrant.name.upper()) else entrant.name
+            count += not self._add(replace(entrant, name=name))
+        if count:
+            self.navigation.show_message(words("events.added", count=count))
+            self.context.sounds.play("ready")
+        else:
+            self._refuse(words("events.no_names"))
+
+    def _read(self, path: Path) -> None:
+        try:
+            self.add_list(read_text(path, MAX_LIST))
+        except (OSError, ValueError) as error:
+            log.warning("%s: %s", path.name, error)
+            self._refuse(self.context.words("events.unread"))
+
+    def _paste(self) -> None:
+        try:
+            self.add_list(pygame.scrap.get_text())
+        except pygame.error as error:
+            log.warning("clipboard: %s", error)
+            self._refuse(self.context.words("events.no_names"))
+
+    def _refuse(self, sentence: str) -> None:
+        self.navigation.show_message(sentence)
+        self.context.sounds.play("refused")
+
+    def _change_team(self, spot: str) -> None:
+        """The next team of an entrant; after the last one, none."""
+        if spot not in DEEDS:
+            entrant = self._entrant(spot)
+            teams = ("", *(self.context.words(f"events.team_{number}") for number in range(1, TEAMS + 1)))
+            now = teams.index(entrant.team) if entrant.team in teams else 0
+            self.draft.entrants[int(spot)] = replace(entrant, team=teams[(now + 1) % len(teams)])
+            self.context.sounds.play("move")
+
+    def _remove(self, spot: str) -> None:
+        if spot in DEEDS:
+            return
+        index = int(spot)
+        del self.draft.entrants[index]
+        self.focus.set_spots(self._spots())
+        self.focus.move_to(str(min(index, len(self.draft.entrants) - 1)) if self.draft.entrants else LETTERS)
+        self.context.sounds.play("back")
+
+    def _do(self, deed: str) -> StackOperation:
+        if deed == LETTERS:
+            self.context.sounds.play("accept")
+            return Push(LettersPage(self.context, self.add, lambda: [entrant.name for entrant in self.draft.entrants]))
+        if deed == ADD_AI:
+            refusal = self._add(Entrant(self._ai_name(), self.brain))
+            self.context.sounds.play("refused" if refusal else "ready")
+            if refusal:
+                self.navigation.show_message(refusal)
+        elif deed == STRENGTH:
+            self.brain = self.brains[(self.brains.index(self.brain) + 1) % len(self.brains)]
+            self.context.sounds.play("move")
+        elif deed == PASTE:
+            self._paste()
+        elif deed == BEGIN:
+            return self._begin()
+        return None
+
+    def _begin(self) -> StackOperation:
+        words = self.context.words
+        few = len(self.draft.entrants) < FEWEST
+        result = words("events.few", fewest=FEWEST) if few else self.begin(self.draft)
+        if isinstance(result, str):
+            self.navigation.show_message(result)
+            self.context.sounds.play("refused")
+            return None
+        self.context.sounds.play("accept")
+        return result
+
+    # ---- inside
+
+    def _entrant(self, spot: str) -> Entrant:
+        return self.draft.entrants[int(spot)]
+
+    def _ai_name(self) -> str:
+        """An unused name for another AI of this strength."""
+        taken = {entrant.name for entrant in self.draft.entrants}
+        level = level_of(self.brain)
+        base = f"BOT{level}" if level else display_name(self.brain).upper()[: MAX_NAME - 1]
+        more = (f"{base}{letter}" for letter in ascii_uppercase[1:])
+        numbered = (f"{base[:8]}{number}" for number in range(10, 100))
+        return next(name for name in (base, *more, *numbered) if name not in taken)
+
+    def _label(self, deed: str) -> str:
+        words = self.context.words
+        if deed != STRENGTH:
+            return words(f"events.{deed}")
+        return brain_name(words, self.draft.games[0], self.brain)
+
+    def _spots(self) -> list[FocusSpot]:
+        cells = [
+            FocusSpot(
+                str(i), pygame.Rect(LEFT + PITCH_X * (i % COLUMNS), TOP + PITCH_Y * (i // COLUMNS), CELL_W, CELL_H)
+            )
+            for i in range(len(self.draft.entrants))
+        ]
+        w = (RIGHT - LEFT - DEED_GAP * (len(DEEDS) - 1)) // len(DEEDS)
+        boxes = (pygame.Rect(LEFT + (w + DEED_GAP) * i, DEEDS_Y, w, DEED_H) for i in range(len(DEEDS)))
+        return [*cells, *(FocusSpot(deed, box) for deed, box in zip(DEEDS, boxes, strict=True))]
+
+
+def brains_for(played: tuple[str, ...]) -> tuple[str, ...]:
+    """AIs that play all these games: the levels; in a single game its other ones, in PiTanks visitors' robots, too."""
+    if len(played) > 1:
+        return LEVELS
+    saved = [str(file_of(name)) for name in names()] if played == ("pitanks",) else []
+    return (*RIVALS[played[0]], *saved)
+
+
+def one_a_line(text: str) -> str:
+    """A list with one entrant in each line, also if all of them stand in one line."""
+    text = text.replace("\0", "").strip()
+    return text if "\n" in text or "\r" in text else re.sub(r"\s*[;,\t]\s*", "\n", text)
+
+
+@cached
+def cell(name: str, team: str, ai: bool, hot: bool) -> LitImage:
+    """An entrant; top left at (0, 0)."""
+    layer = Layer(0, 0, CELL_W, CELL_H)
+    layer.glow.line(cut_box(0, 0, CELL_W, CELL_H, 12), FOCUS if hot else STEEL, THIN, True)
+    left = 58 if ai else 16
+    if ai:
+        icon(layer.glow, "ai", 34, CELL_H / 2, 18, MIST, 3)
+    right = CELL_W - (60 if team else 14)
+    if team:
+        layer.canvas.text(team, fit_size(team, BODY, 40), CELL_W - 34, CELL_H / 2, MIST, "head", "c")
+    size = fit_size(name, LABEL, right - left, "hero")
+    layer.canvas.text(name, size, (left + right) / 2, CELL_H / 2, FOCUS if hot else ICE, "hero", "c")
+    return layer.render()

@@ -1,0 +1,69 @@
+"""A picture of each format: a bracket, a cross table, a ladder of rounds, a podium."""
+
+from collections.abc import Callable
+
+from pigaming_app.events.spec import Format
+from pigaming_app.ui.draw import FOCUS, ICE, LINE, MIST, PLAYERS, STEEL, THIN, GlowCanvas, cut_box, dim
+from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.surface_cache import cached
+
+HALF = 190  # px, half the size of a picture
+
+
+@cached
+def picture(form: Format) -> LitImage:
+    """The picture of a format, centred on (0, 0)."""
+    ink = GlowCanvas(2 * HALF, 2 * HALF).set_transform(HALF, HALF)
+    DRAWINGS[form](ink)
+    return LitImage(ink.lit(0.8), (-HALF, -HALF))
+
+
+def _bracket(ink: GlowCanvas) -> None:
+    for i, y in enumerate((-105, -35, 35, 105)):
+        ink.line(cut_box(-160, y - 22, 84, 44, 8), PLAYERS[i], THIN, True)
+        ink.line(
+            [(-76, y), (-48, y), (-48, y + (35 if i % 2 == 0 else -35)), (-20, y + (35 if i % 2 == 0 else -35))],
+            STEEL,
+            THIN,
+        )
+    for y, color in ((-70, PLAYERS[0]), (70, PLAYERS[2])):
+        ink.line(cut_box(-20, y - 22, 84, 44, 8), color, THIN, True)
+        ink.line([(64, y), (84, y), (84, 0), (100, 0)], STEEL, THIN)
+    ink.line(cut_box(100, -24, 64, 48, 8), FOCUS, LINE, True)
+
+
+def _cross_table(ink: GlowCanvas) -> None:
+    for row in range(4):
+        for column in range(4):
+            box = cut_box(-128 + 66 * column, -128 + 66 * row, 56, 56, 8)
+            if row == column:
+                ink.fill(box, dim(STEEL, 0.6))
+            else:
+                ink.line(box, PLAYERS[row] if (row + column) % 3 else MIST, THIN, True)
+
+
+def _swiss(ink: GlowCanvas) -> None:
+    for column in range(3):
+        for row in range(4):
+            color = PLAYERS[row] if column == 2 else dim(PLAYERS[(row * (3 if column == 0 else 1) + column) % 4], 0.7)
+            ink.line(
+                cut_box(-156 + 120 * column, -120 + 64 * row, 72, 48, 8), color, LINE if column == 2 else THIN, True
+            )
+        if column < 2:
+            for one, other in ((0, 1), (1, 0), (2, 3), (3, 2)):
+                ink.line([(-78 + 120 * column, -96 + 64 * one), (-42 + 120 * column, -96 + 64 * other)], STEEL, THIN)
+
+
+def _podium(ink: GlowCanvas) -> None:
+    for x, high, color in ((-120, 130, ICE), (-40, 190, FOCUS), (40, 90, MIST)):
+        ink.line(cut_box(x, 120 - high, 76, high, 10), color, LINE if color == FOCUS else THIN, True)
+    for i in range(3):
+        ink.disc(-82 + 80 * i, -128, 14, PLAYERS[i])
+
+
+DRAWINGS: dict[Format, Callable[[GlowCanvas], None]] = {
+    Format.KNOCKOUT: _bracket,
+    Format.ROUND_ROBIN: _cross_table,
+    Format.SWISS: _swiss,
+    Format.GRAND_PRIX: _podium,
+}

@@ -1,0 +1,128 @@
+"""Set-up of a new event: format, game, arena, length, seats and rounds; then its entrants."""
+
+import pygame
+
+from pigaming_app.events.spec import Format
+from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft, variant_of
+from pigaming_app.scenes.events.setup.entrants_page import Begin, EntrantsPage
+from pigaming_app.scenes.events.setup.format_pictures import picture
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets import setting_row
+from pigaming_app.ui.widgets.focus import Focus
+from pigaming_app.ui.widgets.labels import black_out, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
+
+IDLE = 120.0  # s without input before the return to the title
+NEXT = "entrants"  # the last row
+
+
+class SetupPage:
+    """The page of a draft. `begin`: makes the event of it, and returns the sentence why not, or what follows."""
+
+    def __init__(self, context: Context, draft: Draft, begin: Begin) -> None:
+        self.context, self.draft, self.begin = context, draft, begin
+        hints = [
+            (Button.RIGHT, "options.hint_change"),
+            (Button.FIRE, "options.hint_ok"),
+            (Button.START, "events.hint_entrants"),
+            (Button.BACK, "options.hint_back"),
+        ]
+        self.focus = Focus(setting_row.spots((*draft.rows, NEXT)))
+        self.navigation = Navigation(context, self.focus, hints, IDLE)
+
+    def on_enter(self) -> None:
+        self.context.sounds.music(True)
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """LEFT and RIGHT change a row, FIRE too; START and the last row go on to the entrants."""
+        event = self.navigation.prompts.as_button(event)
+        row = self.focus.name
+        if event.button in (Button.FIRE, Button.START):
+            if event.button is Button.START or row == NEXT:
+                return self._go_on()
+            self._step(row, 1, True)
+            return None
+        if event.button is Button.CLICK:
+            self.focus.handle(event)
+            row = self.focus.spot_at(event) or ""
+            if row == NEXT:
+                return self._go_on()
+        if row and row != NEXT and (by := setting_row.step_of(event, self.focus, self._value(row))):
+            self._step(row, by, event.button is Button.CLICK)
+            return None
+        return None if event.button in (Button.LEFT, Button.RIGHT) else self.navigation.handle(event)
+
+    def update(self, seconds: float) -> StackOperation:
+        return self.navigation.update(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words, focus = self.context.words, self.focus.name
+        screen.blit(backdrop(), (0, 0))
+        heading(words("events.new")).draw(screen)
+        black_out(screen, setting_row.PANEL)
+        values = {spot.name: self._value(spot.name) for spot in self.focus.spots}
+        setting_row.draw(screen, words, self.focus, "events", values)
+        frame(*setting_row.PANEL.size).draw(screen, *setting_row.PANEL.topleft)
+        picture(self.draft.format).draw(screen, *setting_row.CENTRE)
+        if focus == "format":
+            name = self.draft.format.value
+            setting_row.describe(screen, words(f"events.{name}"), words(f"events.{name}_line"))
+        else:
+            setting_row.describe(screen, words(f"events.{focus}"), words(f"events.{focus}_line"))
+        self.navigation.prompts.draw(screen)
+
+    # ---- inside
+
+    def _go_on(self) -> StackOperation:
+        self.context.sounds.play("accept")
+        return Push(EntrantsPage(self.context, self.draft, self.begin))
+
+    def _step(self, row: str, by: int, cyclic: bool) -> None:
+        """Step the value of a row; `cyclic`: after the last one comes the first."""
+        options = self.draft.options(row)
+        now = options.index(getattr(self.draft, row)) + by
+        now = now % len(options) if cyclic else max(0, min(len(options) - 1, now))
+        if options[now] != getattr(self.draft, row):
+            self.draft.choose(row, options[now])
+            self.focus.set_spots(setting_row.spots((*self.draft.rows, NEXT)))
+            self.context.sounds.play("move")
+
+    def _value(self, row: str) -> SettingValue:
+        words, draft = self.context.words, self.draft
+        if row == NEXT:
+            return SettingValue("deed", (words("events.go_on"),))
+        options = draft.options(row)
+        names = tuple(self._name(row, option) for option in options)
+        short = row in ("seats", "rounds", "fill")
+        return SettingValue("toggle" if short else "arrows", names, options.index(getattr(draft, row)))
+
+    def _name(self, row: str, option: object) -> str:
+        """The name of an option."""
+        words = self.context.words
+        if isinstance(option, Format):
+            return words(f"events.{option.value}")
+        if row == "game":
+            return words("events.turns" if option == BY_TURNS else f"games.{option}")
+        if row == "order" and isinstance(option, tuple):
+            return "  ".join(f"{i}. {words(f'events.short_{game}')}" for i, game in enumerate(option, 1))
+        if row == "arena":
+            return arena_title(load_cached(self.draft.games[0], str(option)), words.language)
+        if row == "length":
+            return self._length(str(option))
+        if row == "fill":
+            return words("options.on" if option else "options.off")
+        return str(option)
+
+    def _length(self, length: str) -> str:
+        """A length in words; of a single game in minutes."""
+        words, played = self.context.words, [game for game in self.draft.games if len(variant_of(game).minutes) > 1]
+        if len(self.draft.games) == 1 and played:
+            variant = variant_of(played[0])
+            minutes = {"short": variant.minutes[0], "normal": variant.default_minutes, "long": variant.minutes[-1]}
+            return words("setup.min", minutes=minutes[length])
+        return words(f"events.{length}")

@@ -1,0 +1,120 @@
+"""The table of an event: places, names, points, in one to three columns that can be read from five metres."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import pygame
+
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, MIST, STEEL, SUB, THIN, cut_box, icon, text_width
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size, text
+
+HEADS_Y, TOP, BOTTOM = 222, 254, 930  # px
+GAP = 24  # px between two columns
+WIPE, APART = 0.25, 0.03  # s: of one row, from row to row
+CELL = {1: 200, 2: 130, 3: 120}  # px, width of a value, by number of columns
+FIGURES = {1: 4, 2: 2, 3: 1}  # values shown, by number of columns
+PLACE_W = 96  # px
+
+
+@dataclass(frozen=True)
+class TableRow:
+    """One entrant. `figures`: points first, then the less important values; `mark`: an AI; `hot`: highlighted."""
+
+    place: int
+    name: str
+    figures: tuple[str, ...]
+    mark: bool = False
+    hot: bool = False
+
+
+@dataclass(frozen=True)
+class Grid:
+    """How many columns, and rows in each, a table has on one page."""
+
+    columns: int
+    rows: int
+
+    @property
+    def size(self) -> int:
+        """Entrants on a page."""
+        return self.columns * self.rows
+
+
+def grid_of(count: int) -> Grid:
+    """The grid for so many entrants: the larger the fewer."""
+    if count <= 8:
+        return Grid(1, 8)
+    if count <= 16:
+        return Grid(2, 8)
+    if count <= 20:
+        return Grid(2, 10)
+    return Grid(3, 8 if count <= 24 else 11 if count <= 33 else 8 if count <= 48 else 11)
+
+
+def pages_of(count: int) -> int:
+    """Pages of a table of so many entrants."""
+    return max(1, -(-count // grid_of(count).size))
+
+
+def draw_table(screen: pygame.Surface, rows: Sequence[TableRow], heads: Sequence[str], page: int, age: float) -> None:
+    """Draw a page of a table. `heads`: of the values; `age`: s since it was opened."""
+    grid = grid_of(len(rows))
+    pitch = (BOTTOM - TOP) // grid.rows
+    wide = (RIGHT - LEFT - GAP * (grid.columns - 1)) // grid.columns
+    shown = rows[page * grid.size : (page + 1) * grid.size]
+    used = -(-len(shown) // grid.rows)
+    for column in range(used):
+        _heads(screen, heads, LEFT + column * (wide + GAP), wide, grid.columns)
+    for i, row in enumerate(shown):
+        share = (age - APART * i) / WIPE
+        if share > 0.0:
+            x, y = LEFT + (i // grid.rows) * (wide + GAP), TOP + (i % grid.rows) * pitch
+            whole = table_row(row, wide, pitch - 10, grid.columns)
+            whole.draw(screen, x, y, share=1 - (1 - min(1.0, share)) ** 2)
+
+
+def _heads(screen: pygame.Surface, heads: Sequence[str], x: int, w: int, columns: int) -> None:
+    cell = CELL[columns]
+    for k, head in enumerate(heads[: FIGURES[columns]]):
+        text(head, BODY, MIST, "body", "r", cell - 16).draw(screen, x + w - 28 - k * cell, HEADS_Y)
+
+
+@cached
+@resumable
+def table_row(row: TableRow, w: int, h: int, columns: int) -> Steps[LitImage]:
+    """A row; top left at (0, 0)."""
+    layer = Layer(0, 0, w, h)
+    best = row.place == 1
+    layer.glow.line(cut_box(0, 0, w, h, 14), FOCUS if row.hot else STEEL, LINE if row.hot else THIN, True)
+    size, middle = min(SUB, round(h * 0.78)), h / 2
+    color = FOCUS if row.hot or best else ICE
+    layer.canvas.text(str(row.place), fit_size(str(row.place), size, PLACE_W - 12), PLACE_W, middle, MIST, "head", "r")
+    cell, shown = CELL[columns], row.figures[: FIGURES[columns]]
+    x, room = PLACE_W + 32, w - PLACE_W - 32 - 40 - cell * len(shown)
+    if row.mark:
+        icon(layer.glow, "ai", x + size * 0.4, middle, size * 0.36, MIST, 4)
+        x, room = x + round(size * 1.05), room - round(size * 1.05)
+    name_size = fit_size(row.name, size, room, "hero")
+    layer.canvas.text(row.name, name_size, x, middle, color, "hero")
+    if best:
+        at = x + text_width(row.name, name_size, "hero") + size * 0.7
+        if at + size * 0.5 < w - 28 - cell * len(shown):
+            icon(layer.glow, "crown", at, middle - 2, size * 0.36, FOCUS, 4)
+    yield
+    for k, figure in enumerate(shown):
+        there = size if k == 0 else round(size * 0.8)
+        right = w - 28 - k * cell
+        layer.canvas.text(
+            figure,
+            fit_size(figure, there, cell - 20),
+            right,
+            middle,
+            color if k == 0 else MIST,
+            "hero" if k == 0 else "head",
+            "r",
+        )
+    yield
+    return (yield from layer.render_steps())

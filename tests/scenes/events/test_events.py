@@ -1,0 +1,378 @@
+"""Events on the screen: set-up by pad and list, seats, results on disk, absent and late people, corrections, podium."""
+
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.events import event_files
+from pigaming_app.events.journal import Corrected
+from pigaming_app.events.spec import Entrant, Format
+from pigaming_app.scenes.events import choice, next_page
+from pigaming_app.scenes.events.choice import EventsPage
+from pigaming_app.scenes.events.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
+from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
+from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
+from pigaming_app.scenes.events.setup.letters_page import LettersPage
+from pigaming_app.scenes.events.setup.page import SetupPage
+from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.winner import WinnersMoment
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.events.drawn import an_event, played, result_of, running, saved
+from tests.ui.input.virtual_pad import VirtualPad
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
+    return Arcade(controls)
+
+
+def at_next(arcade: Arcade, run: RunningEvent) -> NextMatch:
+    """The page of the next match, ready for input."""
+    page = NextMatch(arcade.context, run)
+    arcade.open(page)
+    arcade.wait(INPUT_LOCKOUT + 0.1)
+    return page
+
+
+def finish(arcade: Arcade, scores: tuple[int, ...]) -> None:
+    """Play the match on top to its end with these scores."""
+    scene = arcade.shown(MatchScene)
+    scene.countdown.seconds_left = 0.05
+    arcade.until(lambda: not scene.countdown.locked)
+    state = scene.match.state
+    for robot, score in zip(state.robots, scores, strict=False):
+        robot.score = score
+    state.rules.ticks = state.tick + 1
+    arcade.until(lambda: isinstance(arcade.stack.top, WinnersMoment))
+
+
+def test_an_event_is_set_up_by_pad_and_saved_before_its_first_match(arcade: Arcade) -> None:
+    arcade.open(EventsPage(arcade.context))
+    arcade.press(Button.FIRE)
+    page = arcade.shown(SetupPage)
+    arcade.press(Button.RIGHT)
+    assert page.draft.format is Format.ROUND_ROBIN
+    arcade.press(Button.START)
+    arcade.shown(EntrantsPage)
+    arcade.press(Button.FIRE)
+    letters = arcade.shown(LettersPage)
+    arcade.wait(0.4)
+    for button in (Button.DOWN, *[Button.FIRE] * 3, *[Button.UP, Button.FIRE, Button.FIRE, Button.FIRE], Button.START):
+        arcade.press(button)
+    assert letters.names() == ["BAA", "ZAA", "AAA"]
+    arcade.press(Button.START)
+    assert letters.refusal, "AAA is taken"
+    arcade.press(Button.BACK)
+    entrants = arcade.shown(EntrantsPage)
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.FIRE)
+    assert entrants.draft.entrants[-1] == Entrant("BOT3", "level3")
+    arcade.press(Button.START)
+    page = arcade.shown(NextMatch)
+    assert [entrant.name for entrant in saved(page.running).entrants] == ["BAA", "ZAA", "AAA", "BOT3"]
+    assert len(page.running.event.fixtures) == 6
+
+
+def test_hammering_fire_enters_no_name(arcade: Arcade) -> None:
+    names: list[str] = []
+    page = LettersPage(arcade.context, lambda name: names.append(name) or "", lambda: names)  # type: ignore[func-returns-value]
+    arcade.open(page)
+    arcade.wait(0.4)
+    for _ in range(6):
+        arcade.press(Button.FIRE)
+    assert names == []
+    assert page.refusal
+
+
+def test_a_list_is_pasted_or_dropped_and_a_bad_one_is_refused(arcade: Arcade, tmp_path: Path) -> None:
+    page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
+    arcade.open(page)
+    page.add_list("Ana, Bea, Carla")
+    page.add_list("Ana\nDuda=level2\nEva/Blue")
+    assert [(one.name, one.brain, one.team) for one in page.draft.entrants] == [
+        ("Ana", "", ""),
+        ("Bea", "", ""),
+        ("Carla", "", ""),
+        ("Duda", "level2", ""),
+        ("Eva", "", "Blue"),
+    ]
+    (tmp_path / "list.csv").write_text("name;ai;team\nFred;;\nGil;level1;\n", encoding="utf-8")
+    (tmp_path / "list.bin").write_bytes(b"\xff\xfe\x00broken")
+    arcade.context.dropped += [tmp_path / "list.csv", tmp_path / "list.bin", tmp_path / "nowhere.txt"]
+    arcade.frame(draw=True)
+    assert len(page.draft.entrants) == 7
+    assert page.navigation.sentence == arcade.context.words("events.unread")
+    page.focus.move_to("0")
+    arcade.press(Button.X)
+    assert page.draft.entrants[0].name == "Bea"
+
+
+def test_the_clipboard_may_be_empty(arcade: Arcade) -> None:
+    page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
+    arcade.open(page)
+    page.focus.move_to("paste")
+    arcade.press(Button.FIRE)
+    assert page.draft.entrants == []
+    assert page.navigation.sentence
+
+
+def test_too_few_entrants_do_not_begin(arcade: Arcade) -> None:
+    page = EntrantsPage(arcade.context, Draft(entrants=[Entrant("ANA"), Entrant("BEA")]), lambda draft: "never asked")
+    arcade.open(page)
+    arcade.press(Button.START)
+    assert page.navigation.sentence == arcade.context.words("events.few", fewest=3)
+
+
+def test_every_draft_makes_an_event_that_can_be_played(arcade: Arcade) -> None:
+    page = EventsPage(arcade.context)
+    for form in Format:
+        draft = Draft()
+        draft.choose("format", form)
+        for row in draft.rows:
+            for option in draft.options(row):
+                changed = Draft(entrants=[Entrant(f"E{i}") for i in range(12)])
+                changed.choose("format", form)
+                if row == "length":
+                    changed.choose("game", BY_TURNS)
+                changed.choose(row, option)
+                assert not isinstance(page.begin(changed), str), (form, row, option)
+
+
+def test_people_take_the_seats_of_their_names_and_the_result_is_on_disk_at_once(arcade: Arcade) -> None:
+    run = running(an_event())
+    page = at_next(arcade, run)
+    fixture = page.fixture
+    assert fixture
+    arcade.press(Button.FIRE, KEYS[0])
+    assert page.claims == {0: KEYS[0]}
+    arcade.press(Button.FIRE, KEYS[1])
+    arcade.wait(ALL_READY + 0.2, draw=True)
+    scene = arcade.shown(MatchScene)
+    assert scene.devices[:2] == KEYS[:2]
+    assert [seat.brain for seat in scene.setup.seats] == ["human", "human", "off", "off"]
+    finish(arcade, (5, 1))
+    assert saved(run).outcomes[fixture.number].places == ((fixture.entrants[0],), (fixture.entrants[1],))
+    arcade.wait(1.2)
+    arcade.press(Button.FIRE)
+    assert arcade.shown(NextMatch).fixture != fixture
+
+
+def test_each_pad_takes_its_own_seat_first(arcade: Arcade) -> None:
+    with VirtualPad() as one, VirtualPad() as two:
+        arcade.frame()
+        page = at_next(arcade, running(an_event()))
+        pads = arcade.context.controls.pads()
+        assert {pad.number for pad in pads} == {one.number, two.number}
+        arcade.press(Button.FIRE, pads[1])
+        assert page.claims == {1: pads[1]}
+        arcade.press(Button.LEFT, pads[1])
+        assert page.claims == {0: pads[1]}
+        arcade.press(Button.BACK, pads[1])
+        assert page.claims == {}
+
+
+def test_a_match_ended_by_hand_is_still_to_be_played(arcade: Arcade) -> None:
+    run = running(an_event())
+    page = at_next(arcade, run)
+    fixture = page.fixture
+    for device in KEYS[:2]:
+        arcade.press(Button.FIRE, device)
+    arcade.press(Button.START)
+    arcade.shown(MatchScene).countdown.seconds_left = 0.05
+    arcade.wait(0.3)
+    arcade.press(Button.START)
+    pause = arcade.shown(Pause)
+    assert "restart" not in [spot.name for spot in pause.focus.spots]
+    arcade.press(Button.UP)
+    for _ in range(2):
+        arcade.press(Button.FIRE)
+    arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
+    assert arcade.shown(NextMatch).fixture == fixture
+    assert saved(run).outcomes == {}
+
+
+def test_absent_people_are_skipped_or_replaced_and_may_come_back(arcade: Arcade) -> None:
+    run = running(an_event())
+    page = at_next(arcade, run)
+    first = page.fixture
+    arcade.press(Button.X)
+    assert page.fixture != first
+    assert saved(run).open[-1] == first
+    second = page.fixture
+    assert second
+    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.START)
+    assert isinstance(arcade.stack.top, NextMatch), "somebody is missing"
+    arcade.press(Button.Y)
+    assert (page.claims, page.waiting) == ({0: KEYS[0]}, [])
+    assert run.brain(second.entrants[1]) == "level3"
+    arcade.press(Button.FIRE, KEYS[1])
+    assert page.claims == {0: KEYS[0], 1: KEYS[1]}
+    assert saved(run).entrants == run.event.spec.entrants
+
+
+def test_a_late_entrant_joins_before_round_two_only(arcade: Arcade) -> None:
+    run = running(an_event())
+    at_next(arcade, run)
+    arcade.press(Button.DOWN)
+    arcade.shown(LettersPage)
+    arcade.wait(0.4)
+    for button in (Button.DOWN, Button.DOWN, Button.START, Button.BACK):
+        arcade.press(button)
+    assert "CAA" in [entrant.name for entrant in saved(run).entrants]
+    run.change(played(run.event, 3))
+    assert not run.accepts_late
+    arcade.press(Button.DOWN)
+    assert isinstance(arcade.stack.top, NextMatch)
+
+
+def test_a_result_is_corrected_with_a_note(arcade: Arcade) -> None:
+    run = running(played(an_event(Format.ROUND_ROBIN), 2))
+    arcade.open(TablePage(arcade.context, run))
+    arcade.press(Button.X)
+    arcade.shown(ResultsList)
+    arcade.press(Button.FIRE)
+    page = arcade.shown(Correction)
+    before = run.event.outcomes[page.fixture.number]
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.LEFT)
+    arcade.press(Button.START)
+    arcade.shown(ResultsList)
+    after = saved(run).outcomes[page.fixture.number]
+    assert after.places == before.places[::-1]
+    assert after.note
+    assert isinstance(saved(run).journal[-1], Corrected)
+
+
+def test_matches_of_ais_are_played_in_the_background_and_counted_once(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class AtOnce:
+        """Matches that are over as soon as they are asked for."""
+
+        def __init__(self, event, fixtures):  # type: ignore[no-untyped-def]
+            self.outcomes = [result_of(fixture) for fixture in fixtures]
+            self.left = 0
+
+        @property
+        def over(self) -> bool:
+            return not self.outcomes
+
+        def next_outcome(self):  # type: ignore[no-untyped-def]
+            return self.outcomes.pop(0) if self.outcomes else None
+
+        def end(self) -> None:
+            self.outcomes.clear()
+
+    monkeypatch.setattr(next_page, "QuickMatches", AtOnce)
+    run = running(an_event(brains="level1"))
+    at_next(arcade, run)
+    arcade.press(Button.Y)
+    arcade.until(lambda: isinstance(arcade.stack.top, PodiumPage))
+    assert len(saved(run).outcomes) == len(run.event.fixtures) == 6
+
+
+def test_a_match_of_ais_is_a_show_and_the_next_one_begins_by_itself(arcade: Arcade) -> None:
+    run = running(an_event(brains="level1"))
+    at_next(arcade, run)
+    arcade.press(Button.FIRE)
+    finish(arcade, (3, 1))
+    arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
+    assert len(saved(run).outcomes) == 1
+    arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
+
+
+def test_the_podium_ends_an_event_and_leads_to_the_table(arcade: Arcade) -> None:
+    run = running(played(an_event(Format.KNOCKOUT, 5)))
+    at_next(arcade, run)
+    page = arcade.shown(PodiumPage)
+    assert page.best[0].entrant == run.event.standings[0].entrant
+    arcade.wait(4.0, draw=True)
+    arcade.press(Button.FIRE)
+    arcade.shown(TablePage)
+    arcade.press(Button.BACK)
+    arcade.shown(PodiumPage)
+
+
+def test_an_event_goes_on_after_a_restart_and_a_damaged_one_is_listed(arcade: Arcade) -> None:
+    run = running(played(an_event(), 1))
+    (run.path.parent / "broken.json").write_text("{", encoding="utf-8")
+    arcade.open(EventsPage(arcade.context))
+    page = arcade.shown(EventsPage)
+    broken = next(i for i, listed in enumerate(page.saved) if listed.event is None)
+    page.focus.move_to(str(broken))
+    arcade.press(Button.FIRE)
+    arcade.shown(EventsPage)
+    page.focus.move_to(str(1 - broken))
+    arcade.press(Button.FIRE)
+    assert arcade.shown(NextMatch).running.event == run.event
+
+
+def test_a_result_that_cannot_be_saved_is_said_and_kept(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(path: Path, event: object) -> None:
+        raise NotSaved("the disk is full")
+
+    run = running(an_event(brains="level1"))
+    at_next(arcade, run)
+    arcade.press(Button.FIRE)
+    monkeypatch.setattr(event_files, "save", full)
+    finish(arcade, (3, 1))
+    arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
+    assert arcade.shown(NextMatch).message == "app.unsaved"
+    assert len(run.event.outcomes) == 1
+
+
+def test_a_robot_that_is_gone_is_said_and_its_match_skipped(arcade: Arcade) -> None:
+    run = running(an_event(brains=str(folders().data / "robots" / "GONE.npz")))
+    page = at_next(arcade, run)
+    arcade.press(Button.FIRE)
+    assert arcade.shown(NextMatch).message == "events.failed"
+    arcade.press(Button.X)
+    assert page.message == "events.skipped"
+
+
+def test_no_folder_for_events_is_said(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(path: Path, event: object) -> None:
+        raise NotSaved("the disk is full")
+
+    monkeypatch.setattr(choice.event_files, "save", full)
+    page = EventsPage(arcade.context)
+    draft = Draft(entrants=[Entrant("ANA"), Entrant("BEA"), Entrant("EVA")])
+    assert page.begin(draft) == arcade.context.words("app.unsaved")
+
+
+def test_every_page_survives_every_press(arcade: Arcade) -> None:
+    run = running(played(an_event(Format.GRAND_PRIX, 6, 4), 2))
+    pages = (
+        lambda: EventsPage(arcade.context),
+        lambda: SetupPage(arcade.context, Draft(), lambda draft: "no"),
+        lambda: EntrantsPage(arcade.context, Draft(entrants=[Entrant("ANA")]), lambda draft: "no"),
+        lambda: LettersPage(arcade.context, lambda name: "", list),
+        lambda: NextMatch(arcade.context, run),
+        lambda: TablePage(arcade.context, run),
+        lambda: ResultsList(arcade.context, run),
+        lambda: Correction(arcade.context, run, run.event.fixtures[0]),
+        lambda: PodiumPage(arcade.context, running(played(an_event(count=3)), "over")),
+    )
+    for make in pages:
+        for button in Button:
+            for device in (KEYS[0], Device("mouse"), Device("pad", 99)):
+                scene = make()
+                scene.on_enter()
+                scene.update(0.7)
+                at = (960.0, 240.0) if device.kind == "mouse" else None
+                scene.handle(InputEvent(button, device, at=at))
+                scene.update(0.1)
