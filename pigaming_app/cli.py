@@ -25,6 +25,7 @@ JOBS = {  # modules of `jobs`
     "calibrate": "calibration of projector, mat and camera",
     "robots": "status of robots, radios and cameras; pairing, latency",
     "ros": "robots on the mat in a ROS network",
+    "report": "figures of a day of the arcade: matches, crashes, batteries",
     "fidelity": "measure real robots for the simulator",
     "doctor": "check of the installation, with advice",
     "test": "linter, types and tests",

@@ -12,19 +12,21 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from datetime import datetime
+from datetime import date, datetime
 from pathlib import Path
 from time import perf_counter
 from typing import IO, TYPE_CHECKING, Any
 
 import pygame
 
+from pigaming_app.events.day_log import DayLog
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.preloaded import MODULES
 from pigaming_app.storage.log import log_file, require_file
 from pigaming_app.storage.parsing import describe_error
@@ -63,6 +65,7 @@ class Options:
     without_title: bool = False  # show only that scene; close when it is popped
     kiosk: bool = False
     display: int | None = None
+    scoreboard: int | None = None  # display of the second screen, from 1, instead of that of the settings
     headless: bool = False
     frames: int | None = None
     screenshot: Path | None = None
@@ -100,7 +103,10 @@ def opened(options: Options) -> "Iterator[App]":
     context = Context(
         settings, scores, Words(settings.language), Controls(canvas.to_canvas), Sounds(), canvas, options.kiosk
     )
-    context.sounds.volume(settings.music, settings.sounds)
+    context.sounds.volume(*settings.loudness)
+    context.day_log = DayLog(data_folders.data)
+    context.day_log.delete_old(date.today())
+    context.day_log.note("start")
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
     if isinstance(session, RosSession):
@@ -119,6 +125,7 @@ def opened(options: Options) -> "Iterator[App]":
         context.network_compiler.end()
         gc.unfreeze()
         session.end()
+        context.day_log.note("end")
         context.sounds.close()
         _save(settings, data_folders.config)
         if scores.unsaved:
@@ -135,6 +142,7 @@ class App:
         self.notices, self.meter = Notices(), FrameMeter()
         session = context.session
         self.window = _camera_window(session)
+        self.desk = OperatorDesk(context, self.notices, options.scoreboard, not options.without_title)
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
@@ -209,6 +217,7 @@ class App:
         if any(self._is_close_event(event) for event in events) and not self.context.kiosk:
             self.stack.clear()
             return False
+        events = self.desk.filter(events, self.stack.scenes)
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
@@ -218,6 +227,7 @@ class App:
             updated = perf_counter()
             if not self.stack.scenes or not self._paint(cpu_start):
                 return False
+        self.desk.draw(self.context.canvas.screen)
         self._draw_notices(self.context.canvas.screen, seconds)
         if not first and len(self.stack.scenes) == 1 and not self.options.without_title and self.options.step is None:
             self._preload()
@@ -271,6 +281,7 @@ class App:
 
     def _frame(self, seconds: float) -> None:
         """Compose one picture and show it."""
+        began = perf_counter()
         painted = self.compose(seconds)
         if not self.stack.scenes:
             return
@@ -282,6 +293,7 @@ class App:
             self.context.canvas.flip()
         if self.window:
             self.window.update(seconds)
+        self.desk.show(seconds, 1.0 / FPS - (perf_counter() - began), self.stack.scenes)
         if self.options.should_close():
             self.stack.clear()
 
@@ -299,9 +311,10 @@ class App:
         """True if an event closes the arcade: with two windows open, SDL sends no QUIT for the first."""
         if event.type == pygame.QUIT:
             return True
-        if self.window is None or self.window.close_if_requested(event):
+        if event.type != pygame.WINDOWCLOSE:
             return False
-        return event.type == pygame.WINDOWCLOSE
+        others = [window for window in (self.window, self.desk) if window]
+        return bool(self.window or self.desk.window) and not any(one.close_if_requested(event) for one in others)
 
     def _dispatch(self, events: list[pygame.Event], seconds: float) -> None:
         """Dispatch input to the top scene and update it."""
@@ -317,9 +330,11 @@ class App:
         if stack.scenes:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
             stack.apply(stack.top.update(seconds))
+        self.desk.update(seconds, stack)
 
     def _recover(self) -> bool:
         """After a scene has failed: clean up and restart at the title; false if that is impossible."""
+        self.context.day_log.note("failure")
         self.context.stop_all_robots()
         self.failures = self.failures + 1 if self.seconds - self.failed_at < FAILURE_WINDOW else 1
         self.failed_at = self.seconds
