@@ -64,8 +64,12 @@ class Battery:
 Record = PlayedMatch | ProgramEvent | Battery
 
 
+class DamagedLine(ValueError):
+    """A line is no record; the message is a short reason."""
+
+
 class DayLog:
-    """Appends records to the log in a data folder; without a folder it keeps nothing. Never raises: losses are logged."""
+    """Appends records to the log in a data folder; without a folder it keeps nothing. Losses are logged, never raised."""
 
     def __init__(self, data: Path | None = None) -> None:
         self.folder = data / FOLDER if data else None
@@ -126,7 +130,7 @@ def read_day(data: Path, day: date) -> tuple[list[Record], int]:
         if line.strip():
             try:
                 records.append(parse_line(line))
-            except ValueError:
+            except DamagedLine:
                 skipped += 1
     return records, skipped
 
@@ -135,10 +139,20 @@ def to_line(record: Record) -> str:
     """The line of a record, without its end."""
     kind = {PlayedMatch: "match", Battery: "battery"}.get(type(record))
     values = {"what": kind} if kind else {}
-    return json.dumps({**values, **asdict(record), "at": record.at.isoformat(timespec="seconds")}, separators=(",", ":"))
+    return json.dumps(
+        {**values, **asdict(record), "at": record.at.isoformat(timespec="seconds")}, separators=(",", ":")
+    )
 
 
 def parse_line(line: str) -> Record:
+    """The record of a line. Raises DamagedLine."""
+    try:
+        return _parsed(line)
+    except ValueError as error:
+        raise DamagedLine(str(error)) from None
+
+
+def _parsed(line: str) -> Record:
     """The record of a line. Raises ValueError."""
     if len(line) > MAX_LINE:
         raise ValueError("the line is too long")

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import itertools
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -120,7 +121,7 @@ def figures(day: date, records: Sequence[Record], skipped: int = 0) -> DayReport
 def _crashes(program: Sequence[str]) -> int:
     """Starts that follow a start without an end between them."""
     bounds = [what for what in program if what != "failure"]
-    return sum(pair == ("start", "start") for pair in zip(bounds, bounds[1:], strict=False))
+    return sum(pair == ("start", "start") for pair in itertools.pairwise(bounds))
 
 
 def to_csv(report: DayReport) -> str:

@@ -325,6 +325,7 @@ def _on_screen(
             first_scene=scene,
             kiosk=arguments.kiosk,
             display=display(arguments),
+            scoreboard=arguments.scoreboard,
             screenshot=arguments.screenshot,
             screenshot_due=due,
             headless=arguments.headless,

@@ -3,21 +3,21 @@ of a group.
 """
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.operator.group_limit import GroupLimit
-from pigaming_app.scenes.scoreboard.camera_page import CameraPage
-from pigaming_app.scenes.scoreboard.score_page import ScorePage
-from pigaming_app.scenes.scoreboard.standby_page import StandbyPage
-from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
 from pigaming_app.ui.draw import BODY, FOCUS, ICE
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.notices import MAX_WIDTH, Notices
 from pigaming_app.ui.widgets.notices import Y as NOTICE_Y
+
+if TYPE_CHECKING:
+    from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
 
 HOLD, HOLD_IN_KIOSK = 1.0, 5.0  # s for which F10 is held
 MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
@@ -34,12 +34,6 @@ class OperatorDesk:
         self.held: float | None = None  # s for which F10 has been held
         self.window: ScoreboardWindow | None = None
         self.applied = context.settings.scoreboard
-        context.board_pages[:] = [
-            StandbyPage(context),
-            ScorePage(context),
-            *context.board_pages,
-            CameraPage(),
-        ]
         self._open(context.settings.scoreboard if scoreboard is None else scoreboard)
 
     def filter(self, events: Sequence[pygame.Event], scenes: Sequence[Scene]) -> list[pygame.Event]:
@@ -92,11 +86,16 @@ class OperatorDesk:
         """Open the second screen on a display, from 1, in place of the one before; 0: none."""
         self.close()
         self.window = None
-        if number:
-            canvas = self.context.canvas
-            self.window = ScoreboardWindow(number, canvas.display, self.context.board_pages, canvas.headless)
-            if self.window.trouble:
-                self.notices.add(self.context.words("scoreboard.none"))
+        if not number:
+            return
+        from pigaming_app.scenes.scoreboard.pages import complete
+        from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
+
+        canvas = self.context.canvas
+        complete(self.context)
+        self.window = ScoreboardWindow(number, canvas.display, self.context.board_pages, canvas.headless)
+        if self.window.trouble:
+            self.notices.add(self.context.words("scoreboard.none"))
 
     def _next_page(self, scenes: Sequence[Scene]) -> None:
         """Choose the next page that has something to show."""

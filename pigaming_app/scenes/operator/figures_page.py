@@ -134,5 +134,7 @@ def lines(words: Words, report: DayReport, trouble: bool) -> list[tuple[str, str
         ("crashes", "?" if trouble else str(crashes), ALARM if crashes or trouble else ICE),
     ]
     named = [(words(f"operator.{name}"), value, color) for name, value, color in out]
-    volts = [(words("operator.battery", robot=robot), words("fleet.volts", volts=f"{v:.1f}"), ICE) for robot, v in batteries]
+    volts = [
+        (words("operator.battery", robot=robot), words("fleet.volts", volts=f"{v:.1f}"), ICE) for robot, v in batteries
+    ]
     return [*named, *volts][:9]

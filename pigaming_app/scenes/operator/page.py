@@ -136,7 +136,9 @@ class OperatorPage:
             case "volume_cap":
                 return SettingValue("meter", (), settings.volume_cap)
             case "group_minutes":
-                texts = [words("setup.min", minutes=str(minutes)) if minutes else words("options.off") for minutes in LIMITS]
+                texts = [
+                    words("setup.min", minutes=str(minutes)) if minutes else words("options.off") for minutes in LIMITS
+                ]
                 return SettingValue("arrows", tuple(texts), _nearest(settings.group_minutes))
             case "scoreboard":
                 displays = self.context.canvas.displays()

@@ -26,7 +26,9 @@ def drawn(name: str, chosen: int) -> LitImage:
             ink.arc(-10, 0, r, -0.62, 0.62, lit, LINE)
         ink.line([(124, -90), (124, 90)], ALARM, LINE)
     elif name == "group_minutes":
-        ink.line([(-70, -104), (70, -104), (0, 0)], ICE, LINE, True).line([(-70, 104), (70, 104), (0, 0)], ICE, LINE, True)
+        ink.line([(-70, -104), (70, -104), (0, 0)], ICE, LINE, True).line(
+            [(-70, 104), (70, 104), (0, 0)], ICE, LINE, True
+        )
         ink.fill([(-34, 92), (34, 92), (0, 54)], FOCUS)
     elif name in ("scoreboard", "board"):
         on = chosen > 0 or name == "board"
@@ -36,7 +38,7 @@ def drawn(name: str, chosen: int) -> LitImage:
         if on and (name == "scoreboard" or chosen == 1):
             ink.text("3:2", TITLE - 24, 108, -26, ICE, "hero", "c")
         elif on:
-            icon(ink, {0: "crown", 2: "camera"}.get(chosen, "crown"), 108, -26, 40, ICE, LINE)
+            icon(ink, "crown", 108, -26, 40, ICE, LINE)
     else:
         ink.line(cut_box(-96, -96, 192, 192, 56), ALARM, LINE, True)
         ink.text("0:00", LABEL, 0, 0, ICE, "hero", "c")

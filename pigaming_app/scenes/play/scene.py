@@ -412,7 +412,7 @@ class MatchScene:
         return self.ai_assisted if plain else range(len(self.devices))
 
     def _note(self) -> None:
-        """Note the match in the day log, once: when it is over or left. Of several rounds, the last one counts them all."""
+        """Note the match in the day log, once: when it is over or left. Of several rounds, the last one is noted."""
         match, rounds = self.match, self.rounds
         if self.noted or match.state.tick == 0 or (match.over and rounds and not rounds.done):
             return

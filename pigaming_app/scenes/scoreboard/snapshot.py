@@ -87,7 +87,7 @@ def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
 def sides(scene: ShownMatch, words: Words) -> tuple[Side, ...]:
     """The robots of a match, or its teams, best first; robots of equal rank by seat."""
     match, setup = scene.match, scene.setup
-    keys, winners = standings(match.game, match.state)
+    keys, _winners = standings(match.game, match.state)
     robots = match.state.robots
     groups: dict[int, list[int]] = {}
     for seat in keys:

@@ -46,7 +46,7 @@ class StandbyPage:
 
 
 def best_today(scores: Scores, game: str) -> tuple[str, Best]:
-    """The feat and the best results of today in the game's table with the most results; the feat is empty without any."""
+    """Feat and best results of today in the game's table with the most of them; the feat is empty without any."""
     found = [(table, scores.best(table, days=1)) for table in scores.tables() if _countable(table, game)]
     if not any(rows for _, rows in found):
         return "", ()

@@ -1,4 +1,4 @@
-"""Glowing lines, badges and numbers of the second screen, in a cache of their own, so that no sprite of a match goes."""
+"""Lines, badges and numbers of the second screen, in a cache of their own, so that no sprite of a match is evicted."""
 
 import pygame
 
