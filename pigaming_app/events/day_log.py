@@ -69,7 +69,7 @@ class DamagedLine(ValueError):
 
 
 class DayLog:
-    """Appends records to the log in a data folder; without a folder it keeps nothing. Losses are logged, never raised."""
+    """Appends records to the log in a data folder; without one it keeps nothing. Losses are logged, never raised."""
 
     def __init__(self, data: Path | None = None) -> None:
         self.folder = data / FOLDER if data else None

@@ -13,7 +13,7 @@ FAREWELL = 20.0  # s from the limit, or from the end of the last match, to the t
 
 @runtime_checkable
 class Untimed(Protocol):
-    """A scene during which the time of a group stands still: attract mode and the operator's pages."""
+    """A scene during which the time of a group stands still if `untimed`: attract mode and the operator's pages."""
 
     untimed: bool
 
@@ -46,7 +46,7 @@ class GroupLimit:
         if len(scenes) < 2:
             self.seconds, self.farewell = 0.0, None
             return None
-        if any(isinstance(scene, Untimed) for scene in scenes):
+        if any(isinstance(scene, Untimed) and scene.untimed for scene in scenes):
             return None
         self.seconds += seconds
         self.in_match = any(isinstance(scene, InMatch) for scene in scenes)

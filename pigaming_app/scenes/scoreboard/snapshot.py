@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
-from pigaming_app.games.game import Setup
+from pigaming_app.games.game import PAIRS, Setup
 from pigaming_app.games.match import Match, standings
 from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.flow.stack import Scene
-from pigaming_app.scenes.results.headline import in_teams, is_allied, team_name
+from pigaming_app.scenes.results.headline import is_allied, team_name
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
 
@@ -92,7 +92,8 @@ def sides(scene: ShownMatch, words: Words) -> tuple[Side, ...]:
     groups: dict[int, list[int]] = {}
     for seat in keys:
         groups.setdefault(robots[seat].team, []).append(seat)
-    teams = is_allied(setup) or in_teams(match.outcome(), setup)
+    pairs = match.game.variants[setup.variant].team_mode == PAIRS
+    teams = is_allied(setup) or pairs or len(groups) < len(keys)
     if not teams:
         groups = {seat: [seat] for seat in keys}
     best = max(keys.values())
