@@ -26,6 +26,7 @@ JOBS = {  # modules of `jobs`
     "calibrate": "calibration of projector, mat and camera",
     "robots": "status of robots, radios and cameras; pairing, latency",
     "ros": "robots on the mat in a ROS network",
+    "report": "figures of a day of the arcade: matches, crashes, batteries",
     "fidelity": "measure real robots for the simulator",
     "autostart": "start of a kiosk with the session: on, off, show",
     "bundle": "the program as a folder, for machines without Python",

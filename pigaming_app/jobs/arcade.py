@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def options(parser: ArgumentParser) -> None:
     parser.usage = "%(prog)s [JOB] [OPTIONS]"
-    shared(parser, "--kiosk", "--display")
+    shared(parser, "--kiosk", "--display", "--scoreboard")
     mat_options(parser)
     ros_options(parser)
     parser.add_argument("--frames", type=integer(), help=argparse.SUPPRESS)
@@ -34,6 +34,7 @@ def run(arguments: Namespace) -> int:
         Options(
             kiosk=arguments.kiosk,
             display=display(arguments),
+            scoreboard=arguments.scoreboard,
             frames=arguments.frames,
             emulator_seed=arguments.emulate,
             ros_width=ros_width(arguments),

@@ -69,7 +69,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--real", metavar="SEATS", help="seats with real robots, such as 1,3, or all")
     mat_options(parser)
     ros_options(parser)
-    shared(parser, "--kiosk", "--display", "--json")
+    shared(parser, "--kiosk", "--display", "--scoreboard", "--json")
 
 
 def run(arguments: Namespace) -> int:
@@ -327,6 +327,7 @@ def _on_screen(
             first_scene=scene,
             kiosk=arguments.kiosk,
             display=display(arguments),
+            scoreboard=arguments.scoreboard,
             screenshot=arguments.screenshot,
             screenshot_due=due,
             headless=arguments.headless,

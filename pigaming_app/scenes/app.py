@@ -12,19 +12,21 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from datetime import datetime
+from datetime import date, datetime
 from pathlib import Path
 from time import perf_counter
 from typing import IO, TYPE_CHECKING, Any
 
 import pygame
 
+from pigaming_app.events.day_log import DayLog
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.preloaded import MODULES
 from pigaming_app.storage.heartbeat import Heartbeat
 from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
@@ -66,6 +68,7 @@ class Options:
     kiosk: bool = False
     heartbeat: Heartbeat | None = None  # for a supervisor, beaten once a frame
     display: int | None = None
+    scoreboard: int | None = None  # display of the second screen, from 1, instead of that of the settings
     headless: bool = False
     frames: int | None = None
     screenshot: Path | None = None
@@ -103,7 +106,10 @@ def opened(options: Options) -> "Iterator[App]":
     context = Context(
         settings, scores, Words(settings.language), Controls(canvas.to_canvas), Sounds(), canvas, options.kiosk
     )
-    context.sounds.volume(settings.music, settings.sounds)
+    context.sounds.volume(*settings.loudness)
+    context.day_log = DayLog(data_folders.data)
+    context.day_log.delete_old(date.today())
+    context.day_log.note("start")
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
     if isinstance(session, RosSession):
@@ -122,6 +128,7 @@ def opened(options: Options) -> "Iterator[App]":
         context.network_compiler.end()
         gc.unfreeze()
         session.end()
+        context.day_log.note("end")
         context.sounds.close()
         _save(settings, data_folders.config)
         if scores.unsaved:
@@ -139,6 +146,7 @@ class App:
         self.pulse = Pulse(options.heartbeat) if options.heartbeat else None
         session = context.session
         self.window = _camera_window(session)
+        self.desk = OperatorDesk(context, self.notices, options.scoreboard, not options.without_title)
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
@@ -215,6 +223,7 @@ class App:
         if any(self._is_close_event(event) for event in events) and not self.context.kiosk:
             self.stack.clear()
             return False
+        events = self.desk.filter(events, self.stack.scenes)
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
@@ -226,6 +235,7 @@ class App:
             updated = perf_counter()
             if not self.stack.scenes or not self._paint(cpu_start):
                 return False
+        self.desk.draw(self.context.canvas.screen)
         self._draw_notices(self.context.canvas.screen, seconds)
         if not first and len(self.stack.scenes) == 1 and not self.options.without_title and self.options.step is None:
             self._preload()
@@ -279,6 +289,7 @@ class App:
 
     def _frame(self, seconds: float) -> None:
         """Compose one picture and show it."""
+        began = perf_counter()
         painted = self.compose(seconds)
         if not self.stack.scenes:
             return
@@ -290,6 +301,7 @@ class App:
             self.context.canvas.flip()
         if self.window:
             self.window.update(seconds)
+        self.desk.show(seconds, 1.0 / FPS - (perf_counter() - began), self.stack.scenes)
         if self.options.should_close():
             self.stack.clear()
 
@@ -307,9 +319,10 @@ class App:
         """True if an event closes the arcade: with two windows open, SDL sends no QUIT for the first."""
         if event.type == pygame.QUIT:
             return True
-        if self.window is None or self.window.close_if_requested(event):
+        if event.type != pygame.WINDOWCLOSE:
             return False
-        return event.type == pygame.WINDOWCLOSE
+        others = [window for window in (self.window, self.desk) if window]
+        return bool(self.window or self.desk.window) and not any(one.close_if_requested(event) for one in others)
 
     def _dispatch(self, events: list[pygame.Event], seconds: float) -> None:
         """Dispatch input to the top scene and update it."""
@@ -325,9 +338,11 @@ class App:
         if stack.scenes:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
             stack.apply(stack.top.update(seconds))
+        self.desk.update(seconds, stack)
 
     def _recover(self) -> bool:
         """After a scene has failed: clean up and restart at the title; false if that is impossible."""
+        self.context.day_log.note("failure")
         self.context.stop_all_robots()
         self.failures = self.failures + 1 if self.seconds - self.failed_at < FAILURE_WINDOW else 1
         self.failed_at = self.seconds

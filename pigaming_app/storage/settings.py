@@ -9,6 +9,7 @@ import logging
 import os
 import re
 from dataclasses import asdict, dataclass, field, fields
+from datetime import time
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -112,6 +113,14 @@ class RobotKinds:
         return None if short else "not a list of four short texts"
 
 
+class TimeOfDay:
+    """A time of day such as 22:30."""
+
+    def error(self, value: object) -> str | None:
+        valid = isinstance(value, str) and re.fullmatch("([01][0-9]|2[0-3]):[0-5][0-9]", value)
+        return None if valid else "no time such as 22:30"
+
+
 class HexKey:
     """Nothing, or 32 hexadecimal digits."""
 
@@ -189,6 +198,11 @@ class Settings:
     )  # of the robot on each radio; empty: as it announces
     pad_driving: str = _setting("", ShortText())  # driving style last chosen on a pad; empty: never
     keys_driving: str = _setting("", ShortText())  # the same on the keyboard
+    scoreboard: int = _setting(0, Range(0, 16))  # the display of the second screen, from 1; 0: none
+    volume_cap: int = _setting(10, Range(0, 10))  # of music and sounds
+    quiet_from: str = _setting("00:00", TimeOfDay())  # title and attract mode are silent from here
+    quiet_until: str = _setting("00:00", TimeOfDay())  # to here; the same time: never
+    group_minutes: int = _setting(0, Range(0, 120))  # from the title to the title; 0: no limit
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:
@@ -203,6 +217,16 @@ class Settings:
         problems += _fill_all(settings, dict(table or {}), folder / FILE)
         settings._base = settings._seen = _flat(settings)
         return settings, problems
+
+    @property
+    def loudness(self) -> tuple[int, int]:
+        """Volumes of music and sounds, 0 to 10, within the cap."""
+        return min(self.music, self.volume_cap), min(self.sounds, self.volume_cap)
+
+    def quiet(self, now: time) -> bool:
+        """True if a local time is within the quiet hours, which may pass midnight."""
+        begin, end, at = self.quiet_from, self.quiet_until, f"{now:%H:%M}"
+        return begin <= at < end if begin <= end else at >= begin or at < end
 
     def choice(self, game: str) -> Choice:
         """The last choices for a game, to be modified in place."""

@@ -2,8 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 
 from pigaming_app.ai.registry import POINT, RIVALS
+from pigaming_app.events.day_log import Battery, PlayedMatch, ProgramEvent, Record
+from pigaming_app.events.day_report import figures as day_figures
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.events.spec import Entrant, Format
@@ -33,6 +36,8 @@ from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.operator.figures_page import FiguresPage
+from pigaming_app.scenes.operator.page import OperatorPage
 from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.device_table import DeviceTable
@@ -251,6 +256,19 @@ def events(arcade: Arcade) -> Scene:
     return scene
 
 
+def figures(arcade: Arcade) -> FiguresPage:
+    """The figures of a busy day."""
+    page = FiguresPage(arcade.context)
+    day = page.report.day
+    records: list[Record] = [ProgramEvent(datetime(day.year, day.month, day.day, 8), "start")] * 13
+    for hour in range(9, 20):
+        at = datetime(day.year, day.month, day.day, hour)
+        records += [PlayedMatch(at, game, 299.0, 4, 0) for i, game in enumerate(games()) for _ in range(4 * i + hour)]
+        records += [Battery(at, robot, 4.9) for robot in range(1, 5)]
+    page.report = day_figures(day, records)
+    return page
+
+
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "events": events,
     **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
@@ -279,6 +297,8 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "title": lambda arcade: Title(arcade.context),
     "options": lambda arcade: OptionsPage(arcade.context),
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
+    "operator day": lambda arcade: OperatorPage(arcade.context),
+    "operator figures": figures,
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
     "pad test": lambda arcade: ControlsTest(arcade.context),
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),

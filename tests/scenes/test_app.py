@@ -1,8 +1,9 @@
 """The main loop: it starts, survives a failing scene, reports the error, and shuts down cleanly."""
 
+import json
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pygame
@@ -11,8 +12,10 @@ import pytest
 from pigaming_app.scenes.app import App, Options, run
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, StackOperation
+from pigaming_app.scenes.operator.desk import OperatorDesk
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
-from tests.scenes.arcade import Floor
+from tests.scenes.arcade import Floor, setup
 
 pytestmark = pytest.mark.usefixtures("_cache_of_its_own")
 
@@ -168,3 +171,32 @@ def test_a_pointer_that_lies_there_does_not_take_the_focus() -> None:
 
     run(Options(headless=True, first_scene=title, frames=3, step=STEP))
     assert titles[0].focus.name == "pitanks"
+
+
+def test_the_day_log_notes_start_failure_and_end(home: Path) -> None:
+    assert run(Options(headless=True, first_scene=Broken, frames=4, step=STEP)) == 0
+    (file,) = (home / "data" / "days").iterdir()
+    assert [line["what"] for line in map(json.loads, file.read_text().splitlines())] == ["start", "failure", "end"]
+
+
+def test_the_second_screen_follows_a_match(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    painted: list[int] = []
+    show = OperatorDesk.show
+
+    def watched(desk: OperatorDesk, seconds: float, left: float, scenes: Sequence[Scene]) -> None:
+        show(desk, seconds, 1.0, scenes)
+        assert desk.window
+        assert desk.window.window
+        painted.append(sum(pygame.transform.average_color(desk.window.window.get_surface())[:3]))
+
+    monkeypatch.setattr(OperatorDesk, "show", watched)
+    options = Options(
+        headless=True,
+        scoreboard=2,
+        first_scene=lambda context: MatchScene(context, setup("easy easy off off", minutes=1.0)),
+        frames=120,
+        step=STEP,
+    )
+    assert run(options) == 0
+    assert painted[0] == 0
+    assert painted[-1] > 0

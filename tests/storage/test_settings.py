@@ -4,8 +4,10 @@ import errno
 import os
 import tomllib
 from dataclasses import replace
+from datetime import time
 
 import pytest
+import tomli_w
 
 from pigaming_app.storage import safe_files as keeping
 from pigaming_app.storage.safe_files import NotSaved
@@ -196,3 +198,32 @@ def test_strengths_from_when_there_were_three_are_levels_now(tmp_path):
         (tmp_path / FILE).write_text(f'strength = "{old}"\n', encoding="utf-8")
         settings, problems = Settings.load(tmp_path)
         assert (settings.strength, problems) == (level, [])
+
+
+@pytest.mark.parametrize(
+    ("begin", "end", "quiet", "loud"),
+    [
+        ("22:00", "07:30", "22:00 23:59 00:00 07:29", "21:59 07:30 12:00"),
+        ("09:00", "10:00", "09:00 09:59", "08:59 10:00 00:00"),
+        ("23:30", "00:00", "23:30 23:59", "23:29 00:00 12:00"),
+        ("00:00", "00:00", "", "00:00 12:00 23:59"),
+        ("12:00", "12:00", "", "00:00 12:00 23:59"),
+    ],
+)
+def test_quiet_hours_may_pass_midnight(begin, end, quiet, loud):
+    settings = Settings(quiet_from=begin, quiet_until=end)
+    assert all(settings.quiet(time.fromisoformat(at)) for at in quiet.split())
+    assert not any(settings.quiet(time.fromisoformat(at)) for at in loud.split())
+
+
+def test_the_cap_limits_both_volumes():
+    assert Settings(music=9, sounds=4, volume_cap=6).loudness == (6, 4)
+    assert Settings(music=9, sounds=4).loudness == (9, 4)
+
+
+@pytest.mark.parametrize("value", ["24:00", "9:00", "12:60", "noon", "", 900, "09:00\n"])
+def test_a_time_that_is_none_is_ignored(tmp_path, value):
+    (tmp_path / FILE).write_text(tomli_w.dumps({"quiet_from": value}))
+    settings, problems = Settings.load(tmp_path)
+    assert settings == Settings()
+    assert "no time such as 22:30" in problems[0]

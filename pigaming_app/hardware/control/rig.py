@@ -141,6 +141,11 @@ class Rig:
         self._closing = threading.Event()
 
     @property
+    def image(self) -> Image | None:
+        """The newest picture, grey, (height, width), as long as there is one."""
+        return self._image
+
+    @property
     def channels(self) -> Sequence[int]:
         """Index of each robot's radio in the packets of the link."""
         return self._channels

@@ -93,6 +93,11 @@ SHARED: dict[str, dict[str, Any]] = {
         "metavar": "NUMBER",
         "help": "display, from 1; default: that of the settings",
     },
+    "--scoreboard": {
+        "type": integer(high=16),
+        "metavar": "NUMBER",
+        "help": "display of a second screen with scores, from 1; F2 changes its page",
+    },
     "--emulate": {
         "type": integer(0),
         "nargs": "?",

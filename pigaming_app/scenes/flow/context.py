@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.events.day_log import DayLog, now
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import settings_problem
+from pigaming_app.scenes.flow.board_page import BoardPage
 from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.scenes.recordings.highlights import Highlights
@@ -46,6 +48,9 @@ class Context:
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)
     highlights: Highlights = field(default_factory=Highlights)  # for attract mode
+    day_log: DayLog = field(default_factory=DayLog)
+    board_pages: list[BoardPage] = field(default_factory=list)  # of the second screen, in the order of the F2 key
+    board_page: str = "scores"  # the one chosen
     sticks: Callable[[int, bool], StickState | None] = lambda *_: None  # joysticks of a network: see RosSession
     match_watchers: list[Callable[[dict[str, Any]], None]] = field(default_factory=list)  # get the state of a match
     dropped: list[Path] = field(default_factory=list)  # files dropped onto the window
@@ -80,6 +85,11 @@ class Context:
         """Compile what the Lab needs, in the background. Raises OSError."""
         self.compiler.start()
         self.network_compiler.start()
+
+    @property
+    def quiet(self) -> bool:
+        """True in the quiet hours: title and attract mode are silent."""
+        return self.settings.quiet(now().time())
 
     def hush(self) -> None:
         """Stop music and rumbling, for a page over a match."""

@@ -44,6 +44,7 @@ ROWS = (
     "fullscreen",
     "padtest",
     "robots",
+    "day",
     "reset",
 )
 FOR_CHILDREN = ("language", "flashes", "shake", "rumble", "padtest")
@@ -55,7 +56,7 @@ class OptionsPage:
     """The options; `operator`: all rows, also in a kiosk."""
 
     def __init__(self, context: Context, operator: bool = False) -> None:
-        self.context, self.operator = context, operator
+        self.context, self.operator, self.untimed = context, operator, operator
         self.rows: Sequence[str] = ROWS
         if context.kiosk:
             self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
@@ -110,7 +111,7 @@ class OptionsPage:
         dials.describe(screen, words(f"options.{focus}"), words(f"options.{focus}_line"))
         pictures.sketch(screen, focus, values[focus].chosen, self.clock)
         if self.clearing.share:
-            pictures.ring(screen, self.clearing.share)
+            dials.ring(screen, self.clearing.share)
         if self.navigation.sentence:
             call_to_action(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
         self.navigation.prompts.draw(screen)
@@ -161,7 +162,7 @@ class OptionsPage:
             case "reset":
                 key = "cleared" if self.cleared else "clear"
                 return SettingValue("deed", (words(f"options.{key}"),))
-        return SettingValue("deed", (words("options.open" if name in ("padtest", "robots") else "options.end"),))
+        return SettingValue("deed", (words("options.open" if name in ("padtest", "robots", "day") else "options.end"),))
 
     def _change(self, name: str, by: int) -> None:
         """Step a row's value."""
@@ -187,6 +188,10 @@ class OptionsPage:
             from pigaming_app.scenes.robots.menu import RobotsMenu
 
             return Push(RobotsMenu(self.context))
+        if name == "day":
+            from pigaming_app.scenes.operator.page import OperatorPage
+
+            return Push(OperatorPage(self.context))
         self.cleared = False
         self.clearing.begin(event)
         return None
@@ -215,7 +220,7 @@ class OptionsPage:
                 self.prewarm = PrewarmQueue(self._prewarm_jobs())
             case "music" | "sounds":
                 setattr(settings, name, chosen)
-                context.sounds.volume(settings.music, settings.sounds)
+                context.sounds.volume(*settings.loudness)
             case "flashes":
                 settings.flashes = FLASHES[chosen]
             case "shake":

@@ -6,7 +6,6 @@ import pygame
 
 from pigaming_app.scenes.views.sprites.robot import seat_robot
 from pigaming_app.ui.draw import (
-    ALARM,
     FOCUS,
     HAIR,
     ICE,
@@ -21,12 +20,10 @@ from pigaming_app.ui.draw import (
     icon,
 )
 from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.sprites import Sprite, trim
+from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
 from pigaming_app.ui.widgets.setting_row import CENTRE
-
-RING_R, RING_STEPS = 150, 24  # px, and images of the ring
 
 
 def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> None:
@@ -44,21 +41,6 @@ def sketch(screen: pygame.Surface, name: str, chosen: int, seconds: float) -> No
         blit_sprite(screen, _robot(), x + jolt, y + jolt // 2)
     else:
         drawn(name, chosen, seconds).draw(screen, x, y)
-
-
-def ring(screen: pygame.Surface, share: float) -> None:
-    """The progress of a held button, round the picture: `share` in 0..1."""
-    image, dx, dy = filling(math.ceil(share * RING_STEPS))
-    screen.blit(image, (CENTRE[0] + dx, CENTRE[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
-
-
-@cached
-def filling(step: int) -> Sprite:
-    """A ring filled to `step` of RING_STEPS, centred on (0, 0)."""
-    half = RING_R + 22
-    ink = GlowCanvas(2 * half, 2 * half)
-    ink.arc(half, half, RING_R, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), ALARM, LINE)
-    return trim(ink.lit(0.8), half, half)
 
 
 def drawn(name: str, chosen: int, seconds: float = 0.0) -> LitImage:
@@ -140,6 +122,10 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
         for y in (-118, 118):
             ink.line([(-34, y), (34, y)], FOCUS, LINE)
         ink.line([(122, -22), (146, 0), (122, 22)], FOCUS, LINE)
+    elif name == "day":
+        for i, high in enumerate((60, 130, 190, 110)):
+            ink.line(cut_box(-134 + 70 * i, 100 - high, 48, high, 8), FOCUS if high == 190 else ICE, LINE, True)
+        ink.line([(-160, 112), (160, 112)], STEEL, LINE)
     elif name == "reset":
         icon(ink, "crown", 0, 0, 96, FOCUS, LINE)
         ink.line([(-120, 96), (120, -96)], ICE, LINE)

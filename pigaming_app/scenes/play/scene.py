@@ -15,6 +15,7 @@ import pygame
 
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.registry import DRIVING, make_brain, new_match
+from pigaming_app.events.day_log import PlayedMatch, now
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
@@ -91,6 +92,7 @@ class MatchScene:
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
         self.idle_seats = IdleSeats()
+        self.began, self.noted = now(), False  # for the day log
         self.ai_assisted: set[int] = set()
         self.join_allowed = self.restart_allowed = after is None
         self.names: Sequence[str] = ()  # of the first seats, in an event
@@ -113,6 +115,7 @@ class MatchScene:
 
     def on_leave(self) -> None:
         self.context.controls.stop_rumble()
+        self._note()
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
@@ -144,6 +147,7 @@ class MatchScene:
             return Swap(self.rematch(self.context, self.setup, self.devices))
         if self.match.over and not self.ending.begun:
             self.ending.begin(self._without_records)
+            self._note()
         if self.stop_requested:
             return self.ending.stop(seconds)
         if self.match.over and self.ending.round_break is None:
@@ -166,6 +170,8 @@ class MatchScene:
             return None
         self.idle += seconds
         self._replace_idle(seconds)
+        if self.match.state.tick == 0:
+            self.began = now()
         self.runner.advance(seconds, self.speed)
         if self.humans and self.idle > HALT_AFTER:
             return Push(StillThere(self))
@@ -306,6 +312,16 @@ class MatchScene:
         """True if the match waits for an event that may never come."""
         return False
 
+    @property
+    def waiting(self) -> bool:
+        """True while the countdown runs."""
+        return self.countdown.locked
+
+    @property
+    def robots_kind(self) -> str:
+        """What drives: simulated, emulated or real robots."""
+        return "simulated"
+
     def advance_paused(self, seconds: float) -> None:
         """Advance by `seconds` while a page is open."""
 
@@ -395,6 +411,23 @@ class MatchScene:
         """
         plain = self.speed == 1.0 and self.arena is None and not self.match.state.shifts
         return self.ai_assisted if plain else range(len(self.devices))
+
+    def _note(self) -> None:
+        """Note the match in the day log, once: when it is over or left. Of several rounds, the last one is noted."""
+        match, rounds = self.match, self.rounds
+        if self.noted or match.state.tick == 0 or (match.over and rounds and not rounds.done):
+            return
+        self.noted = True
+        seconds = sum(outcome.seconds for outcome in rounds.outcomes) if rounds else 0.0
+        if not (rounds and match.over):
+            seconds += match.seconds
+        seats = sum(robot.present for robot in match.state.robots)
+        people = len(self.humans)
+        self.context.day_log.add(
+            PlayedMatch(
+                self.began, self.setup.game, round(seconds, 2), people, seats - people, self.robots_kind, match.over
+            )
+        )
 
     def _begin_round(self) -> StackOperation:
         scene = self.next_round()

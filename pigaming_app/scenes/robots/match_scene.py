@@ -4,9 +4,11 @@ handed over to a simulated robot and back.
 
 import logging
 from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any
 
 import pygame
 
+from pigaming_app.events.day_log import Battery, now
 from pigaming_app.games.arenas import load, with_things
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
@@ -191,6 +193,21 @@ class RealMatch(MatchScene):
         return {"robots": lambda access: SwapPage(self, access)}
 
     @property
+    def waiting(self) -> bool:
+        """True while robots drive to their start positions, and while the countdown runs."""
+        return self.gathering is not None or super().waiting
+
+    @property
+    def robots_kind(self) -> str:
+        """What drives: simulated robots only, or emulated or real ones as well."""
+        return "simulated" if not self.real else "emulated" if self.session.emulated else "real"
+
+    @property
+    def camera_image(self) -> Any:
+        """The newest picture of the camera, grey, (height, width); None without one."""
+        return self.plant.rig.image
+
+    @property
     def blocked(self) -> bool:
         """True if a robot has a fault."""
         return self.plant.safety.pauses
@@ -259,6 +276,16 @@ class RealMatch(MatchScene):
         return self.match_of(setup, self.devices, self.real, rounds=self.rounds, things=self.things)
 
     # ---- inside
+
+    def _note(self) -> None:
+        """Note the match in the day log, with the batteries of its robots."""
+        before = self.noted
+        super()._note()
+        if self.noted and not before:
+            for robot in sorted(self.real):
+                report = self.plant.rig.telemetry(robot)
+                if report and report.battery:
+                    self.context.day_log.add(Battery(now(), robot + 1, round(report.battery, 2)))
 
     def _take_places(self, gathering: TakePlaces, seconds: float) -> StackOperation:
         """Drive the robots to their start positions."""

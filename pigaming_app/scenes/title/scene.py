@@ -52,6 +52,7 @@ class Title:
         self.focus = Focus(self._spots())
         self.game = next(iter(games()))  # the game whose tile was focused last
         self.lab: Scene | None = None
+        self.music = True  # off in the quiet hours
 
     def on_enter(self) -> None:
         """Release the sprites of matches and start the music; in a kiosk, offer its rule sets again."""
@@ -59,7 +60,8 @@ class Title:
         if self.context.kiosk:
             reset_rules(self.context.settings)
         self.context.idle = 0.0
-        self.context.sounds.music(True)
+        self.music = not self.context.quiet
+        self.context.sounds.music(self.music)
         self.focus.set_spots(self._spots())
 
     def handle(self, event: InputEvent) -> StackOperation:
@@ -76,6 +78,7 @@ class Title:
         """Animate; start attract mode when idle."""
         self.clock += seconds
         self.focus.update(seconds)
+        self._keep_quiet()
         if self.kiosk_unlock.unlocked(seconds):
             from pigaming_app.scenes.options.page import OptionsPage
 
@@ -101,6 +104,12 @@ class Title:
         self.focus.draw(screen)
 
     # ---- internals
+
+    def _keep_quiet(self) -> None:
+        """Stop the music when the quiet hours begin, and start it when they end."""
+        if self.music == self.context.quiet:
+            self.music = not self.music
+            self.context.sounds.music(self.music)
 
     def _open(self, name: str) -> StackOperation:
         if name in LANGUAGES:

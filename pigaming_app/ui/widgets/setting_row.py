@@ -7,11 +7,13 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.ui.draw import (
+    ALARM,
     BODY,
     FOCUS,
     HAIR,
     ICE,
     LABEL,
+    LINE,
     MIST,
     STEEL,
     THIN,
@@ -22,6 +24,7 @@ from pigaming_app.ui.draw import (
     text_width,
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
+from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, paragraph, text
 from pigaming_app.ui.i18n import Words
@@ -35,6 +38,7 @@ AT = 500  # px from a row's left edge to its value
 ROOM = W - AT - 40
 CELL, CELLS = 40, 10  # px from one cell of a meter to the next
 CENTRE = (PANEL.centerx, PANEL.y + 190)  # of the picture
+RING_R, RING_STEPS = 150, 24  # px, and images of the ring round it
 
 
 TOP, PITCH, HIGH = 246, 88, 64  # px: the middle of the first row, from row to row, height of a row
@@ -162,3 +166,18 @@ def description(title: str, sentence: str) -> tuple[LitImage, ...]:
     """A title and its description, wrapped to the panel."""
     room = PANEL.w - 80
     return (text(title, LABEL, ICE, "head", "l", room), *paragraph(sentence, room, 3, MIST))
+
+
+def ring(screen: pygame.Surface, share: float) -> None:
+    """The progress of a held button, round the picture: `share` in 0..1."""
+    image, dx, dy = filling(math.ceil(share * RING_STEPS))
+    screen.blit(image, (CENTRE[0] + dx, CENTRE[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
+
+
+@cached
+def filling(step: int) -> Sprite:
+    """A ring filled to `step` of RING_STEPS, centred on (0, 0)."""
+    half = RING_R + 22
+    ink = GlowCanvas(2 * half, 2 * half)
+    ink.arc(half, half, RING_R, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), ALARM, LINE)
+    return trim(ink.lit(0.8), half, half)

@@ -1,0 +1,1 @@
+"""The operator's pages, and what runs on every screen for the operator."""

@@ -1,0 +1,71 @@
+"""The chart of a day: matches per hour as bars, stacked by game."""
+
+from collections.abc import Mapping
+
+from pigaming_app.events.day_report import DayReport
+from pigaming_app.ui.draw import BODY, FOCUS, HAIR, ICE, LABEL, MIST, STEEL, Color, cut_box, dim, text_width
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.surface_cache import cached
+
+X, Y, W, H = 170, 270, 1010, 500  # px: the plot without its labels
+FEWEST_HOURS = 8
+COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176))
+LEGEND_Y = 868
+Bars = tuple[tuple[int, tuple[int, ...]], ...]  # hour, and its matches by game
+
+
+def bars_of(report: DayReport, games: Mapping[str, object]) -> Bars:
+    """Bars of at least FEWEST_HOURS successive hours round those with matches; other games count as the last one."""
+    hours, names = report.hours, list(games)
+    first, last = (min(hours), max(hours)) if hours else (9, 16)
+    while last - first + 1 < FEWEST_HOURS:
+        first, last = max(0, first - (last - first) % 2), min(23, last + 1 - (last - first) % 2)
+        if first == 0 and last - first + 1 < FEWEST_HOURS:
+            last += 1
+    out = []
+    for hour in range(first, last + 1):
+        counts = [0] * len(names)
+        for game, count in hours.get(hour, {}).items():
+            counts[names.index(game) if game in names else -1] += count
+        out.append((hour, tuple(counts)))
+    return tuple(out)
+
+
+def step_of(most: int) -> int:
+    """The step between lines of the chart, so that there are at most five."""
+    return next(step for k in range(9) for step in (10**k, 2 * 10**k, 5 * 10**k) if step * 5 >= most)
+
+
+@cached
+@resumable
+def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
+    """The bars with their axes and the names of the games."""
+    layer = Layer(96, 200, 1130, 720)
+    most = max(1, *(sum(counts) for _, counts in bars))
+    step = step_of(most)
+    top = step * -(-most // step)
+    for value in range(0, top + 1, step):
+        y = Y + H - H * value / top
+        layer.glow.line([(X, y), (X + W, y)], dim(STEEL, 1.0 if value == 0 else 0.6), HAIR)
+        layer.canvas.body(str(value), X - 24, y, MIST, "r", 36)
+    yield
+    pitch = W / len(bars)
+    for i, (hour, counts) in enumerate(bars):
+        x, below = X + pitch * i, 0
+        for game, count in enumerate(counts):
+            if count:
+                high = H * count / top
+                box = cut_box(x + 0.16 * pitch, Y + H - H * below / top - high + 2, 0.68 * pitch, max(4, high - 4), 3)
+                layer.glow.fill(box, COLORS[game % len(COLORS)])
+                below += count
+        if len(bars) <= 12 or i % 2 == 0:
+            layer.canvas.body(str(hour), x + pitch / 2, Y + H + 36, MIST, "c", 36)
+        yield
+    x = X
+    for game, name in enumerate(names):
+        layer.glow.fill(cut_box(x, LEGEND_Y - 16, 32, 32, 6), COLORS[game % len(COLORS)])
+        layer.canvas.body(name, x + 48, LEGEND_Y, ICE, "l", BODY)
+        x += 48 + round(text_width(name, BODY, "body")) + LABEL
+    yield
+    return (yield from layer.render_steps())

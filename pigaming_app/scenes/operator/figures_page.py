@@ -1,0 +1,140 @@
+"""The figures of a day: a chart of the matches per hour, and numbers beside it. They can be exported as CSV."""
+
+import logging
+from datetime import date
+
+import pygame
+
+from pigaming_app.events.day_log import days, now
+from pigaming_app.events.day_report import DayReport, report_of, to_csv
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Home, StackOperation
+from pigaming_app.scenes.operator.chart import bars_of, chart
+from pigaming_app.storage.parsing import describe_error
+from pigaming_app.storage.safe_files import NotSaved, write_atomic
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import ALARM, BODY, ICE, LABEL, MIST, Color
+from pigaming_app.ui.draw.layers import RIGHT, backdrop, span
+from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.arrows import as_direction, draw_arrows
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
+
+FOLDER = "reports"  # of exports, in the data folder
+PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 700)
+IDLE, SENTENCE_SECONDS = 90.0, 5.0  # s
+PITCH = 72  # px from line to line
+log = logging.getLogger("pigaming")
+
+
+class FiguresPage:
+    """Today first; left and right show other days."""
+
+    untimed = True
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.data = folders().data
+        today = now().date()
+        self.days = sorted({*days(self.data), today})
+        self.trouble = False  # the log cannot be read
+        self.report = DayReport(today)
+        self._show(today)
+        focus = Focus([FocusSpot("export", PANEL)])
+        hints = [
+            (Button.RIGHT, "operator.hint_day"),
+            (Button.FIRE, "operator.hint_export"),
+            (Button.BACK, "options.hint_back"),
+        ]
+        self.navigation = Navigation(context, focus, hints, IDLE, SENTENCE_SECONDS)
+
+    def on_enter(self) -> None:
+        pass
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """Left and right change the day, FIRE exports it."""
+        event = as_direction(self.navigation.prompts.as_button(event), self.arrows)
+        if event.button in (Button.LEFT, Button.RIGHT):
+            at = self.days.index(self.report.day) + (1 if event.button is Button.RIGHT else -1)
+            if 0 <= at < len(self.days):
+                self.context.sounds.play("move")
+                self._show(self.days[at])
+        elif event.button in (Button.FIRE, Button.START):
+            self._export()
+        elif event.button is Button.BACK:
+            return self.navigation.handle(event)
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        turn = self.navigation.update(seconds)
+        return Home() if turn else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words, report = self.context.words, self.report
+        screen.blit(backdrop(), (0, 0))
+        heading(words("operator.figures")).draw(screen)
+        text(report.day.isoformat(), LABEL, ICE, "head", "r").draw(screen, RIGHT - 80, 112)
+        draw_arrows(screen, self.arrows)
+        black_out(screen, PANEL)
+        frame(*PANEL.size).draw(screen, *PANEL.topleft)
+        chart(bars_of(report, games()), tuple(words(f"games.{game}") for game in games())).draw(screen)
+        if not report.matches:
+            text(words("operator.no_matches"), LABEL, MIST, "head", "c", 900).draw(screen, 675, 520)
+        for i, (name, value, color) in enumerate(lines(words, report, self.trouble)):
+            y = PANEL.y + 62 + PITCH * i
+            text(name, BODY, MIST, "body", "l", 360).draw(screen, PANEL.x + 36, y)
+            text(value, LABEL, color, "head", "r", 230).draw(screen, PANEL.right - 36, y)
+        if self.navigation.sentence:
+            call_to_action(self.navigation.sentence, "", BODY).draw(screen, 960, 930)
+        self.navigation.prompts.draw(screen)
+
+    @property
+    def arrows(self) -> dict[Button, tuple[int, int]]:
+        """The arrows beside the date, where there are other days."""
+        at = self.days.index(self.report.day)
+        left = {Button.LEFT: (RIGHT - 480, 112)} if at > 0 else {}
+        return {**left, **({Button.RIGHT: (RIGHT - 20, 112)} if at < len(self.days) - 1 else {})}
+
+    def _show(self, day: date) -> None:
+        try:
+            self.report, self.trouble = report_of(self.data, day), False
+        except OSError as error:
+            log.warning("The day log cannot be read: %s.", describe_error(error))
+            self.report, self.trouble = DayReport(day), True
+
+    def _export(self) -> None:
+        """Write the matches of the day as CSV."""
+        path = self.data / FOLDER / f"pigaming-{self.report.day}.csv"
+        try:
+            write_atomic(path, to_csv(self.report).encode())
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self.navigation.show_message(self.context.words("app.unsaved"))
+            return
+        self.context.sounds.play("accept")
+        self.navigation.show_message(self.context.words("operator.exported", file=f"{FOLDER}/{path.name}"))
+
+
+def lines(words: Words, report: DayReport, trouble: bool) -> list[tuple[str, str, Color]]:
+    """Name, value and colour of the numbers."""
+    minutes, seconds = divmod(round(report.mean_seconds), 60)
+    busiest = "–" if report.busiest_hour is None else f"{report.busiest_hour}:00"
+    crashes = report.crashes + report.failures
+    batteries = [(robot, figures.last) for robot, figures in report.batteries.items()]
+    out = [
+        ("matches", str(len(report.matches)), ICE),
+        ("left", str(report.left), ICE),
+        ("people", str(report.people), ICE),
+        ("mean", f"{minutes}:{seconds:02}" if report.matches else "–", ICE),
+        ("busiest", busiest, ICE),
+        ("crashes", "?" if trouble else str(crashes), ALARM if crashes or trouble else ICE),
+    ]
+    named = [(words(f"operator.{name}"), value, color) for name, value, color in out]
+    volts = [
+        (words("operator.battery", robot=robot), words("fleet.volts", volts=f"{v:.1f}"), ICE) for robot, v in batteries
+    ]
+    return [*named, *volts][:9]

@@ -1,0 +1,69 @@
+"""The time limit of a group: from the title to the title. A match that has begun is played to its end."""
+
+import math
+from collections.abc import Sequence
+from typing import Protocol, runtime_checkable
+
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
+
+WARNED = 60.0  # s before the limit, from which the rest is shown
+FAREWELL = 20.0  # s from the limit, or from the end of the last match, to the title
+
+
+@runtime_checkable
+class Untimed(Protocol):
+    """A scene during which the time of a group stands still if `untimed`: attract mode and the operator's pages."""
+
+    untimed: bool
+
+
+@runtime_checkable
+class InMatch(Protocol):
+    """A match that is being played."""
+
+    def advance_paused(self, seconds: float) -> None:
+        """Advance by `seconds` while a page is open."""
+
+
+class GroupLimit:
+    """`seconds`: since the group left the title; `farewell`: s to the title, None before the limit."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.seconds = 0.0
+        self.farewell: float | None = None
+        self.in_match = False
+
+    @property
+    def left(self) -> float:
+        """Seconds to the limit; infinite without one."""
+        minutes = self.context.settings.group_minutes
+        return 60.0 * minutes - self.seconds if minutes else math.inf
+
+    def update(self, seconds: float, scenes: Sequence[Scene]) -> StackOperation:
+        """Advance by `seconds` with these scenes on the stack; returns to the title when the time is over."""
+        if len(scenes) < 2:
+            self.seconds, self.farewell = 0.0, None
+            return None
+        if any(isinstance(scene, Untimed) and scene.untimed for scene in scenes):
+            return None
+        self.seconds += seconds
+        self.in_match = any(isinstance(scene, InMatch) for scene in scenes)
+        if self.left > 0.0:
+            self.farewell = None
+        elif self.farewell is not None:
+            self.farewell -= seconds
+        elif not self.in_match:
+            self.farewell = FAREWELL
+        return Home() if self.farewell is not None and self.farewell <= 0.0 else None
+
+    @property
+    def sentence(self) -> str:
+        """What the group is told now; empty: nothing."""
+        words = self.context.words
+        if self.farewell is not None:
+            return words("operator.farewell", seconds=max(1, math.ceil(self.farewell)))
+        if self.left <= 0.0:
+            return words("operator.last_match")
+        return words("operator.soon", seconds=math.ceil(self.left)) if self.left <= WARNED else ""

@@ -1,0 +1,1 @@
+"""The second screen: scores, standby, event and camera, beside the arena."""

@@ -1,0 +1,43 @@
+"""The page with the picture of the camera over the mat."""
+
+from collections.abc import Sequence
+from typing import Any, Protocol, runtime_checkable
+
+import pygame
+
+from pigaming_app.scenes.flow.board_page import Box, Part
+from pigaming_app.scenes.flow.stack import Scene
+
+BOX: Box = (60, 34, 1800, 1012)
+
+
+@runtime_checkable
+class CameraScene(Protocol):
+    """A scene with a camera; `camera_image`: its newest picture, grey, (height, width), or None."""
+
+    @property
+    def camera_image(self) -> Any: ...
+
+
+class CameraPage:
+    """Has something to show in matches with real or emulated robots."""
+
+    name = "camera"
+
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+        """The newest picture."""
+        scene = next((scene for scene in reversed(scenes) if isinstance(scene, CameraScene)), None)
+        image = scene.camera_image if scene is not None else None
+        return None if image is None else [Part(BOX, id(image), lambda surface: _picture(image, surface))]
+
+
+def _picture(image: Any, surface: pygame.Surface) -> None:
+    """Draw the picture as large as fits, without smoothing: that takes a third of the time."""
+    from pigaming_app.ui.draw.pixels import grey_surface
+
+    step = max(1, image.shape[1] // 640)
+    small = grey_surface(image[::step, ::step])
+    w, h = surface.get_size()
+    factor = min(w / small.get_width(), h / small.get_height())
+    size = round(small.get_width() * factor), round(small.get_height() * factor)
+    surface.blit(pygame.transform.scale(small, size), ((w - size[0]) // 2, (h - size[1]) // 2))

@@ -1,0 +1,100 @@
+"""The page with the big score: clock, robots or teams with their drivers, best first."""
+
+from collections.abc import Sequence
+from functools import partial
+
+import pygame
+
+from pigaming_app.scenes.flow.board_page import Box, Part
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.scoreboard import text
+from pigaming_app.scenes.scoreboard.snapshot import MatchSnapshot, Side, match_of, snapshot
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, PLAYERS, STEEL, SUB, Color
+
+CLOCK_SIZE, TOP, BOTTOM, LEFT, W = 190, 300, 1050, 60, 1800
+ROW_MAX = 236  # px
+HEAD: Box = (LEFT, 40, 620, 220)
+CLOCK: Box = (690, 40, 540, 220)
+STATE: Box = (1240, 40, 620, 220)
+
+
+class ScorePage:
+    """Shows the match on the stack, and after its end its result, until another one begins."""
+
+    name = "scores"
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.last: MatchSnapshot | None = None
+
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+        """The current or last match; None before the first one."""
+        found = match_of(scenes)
+        if found is not None:
+            self.last = snapshot(found, self.context.words, found is scenes[-1])
+        elif self.last is not None and self.last.state != "over":
+            self.last = None  # it was left
+        return match_parts(self.context, self.last) if self.last else None
+
+
+def match_parts(context: Context, shown: MatchSnapshot) -> list[Part]:
+    """The parts of a match."""
+    words = context.words
+    head = words(f"games.{shown.game}"), shown.arena
+    state = words(f"scoreboard.{shown.state}") if shown.state else ""
+    parts = [
+        Part(HEAD, head, partial(_head, *head)),
+        Part(CLOCK, (shown.clock, shown.alarm), partial(_clock, shown.clock, ALARM if shown.alarm else ICE)),
+        Part(STATE, state, partial(_state, state)),
+    ]
+    pitch = min(ROW_MAX, (BOTTOM - TOP) // max(1, len(shown.sides)))
+    for i, side in enumerate(shown.sides):
+        box = (LEFT, TOP + pitch * i, W, pitch - 16)
+        parts.append(Part(box, side, partial(paint_side, side, i + 1)))
+    return parts
+
+
+def color_of(side: Side) -> Color:
+    """The colour of a robot; a team has none."""
+    return PLAYERS[side.seats[0]] if len(side.seats) == 1 else ICE
+
+
+def paint_side(side: Side, place: int, surface: pygame.Surface) -> None:
+    """A row: badges, driver and score; a crown for the leader."""
+    w, h = surface.get_size()
+    color, middle = color_of(side), h / 2
+    surface.blit(text.outline(w, h, color if side.leads else STEEL), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    r = min(56, round(0.3 * h))
+    x = 40 + 1.5 * r
+    for seat in side.seats:
+        text.put(surface, text.player_badge(seat, r), x, middle)
+        x += 2.7 * r
+    x += -0.9 * r
+    if side.sign:
+        text.put(surface, text.symbol(side.sign, 34, MIST), x + 34, middle)
+        x += 96
+    end = w - 420
+    if side.leads:
+        text.put(surface, text.symbol("crown", 46, FOCUS), end - 60, middle)
+        end -= 130
+    if side.driver:
+        text.write(surface, side.driver, SUB, x, middle, ICE, "head", "l", round(end - x - 30))
+    text.write_number(surface, side.score, min(170, round(0.86 * h)), w - 48, middle, color, "r")
+
+
+def _head(game: str, arena: str, surface: pygame.Surface) -> None:
+    w, h = surface.get_size()
+    text.write(surface, game, SUB + 24, 0, h / 2 - 34, ICE, "head", "l", w)
+    text.write(surface, arena, LABEL, 0, h / 2 + 62, MIST, "body", "l", w)
+
+
+def _clock(clock: str, color: Color, surface: pygame.Surface) -> None:
+    w, h = surface.get_size()
+    text.write_number(surface, clock, CLOCK_SIZE, w / 2, h / 2, color, "c")
+
+
+def _state(state: str, surface: pygame.Surface) -> None:
+    w, h = surface.get_size()
+    if state:
+        text.write(surface, state, SUB, w, h / 2, FOCUS, "head", "r", w)

@@ -1,0 +1,115 @@
+"""What the second screen shows of a match, as plain values: drivers, scores, clock."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol, runtime_checkable
+
+from pigaming_app.games.game import PAIRS, Setup
+from pigaming_app.games.match import Match, standings
+from pigaming_app.scenes.flow.match_choice import arena_title
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.results.headline import is_allied, team_name
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Device
+
+
+class Runner(Protocol):
+    """Names the driver of a seat, with an icon."""
+
+    def driver(self, seat: int, device: Device | None) -> tuple[str, str]: ...
+
+
+@runtime_checkable
+class ShownMatch(Protocol):
+    """A scene that plays a match."""
+
+    setup: Setup
+    match: Match
+    devices: list[Device | None]
+
+    @property
+    def runner(self) -> Any: ...
+
+    @property
+    def waiting(self) -> bool:
+        """True before the match and while it is interrupted."""
+
+
+@dataclass(frozen=True)
+class Side:
+    """A robot, or a team. `driver`: name and icon; `score`: as shown; `leads`: alone at the top."""
+
+    seats: tuple[int, ...]
+    driver: str
+    sign: str
+    score: str
+    leads: bool
+
+
+@dataclass(frozen=True)
+class MatchSnapshot:
+    """A match now. `sides`: best first; `alarm`: the time is running out; `state`: "", "waiting" or "over"."""
+
+    game: str
+    arena: str
+    clock: str
+    alarm: bool
+    state: str
+    sides: tuple[Side, ...]
+
+
+ALARM_SECONDS = 10
+
+
+def match_of(scenes: Sequence[Scene]) -> ShownMatch | None:
+    """The match on the stack, if any."""
+    return next((scene for scene in reversed(scenes) if isinstance(scene, ShownMatch)), None)
+
+
+def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
+    """The match of a scene now; `on_top`: no page lies over it."""
+    match, setup = scene.match, scene.setup
+    left = math.ceil(match.seconds_left)
+    counts_up = setup.game == "race"
+    seconds = int(match.seconds) if counts_up else left
+    state = "over" if match.over else "waiting" if scene.waiting or not on_top else ""
+    return MatchSnapshot(
+        setup.game,
+        arena_title(words, setup.arena),
+        f"{seconds // 60}:{seconds % 60:02}",
+        not counts_up and left <= ALARM_SECONDS and not match.over,
+        state,
+        sides(scene, words),
+    )
+
+
+def sides(scene: ShownMatch, words: Words) -> tuple[Side, ...]:
+    """The robots of a match, or its teams, best first; robots of equal rank by seat."""
+    match, setup = scene.match, scene.setup
+    keys, _winners = standings(match.game, match.state)
+    robots = match.state.robots
+    groups: dict[int, list[int]] = {}
+    for seat in keys:
+        groups.setdefault(robots[seat].team, []).append(seat)
+    pairs = match.game.variants[setup.variant].team_mode == PAIRS
+    teams = is_allied(setup) or pairs or len(groups) < len(keys)
+    if not teams:
+        groups = {seat: [seat] for seat in keys}
+    best = max(keys.values())
+    alone = sum(keys[seats[0]] == best for seats in groups.values()) == 1 and len(groups) > 1
+    found = []
+    for team, seats in sorted(groups.items(), key=lambda group: (-keys[group[1][0]], group[0])):
+        total = sum(robots[seat].score for seat in seats)
+        driver, sign = scene.runner.driver(seats[0], scene.devices[seats[0]])
+        if teams:
+            driver, sign = ("", "") if is_allied(setup) else (team_name(words, setup, team), "")
+        found.append(Side(tuple(seats), driver, sign, score_text(setup, total), alone and keys[seats[0]] == best))
+    return tuple(found)
+
+
+def score_text(setup: Setup, score: int) -> str:
+    """A score as shown: laps with their number, else points or pallets."""
+    if setup.game == "race" and setup.goal:
+        return f"{min(score, setup.goal)}/{setup.goal}"
+    return str(score).replace("-", "−")

@@ -1,0 +1,87 @@
+"""The page between matches: the program's name, the time of day, and the best results of today."""
+
+from collections.abc import Sequence
+from functools import partial
+
+import pygame
+
+from pigaming_app.events.day_log import now
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.board_page import Part
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.results.high_score_tables import format_score
+from pigaming_app.scenes.scoreboard import text
+from pigaming_app.storage.scores import Scores, ScoreTable
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
+
+ROWS = 4
+TOP, H, GAP, LEFT, W = 420, 600, 36, 60, 1800
+Best = tuple[tuple[str, str], ...]  # initials and result
+
+
+class StandbyPage:
+    """Always has something to show."""
+
+    name = "standby"
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part]:
+        """Name, time and a column for each game."""
+        words, clock = self.context.words, f"{now():%H:%M}"
+        parts = [
+            Part((LEFT, 50, 1180, 220), "name", _name),
+            Part((1260, 50, 600, 220), clock, partial(_clock, clock)),
+            Part((LEFT, 290, W, 110), words("scoreboard.today"), partial(_headline, words("scoreboard.today"))),
+        ]
+        names = list(games())
+        w = (W - GAP * (len(names) - 1)) // len(names)
+        for i, game in enumerate(names):
+            content = (words(f"games.{game}"), *best_today(self.context.scores, game))
+            column = partial(_column, words(f"games.{game}"), content[1], content[2], words("best.first"))
+            parts.append(Part((LEFT + i * (w + GAP), TOP, w, H), (*content, words.language), column))
+        return parts
+
+
+def best_today(scores: Scores, game: str) -> tuple[str, Best]:
+    """Feat and best results of today in the game's table with the most of them; the feat is empty without any."""
+    found = [(table, scores.best(table, days=1)) for table in scores.tables() if _countable(table, game)]
+    if not any(rows for _, rows in found):
+        return "", ()
+    table, rows = max(found, key=lambda pair: len(pair[1]))
+    return table.feat, tuple((row.initials, format_score(row.score, table)) for row in rows[:ROWS])
+
+
+def _countable(table: ScoreTable, game: str) -> bool:
+    feats = [feat.name for feat in games()[game].record_kinds]
+    return table.game == game and table.feat in feats
+
+
+def _name(surface: pygame.Surface) -> None:
+    text.write(surface, "PiGaming", 190, 0, surface.get_height() / 2, FOCUS, "hero", "l", surface.get_width())
+
+
+def _clock(clock: str, surface: pygame.Surface) -> None:
+    w, h = surface.get_size()
+    text.write_number(surface, clock, 150, w, h / 2, ICE, "r")
+
+
+def _headline(title: str, surface: pygame.Surface) -> None:
+    w, h = surface.get_size()
+    text.write(surface, title, SUB, 0, h / 2 - 12, ICE, "head", "l", w)
+    text.rule(surface, h - 8)
+
+
+def _column(game: str, feat: str, rows: Best, empty: str, surface: pygame.Surface) -> None:
+    """The best results of a game."""
+    w, h = surface.get_size()
+    surface.blit(text.outline(w, h, STEEL), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    text.write(surface, game, SUB, 36, 74, ICE, "head", "l", w - 72)
+    if not rows:
+        text.write(surface, empty, LABEL, w / 2, h / 2 + 40, MIST, "head", "c", w - 72)
+    for i, (initials, score) in enumerate(rows):
+        y, color = 196 + 104 * i, FOCUS if i == 0 else ICE
+        text.write(surface, initials, SUB, 36, y, color, "hero")
+        text.write(surface, score, SUB, w - 36, y, color, "hero", "r", w - 72 - 210)

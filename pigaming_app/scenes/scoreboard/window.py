@@ -1,0 +1,114 @@
+"""The window of the second screen. It is drawn a few times a second, in what is left of a frame of the arcade."""
+
+import logging
+import sys
+import warnings
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.scenes.flow.board_page import BoardPage
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.scoreboard.board import Board
+
+PERIOD = 0.25  # s between two looks for changes
+SLICE_MS = 2.0  # of painting in a frame
+ROOM = 0.006  # s that a frame must have left for a slice, or for showing the picture
+PATIENCE = 1.0  # s after which it no longer waits for such a frame
+WINDOWED = (960, 540)
+
+log = logging.getLogger("pigaming")
+
+
+class ScoreboardWindow:
+    """The window on display `number`, from 1; on that of the arcade, and if it is not there, a small one.
+
+    If the system supports only one window, this is logged and the arcade runs on. `trouble`: the reason.
+    """
+
+    def __init__(self, number: int, arena_display: int, pages: Sequence[BoardPage], headless: bool = False) -> None:
+        self.number, self.board = number, Board(pages)
+        self.window: pygame.Window | None = None
+        self.trouble = ""
+        self._age, self._waited = PERIOD, 0.0
+        self._complete = True  # the picture in the window is that of the board
+        self._size = (0, 0)
+        try:
+            self.window = _open(number - 1, arena_display, headless)
+            self.window.get_surface()
+            _focus_arcade()
+        except pygame.error as reason:
+            self._lose(f"There is no second screen: {reason}.")
+
+    def update(self, seconds: float, left: float, page: str, scenes: Sequence[Scene]) -> None:
+        """Paint a slice of a page, or show the finished picture. `left`: s of this frame that nobody else needs."""
+        self._age += seconds
+        if self.window is None or (self._complete and self._age < PERIOD):
+            return
+        self._waited += seconds
+        if left < ROOM and self._waited < PATIENCE:
+            return
+        self._waited = 0.0
+        try:
+            self._step(self.window, page, scenes)
+        except pygame.error as reason:
+            self._lose(f"The second screen was lost: {reason}.")
+
+    def _step(self, window: pygame.Window, page: str, scenes: Sequence[Scene]) -> None:
+        surface = window.get_surface()
+        if surface.get_size() != self._size:
+            self._size = surface.get_size()
+            self.board.redraw(surface)
+            self._complete = False
+        if self._age >= PERIOD and not self.board.waiting:
+            self._age = 0.0
+            if self.board.refresh(page, scenes):
+                self._complete = False
+                return
+        if self._complete:
+            return
+        if self.board.waiting:
+            self.board.paint(SLICE_MS, surface)
+        else:
+            self._complete = True
+            window.flip()
+
+    def close_if_requested(self, event: pygame.Event) -> bool:
+        """Close this window if an event requests it; true if so."""
+        mine = event.type == pygame.WINDOWCLOSE and self.owns(event)
+        if mine:
+            self.close()
+        return mine
+
+    def owns(self, event: pygame.Event) -> bool:
+        """True if an event belongs to this window: its mouse positions are not those of the arcade."""
+        return self.window is not None and getattr(event, "window", None) == self.window
+
+    def close(self) -> None:
+        window, self.window = self.window, None
+        if window is not None:
+            window.destroy()
+
+    def _lose(self, trouble: str) -> None:
+        self.trouble = trouble
+        log.warning("%s", trouble)
+        print(f"PiGaming: {trouble}", file=sys.stderr)
+        self.close()
+
+
+def _open(display: int, arena_display: int, headless: bool) -> pygame.Window:
+    """A window that fills a display of its own, else a small one. Raises pygame.error."""
+    sizes = pygame.display.get_desktop_sizes()
+    title = "PiGaming: scores"
+    if headless or display == arena_display or not 0 <= display < len(sizes):
+        return pygame.Window(title, WINDOWED, position=(24, 24), resizable=True)
+    window = pygame.Window(title, sizes[display], position=pygame.WINDOWPOS_CENTERED | display, borderless=True)
+    window.set_fullscreen(desktop=True)
+    return window
+
+
+def _focus_arcade() -> None:
+    """Give the keys to the arcade's window."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # there is no other way to access the first window
+        pygame.Window.from_display_module().focus()

@@ -1,0 +1,71 @@
+"""A group's time: from the title to the title, with a countdown, and never in the middle of a match."""
+
+import pytest
+
+from pigaming_app.scenes.flow.stack import Home
+from pigaming_app.scenes.operator.group_limit import FAREWELL, WARNED, GroupLimit
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.title.attract import Attract
+from pigaming_app.ui.input.controls import Controls
+from tests.scenes.arcade import Arcade, Floor, setup
+
+
+@pytest.fixture
+def arcade(controls: Controls) -> Arcade:
+    arcade = Arcade(controls)
+    arcade.context.settings.group_minutes = 5
+    return arcade
+
+
+def test_the_title_returns_after_a_countdown(arcade: Arcade) -> None:
+    limit, scenes = GroupLimit(arcade.context), [Floor(), Floor()]
+    assert limit.update(300.0 - WARNED - 1, scenes) is None
+    assert limit.sentence == ""
+    limit.update(2.0, scenes)
+    assert "59" in limit.sentence
+    assert limit.update(WARNED, scenes) is None
+    assert str(round(FAREWELL)) in limit.sentence
+    assert limit.update(FAREWELL - 1.0, scenes) is None
+    assert limit.update(1.5, scenes) == Home()
+    assert limit.update(1.0, scenes[:1]) is None
+    assert (limit.seconds, limit.farewell) == (0.0, None)
+
+
+def test_a_match_is_played_to_its_end(arcade: Arcade) -> None:
+    limit = GroupLimit(arcade.context)
+    match = MatchScene(arcade.context, setup("easy easy off off"))
+    playing, after = [Floor(), Floor(), match], [Floor(), Floor()]
+    for _ in range(100):
+        assert limit.update(10.0, playing) is None
+    assert limit.sentence == arcade.context.words("operator.last_match")
+    assert limit.update(1.0, after) is None
+    assert limit.update(FAREWELL + 1.0, after) == Home()
+
+
+def test_another_match_does_not_stop_the_countdown(arcade: Arcade) -> None:
+    limit = GroupLimit(arcade.context)
+    match = MatchScene(arcade.context, setup("easy easy off off"))
+    limit.update(301.0, [Floor(), Floor()])
+    assert limit.update(FAREWELL / 2, [Floor(), match]) is None
+    assert limit.update(FAREWELL / 2, [Floor(), match]) == Home()
+
+
+def test_attract_mode_takes_no_time(arcade: Arcade) -> None:
+    limit = GroupLimit(arcade.context)
+    assert limit.update(900.0, [Floor(), Attract(arcade.context)]) is None
+    assert limit.seconds == 0.0
+
+
+def test_no_limit_is_the_default(arcade: Arcade) -> None:
+    arcade.context.settings.group_minutes = 0
+    limit = GroupLimit(arcade.context)
+    assert limit.update(1e6, [Floor(), Floor()]) is None
+    assert limit.sentence == ""
+
+
+def test_a_longer_limit_ends_the_countdown(arcade: Arcade) -> None:
+    limit = GroupLimit(arcade.context)
+    limit.update(301.0, [Floor(), Floor()])
+    arcade.context.settings.group_minutes = 10
+    assert limit.update(1.0, [Floor(), Floor()]) is None
+    assert limit.farewell is None

@@ -1,0 +1,232 @@
+"""The operator's page: by pad, keyboard and mouse; changes apply at once and last."""
+
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.events.day_log import DayLog, PlayedMatch, now
+from pigaming_app.scenes.operator.chart import bars_of, step_of
+from pigaming_app.scenes.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
+from pigaming_app.scenes.operator.figures_page import FOLDER, FiguresPage
+from pigaming_app.scenes.operator.page import END_SECONDS, IDLE, LIMITS, ROWS, OperatorPage
+from pigaming_app.scenes.options.page import FOR_CHILDREN, OptionsPage
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.widgets.notices import Notices
+from pigaming_app.ui.window import Canvas
+from tests.scenes.arcade import Arcade, setup
+from tests.ui.input.virtual_pad import VirtualPad
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path) -> Arcade:
+    arcade = Arcade(controls)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.context.day_log = DayLog(folders().data)
+    return arcade
+
+
+def focus(arcade: Arcade, row: str) -> OperatorPage:
+    page = arcade.shown(OperatorPage)
+    for _ in range(ROWS.index(row)):
+        arcade.press(Button.DOWN)
+    assert page.focus.name == row
+    return page
+
+
+def saved() -> Settings:
+    return Settings.load(folders().config)[0]
+
+
+def test_the_options_open_it_but_not_for_children(arcade: Arcade) -> None:
+    arcade.open(OptionsPage(arcade.context))
+    page = arcade.shown(OptionsPage)
+    while page.focus.name != "day":
+        arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
+    arcade.shown(OperatorPage)
+    arcade.press(Button.BACK)
+    arcade.shown(OptionsPage)
+    assert "day" not in FOR_CHILDREN
+
+
+def test_quiet_hours_go_round_midnight_in_steps_of_half_an_hour(arcade: Arcade) -> None:
+    arcade.open(OperatorPage(arcade.context))
+    focus(arcade, "quiet_from")
+    arcade.press(Button.LEFT)
+    assert saved().quiet_from == "23:30"
+    arcade.press(Button.RIGHT)
+    arcade.press(Button.RIGHT)
+    assert saved().quiet_from == "00:30"
+
+
+def test_a_limit_is_chosen_with_the_mouse(arcade: Arcade) -> None:
+    arcade.open(OperatorPage(arcade.context))
+    page = arcade.shown(OperatorPage)
+    box = page.focus.rect("group_minutes")
+    arcade.click(box.right - 60, box.centery)
+    assert saved().group_minutes == LIMITS[1]
+    arcade.click(box.x + 20, box.centery)
+    assert saved().group_minutes == LIMITS[1]
+
+
+def test_the_cap_limits_music_and_sounds(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    heard: list[tuple[int, int]] = []
+    monkeypatch.setattr(arcade.sounds, "volume", lambda *volumes: heard.append(volumes))
+    arcade.context.settings.music, arcade.context.settings.volume_cap = 3, 10
+    arcade.open(OperatorPage(arcade.context))
+    focus(arcade, "volume_cap")
+    for _ in range(5):
+        arcade.press(Button.LEFT)
+    assert heard[-1] == (3, 5)
+    assert saved().volume_cap == 5
+
+
+def test_holding_fire_on_a_pad_ends_all_matches_and_stops_robots_first(arcade: Arcade) -> None:
+    stopped: list[int] = []
+    with VirtualPad() as pad:
+        match = MatchScene(arcade.context, setup("easy easy off off"))
+        arcade.open(match)
+        arcade.until(lambda: match.match.state.tick > 10)
+        arcade.context.emergency_stops.append(lambda: stopped.append(len(arcade.stack.scenes)))
+        arcade.open(OperatorPage(arcade.context, tuple(arcade.stack.scenes)))
+        focus(arcade, "end_all")
+        pad.press("a")
+        arcade.wait(END_SECONDS / 2)
+        pad.release("a")
+        arcade.wait(1.0)
+        assert isinstance(arcade.stack.top, OperatorPage)
+        pad.press("a")
+        arcade.wait(END_SECONDS + 0.2)
+        pad.release("a")
+    assert stopped == [4]  # all scenes were still there
+    assert arcade.stack.top is arcade.title
+    assert match.noted
+
+
+def test_a_match_below_stands_still_and_goes_on(arcade: Arcade) -> None:
+    match = MatchScene(arcade.context, setup("easy easy off off"))
+    arcade.open(match)
+    arcade.until(lambda: match.match.state.tick > 10)
+    tick = match.match.state.tick
+    arcade.open(OperatorPage(arcade.context, tuple(arcade.stack.scenes)))
+    arcade.wait(1.0)
+    assert match.match.state.tick == tick
+    arcade.context.idle = IDLE + 1.0
+    arcade.frame()
+    assert arcade.stack.top is match
+    arcade.context.idle = 0.0
+    arcade.until(lambda: match.match.state.tick > tick)
+
+
+def key(kind: int, code: int) -> pygame.Event:
+    return pygame.Event(kind, key=code, scancode=0, mod=0)
+
+
+@pytest.mark.parametrize(("kiosk", "hold"), [(False, HOLD), (True, HOLD_IN_KIOSK)])
+def test_f10_opens_it_once_over_any_screen_when_held(arcade: Arcade, kiosk: bool, hold: float) -> None:
+    arcade.context.kiosk = kiosk
+    desk = OperatorDesk(arcade.context, Notices(), None, True)
+    desk.filter([key(pygame.KEYDOWN, pygame.K_F10)], arcade.stack.scenes)
+    desk.update(hold - 0.1, arcade.stack)
+    desk.filter([key(pygame.KEYUP, pygame.K_F10)], arcade.stack.scenes)
+    desk.update(1.0, arcade.stack)
+    assert arcade.stack.top is arcade.setup
+    for _ in range(2):
+        desk.filter([key(pygame.KEYDOWN, pygame.K_F10)], arcade.stack.scenes)
+        desk.update(hold + 0.1, arcade.stack)
+    assert [type(scene) for scene in arcade.stack.scenes[2:]] == [OperatorPage]
+
+
+def test_the_desk_returns_a_group_to_the_title_only_if_there_is_one(arcade: Arcade) -> None:
+    arcade.context.settings.group_minutes = 1
+    for limited, left in ((False, 2), (True, 1)):
+        desk = OperatorDesk(arcade.context, Notices(), None, limited)
+        for _ in range(120):
+            desk.update(1.0, arcade.stack)
+            desk.draw(arcade.screen)
+        assert len(arcade.stack.scenes) == left
+
+
+def test_title_music_stops_in_the_quiet_hours(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    turned: list[bool] = []
+    monkeypatch.setattr(arcade.sounds, "music", turned.append)
+    settings = arcade.context.settings
+    title = Title(arcade.context)
+    title.on_enter()
+    settings.quiet_from, settings.quiet_until = "00:00", "23:59"
+    monkeypatch.setattr("pigaming_app.scenes.flow.context.now", lambda: now().replace(hour=12))
+    title.update(0.1)
+    title.update(0.1)
+    settings.quiet_until = "11:00"
+    title.update(0.1)
+    assert turned == [True, False, True]
+
+
+# ---- figures
+
+
+def play(log: DayLog, hour: int, game: str) -> None:
+    log.add(PlayedMatch(now().replace(hour=hour), game, 90.0, 2, 2))
+
+
+def test_the_figures_are_exported(arcade: Arcade) -> None:
+    for hour in (9, 9, 10):
+        play(arcade.context.day_log, hour, "race")
+    arcade.open(FiguresPage(arcade.context))
+    page = arcade.shown(FiguresPage)
+    assert page.report.busiest_hour == 9
+    arcade.press(Button.FIRE)
+    files = list((folders().data / FOLDER).iterdir())
+    assert len(files[0].read_text().splitlines()) == 4
+    arcade.shown(FiguresPage)
+    arcade.press(Button.BACK)
+    assert arcade.stack.top is arcade.setup
+
+
+def test_an_export_that_fails_is_a_sentence(arcade: Arcade) -> None:
+    folders().data.mkdir(parents=True)
+    (folders().data / FOLDER).write_text("in the way")
+    arcade.open(FiguresPage(arcade.context))
+    arcade.press(Button.FIRE)
+    assert arcade.shown(FiguresPage).navigation.sentence == arcade.context.words("app.unsaved")
+
+
+def test_a_log_that_cannot_be_read_is_no_failure(arcade: Arcade) -> None:
+    (folders().data / "days" / f"{now():%Y-%m-%d}.jsonl").mkdir(parents=True)
+    arcade.open(FiguresPage(arcade.context))
+    assert arcade.shown(FiguresPage).trouble
+
+
+def test_other_days_are_a_click_away(arcade: Arcade) -> None:
+    file = folders().data / "days" / "2026-01-05.jsonl"
+    file.parent.mkdir(parents=True)
+    file.write_text('{"what":"start","at":"2026-01-05T09:00:00"}\n')
+    arcade.open(FiguresPage(arcade.context))
+    page = arcade.shown(FiguresPage)
+    arcade.click(*page.arrows[Button.LEFT])
+    assert (page.report.starts, str(page.report.day)) == (1, "2026-01-05")
+    arcade.press(Button.LEFT)
+    arcade.press(Button.RIGHT)
+    assert page.report.day == now().date()
+
+
+@pytest.mark.parametrize("hours", [[], [0], [23], [11, 12], [0, 23], [7, 16]])
+def test_bars_cover_all_matches_in_at_least_eight_hours(arcade: Arcade, hours: list[int]) -> None:
+    for hour in hours:
+        play(arcade.context.day_log, hour, "pitanks")
+    bars = bars_of(FiguresPage(arcade.context).report, {"pitanks": 0, "race": 0})
+    shown = [hour for hour, _ in bars]
+    assert len(bars) >= 8
+    assert shown == list(range(shown[0], shown[-1] + 1))
+    assert set(shown) <= set(range(24))
+    assert sum(sum(counts) for _, counts in bars) == len(hours)
+
+
+@pytest.mark.parametrize(("most", "step"), [(1, 1), (5, 1), (6, 2), (11, 5), (26, 10), (1000, 200)])
+def test_a_chart_has_at_most_five_lines(most: int, step: int) -> None:
+    assert step_of(most) == step

@@ -1,0 +1,288 @@
+"""The second screen: the right contents, painted in slices, only what has changed."""
+
+from collections.abc import Hashable, Sequence
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.scenes.flow.board_page import Part
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.operator.desk import OperatorDesk
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.scoreboard import text
+from pigaming_app.scenes.scoreboard.board import SIZE, Board, fit
+from pigaming_app.scenes.scoreboard.pages import complete
+from pigaming_app.scenes.scoreboard.score_page import ScorePage, match_parts
+from pigaming_app.scenes.scoreboard.snapshot import sides, snapshot
+from pigaming_app.scenes.scoreboard.standby_page import StandbyPage, best_today
+from pigaming_app.scenes.scoreboard.window import PERIOD, ScoreboardWindow
+from pigaming_app.storage.scores import Scores, ScoreTable
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.widgets.notices import Notices
+from pigaming_app.ui.window import Canvas
+from tests.scenes.arcade import KEYS, Arcade, setup
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path) -> Arcade:
+    arcade = Arcade(controls)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    return arcade
+
+
+class Lamps:
+    """A page of lamps, each with a content; counts how often each is painted."""
+
+    name = "lamps"
+
+    def __init__(self, contents: Sequence[Hashable]) -> None:
+        self.contents: list[Hashable] = list(contents)
+        self.painted = [0] * len(contents)
+
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+        def paint(i: int, surface: pygame.Surface) -> None:
+            self.painted[i] += 1
+            surface.fill("white")
+
+        return [
+            Part((100 * i, 0, 90, 90), content, lambda surface, i=i: paint(i, surface))  # type: ignore[misc]
+            for i, content in enumerate(self.contents)
+        ]
+
+
+def painted(board: Board, target: pygame.Surface, name: str, scenes: Sequence[Scene] = ()) -> int:
+    """Paint to the end in slices; returns their number."""
+    board.refresh(name, scenes)
+    slices = 1
+    while not board.paint(0.0, target):
+        slices += 1
+        assert slices < 1000
+    return slices
+
+
+def test_only_what_has_changed_is_painted_again() -> None:
+    lamps, target = Lamps("abc"), pygame.Surface(SIZE)
+    board = Board([lamps])
+    assert painted(board, target, "lamps") == 3
+    assert not board.refresh("lamps", ())
+    lamps.contents[1] = "B"
+    painted(board, target, "lamps")
+    assert lamps.painted == [1, 2, 1]
+    lamps.contents.pop()
+    painted(board, target, "lamps")
+    assert target.get_at((210, 10))[:3] == (0, 0, 0)
+    assert target.get_at((110, 10))[:3] == (255, 255, 255)
+
+
+def test_a_page_without_contents_gives_way(arcade: Arcade) -> None:
+    lamps = Lamps("a")
+    board = Board([lamps, ScorePage(arcade.context)])
+    board.refresh("scores", [])
+    assert board.page == "lamps"
+
+
+@pytest.mark.parametrize("size", [(1366, 768), (1024, 768), (960, 540), (3840, 2160), (10, 1)])
+def test_it_fits_any_window_undistorted(size: tuple[int, int]) -> None:
+    area, target = fit(size), pygame.Surface(size)
+    assert pygame.Rect((0, 0), size).contains(area)
+    board = Board([Lamps("ab")])
+    painted(board, target, "lamps")
+    board.redraw(target)
+    if area.w > 100:
+        assert target.get_at((area.x + area.w * 145 // 1920, area.y + area.h * 45 // 1080))[:3] == (255, 255, 255)
+        assert target.get_at((area.x + area.w // 2, area.y + area.h // 2))[:3] == (0, 0, 0)
+
+
+# ---- the match
+
+
+def test_the_leader_is_first_and_a_tie_has_none(arcade: Arcade) -> None:
+    scene = MatchScene(arcade.context, setup("human easy easy off"), [KEYS[0]])
+    assert [side.leads for side in sides(scene, arcade.context.words)] == [False] * 3
+    for seat, points in enumerate((3, 7, -2)):
+        scene.match.state.robots[seat].score = points
+    found = sides(scene, arcade.context.words)
+    assert [(side.seats, side.score, side.leads) for side in found] == [
+        ((1,), "7", True),
+        ((0,), "3", False),
+        ((2,), "−2", False),
+    ]
+    assert found[1].sign == "keys" or found[1].sign
+
+
+def test_teams_are_one_row_with_their_sum(arcade: Arcade) -> None:
+    scene = MatchScene(arcade.context, setup("easy easy easy easy", teams=(0, 1, 0, 1)))
+    for seat, points in enumerate((3, 7, 5, 4)):
+        scene.match.state.robots[seat].score = points
+    found = sides(scene, arcade.context.words)
+    assert [(side.seats, side.score) for side in found] == [((1, 3), "11"), ((0, 2), "8")]
+
+
+def test_the_clock_counts_down_and_a_page_above_is_noted(arcade: Arcade) -> None:
+    scene = MatchScene(arcade.context, setup("easy easy off off", minutes=2.0))
+    arcade.open(scene)
+    words = arcade.context.words
+    assert (snapshot(scene, words, True).clock, snapshot(scene, words, True).state) == ("2:00", "waiting")
+    arcade.until(lambda: scene.match.seconds >= 1.0)
+    assert (snapshot(scene, words, True).clock, snapshot(scene, words, True).state) == ("1:59", "")
+    assert snapshot(scene, words, False).state == "waiting"
+
+
+def test_the_result_stays_until_the_next_match_but_not_that_of_a_match_left(arcade: Arcade) -> None:
+    page = ScorePage(arcade.context)
+    scene = MatchScene(arcade.context, setup("easy easy off off", minutes=0.02))
+    assert page.parts([arcade.title, scene])
+    arcade.open(scene)
+    arcade.until(lambda: scene.match.over)
+    assert page.parts([arcade.title, scene])
+    assert page.parts([arcade.title])
+    assert page.last
+    assert page.last.state == "over"
+    page.parts([arcade.title, MatchScene(arcade.context, setup("easy easy off off"))])
+    assert page.parts([arcade.title]) is None
+
+
+@pytest.mark.parametrize("language", ["en", "pt"])
+def test_every_part_can_be_painted_and_lies_on_the_canvas(arcade: Arcade, language: str) -> None:
+    arcade.context.words.switch(language)
+    scene = MatchScene(arcade.context, setup("human easy q1 fsm"), [KEYS[0]])
+    pages = [match_parts(arcade.context, snapshot(scene, arcade.context.words, False))]
+    pages.append(list(StandbyPage(arcade.context).parts([])))
+    for parts in pages:
+        boxes = [pygame.Rect(part.box) for part in parts]
+        assert all(pygame.Rect((0, 0), SIZE).contains(box) for box in boxes)
+        assert all(box.collidelist(boxes[i + 1 :]) == -1 for i, box in enumerate(boxes))
+        for part in parts:
+            surface = pygame.Surface(part.box[2:])
+            part.paint(surface)
+            border = [surface.get_at((0, y))[:3] for y in range(0, part.box[3], 4)]
+            assert max(max(color) for color in border) < 120, f"{part.content} is cut off"
+
+
+def test_texts_have_a_cache_of_their_own(arcade: Arcade) -> None:
+    from pigaming_app.ui.draw.surface_cache import surfaces
+
+    before = len(surfaces)
+    text.line("never seen before", 60, (255, 255, 255), "head")
+    assert len(surfaces) == before
+    assert text.CACHE.bytes > 0
+
+
+def test_the_best_of_today_come_from_the_table_with_the_most_of_them() -> None:
+    scores = Scores()
+    few = ScoreTable("pitanks", "classic", "points", False, "plain", 3.0, 2)
+    many = ScoreTable("pitanks", "cross", "points", False, "plain", 3.0, 2)
+    scores.add(few, "AAA", 50)
+    for initials, points in (("BBB", 5), ("CCC", 9)):
+        scores.add(many, initials, points)
+    assert best_today(scores, "pitanks") == ("points", (("CCC", "9"), ("BBB", "5")))
+    assert best_today(scores, "race") == ("", ())
+
+
+# ---- the window
+
+
+def test_the_window_is_painted_in_frames_with_room_and_at_last_without(arcade: Arcade) -> None:
+    lamps = Lamps("abc")
+    window = ScoreboardWindow(1, 0, [lamps], headless=True)
+    try:
+        for _ in range(20):
+            window.update(0.016, 0.0, "lamps", [])
+        assert lamps.painted == [0, 0, 0]
+        for _ in range(20):
+            window.update(0.016, 0.010, "lamps", [])
+        assert lamps.painted == [1, 1, 1]
+        lamps.contents[0] = "A"
+        for _ in range(400):
+            window.update(0.016, 0.0, "lamps", [])
+        assert lamps.painted == [2, 1, 1]
+        assert window.window
+        assert window.window.get_surface().get_at((10, 10))[:3] == (255, 255, 255)
+    finally:
+        window.close()
+
+
+def test_pages_are_read_a_few_times_a_second(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    lamps, reads = Lamps("a"), []
+    parts = lamps.parts
+    monkeypatch.setattr(lamps, "parts", lambda scenes: reads.append(1) or parts(scenes))
+    window = ScoreboardWindow(1, 0, [lamps], headless=True)
+    try:
+        for _ in range(600):
+            window.update(1 / 60, 0.010, "lamps", [])
+    finally:
+        window.close()
+    assert len(reads) <= 10 / PERIOD + 1
+
+
+def test_its_mouse_is_not_that_of_the_arcade_and_it_closes_alone(arcade: Arcade) -> None:
+    desk = OperatorDesk(arcade.context, Notices(), 1, True)
+    assert desk.window
+    assert desk.window.window
+    theirs = pygame.Event(pygame.MOUSEMOTION, pos=(5, 5), rel=(0, 0), buttons=(0, 0, 0), window=desk.window.window)
+    ours = pygame.Event(pygame.MOUSEMOTION, pos=(5, 5), rel=(0, 0), buttons=(0, 0, 0), window=None)
+    assert desk.filter([theirs, ours], []) == [ours]
+    assert not desk.close_if_requested(pygame.Event(pygame.WINDOWCLOSE, window=None))
+    assert desk.close_if_requested(pygame.Event(pygame.WINDOWCLOSE, window=desk.window.window))
+    assert desk.window.window is None
+    desk.show(0.1, 0.01, arcade.stack.scenes)
+    desk.close()
+
+
+def test_without_a_second_window_the_arcade_prints_a_reason_and_goes_on(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise pygame.error("windows are sold out")
+
+    monkeypatch.setattr(pygame, "Window", refuse)
+    notices = Notices()
+    desk = OperatorDesk(arcade.context, notices, 2, True)
+    desk.show(1.0, 0.01, arcade.stack.scenes)
+    assert "no second screen" in capsys.readouterr().err
+    assert list(notices.waiting) == [arcade.context.words("scoreboard.none")]
+
+
+def test_f2_goes_through_the_pages_that_have_something_to_show(arcade: Arcade) -> None:
+    desk = OperatorDesk(arcade.context, Notices(), 1, True)
+    key = pygame.Event(pygame.KEYDOWN, key=pygame.K_F2, scancode=0, mod=0)
+    seen = []
+    scene = MatchScene(arcade.context, setup("easy easy off off"))
+    for _ in range(3):
+        desk.filter([key], [arcade.title, scene])
+        seen.append(arcade.context.board_page)
+    desk.close()
+    assert seen == ["standby", "scores", "standby"]
+
+
+def test_the_setting_opens_and_closes_it_while_the_arcade_runs(arcade: Arcade) -> None:
+    desk = OperatorDesk(arcade.context, Notices(), None, True)
+    assert desk.window is None
+    arcade.context.settings.scoreboard = 1
+    desk.show(0.1, 0.01, arcade.stack.scenes)
+    assert desk.window
+    assert desk.window.window
+    arcade.context.settings.scoreboard = 0
+    desk.show(0.1, 0.01, arcade.stack.scenes)
+    assert desk.window is None
+
+
+def test_other_pages_stand_between_scores_and_camera(arcade: Arcade) -> None:
+    arcade.context.board_pages.append(Lamps("a"))
+    complete(arcade.context)
+    complete(arcade.context)
+    assert [page.name for page in arcade.context.board_pages] == ["standby", "scores", "lamps", "camera"]
+
+
+def test_a_paused_match_is_shown_as_waiting(arcade: Arcade) -> None:
+    page = ScorePage(arcade.context)
+    scene = MatchScene(arcade.context, setup("human easy off off"), [KEYS[0]])
+    arcade.open(scene)
+    arcade.until(lambda: scene.match.state.tick > 5)
+    arcade.open(Pause(scene, KEYS[0]))
+    page.parts(arcade.stack.scenes)
+    assert page.last
+    assert page.last.state == "waiting"
