@@ -26,10 +26,11 @@ from pigaming_app.boot.interpreter import (
 
 NEEDED = {"test": {"test"}}
 OPTIONAL = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # extras that a job also runs without
-OPTIONAL |= {"test": {"train", "hardware", "plots", "gym", "onnx"}, "bench": {"train", "gym", "bench"}}
+OPTIONAL |= {"test": {"train", "hardware", "plots", "gym", "onnx", "phones"}, "bench": {"train", "gym", "bench"}}
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
+    **dict.fromkeys(("phones", "--phones"), "phones"),
     **dict.fromkeys(("--ray", "--long"), "ray"),  # the long proofs train on several machines
 }
 EXTRA_OF_FILE = {".onnx": "onnx"}  # suffixes of files that require an extra, wherever one is named

@@ -114,7 +114,7 @@ class LobbyPage:
         if place.device:
             controls, style = self.context.controls, self.driving(place.device)
             name = controls.moves(place.device) or words(f"devices.{controls.name(place.device)}")
-            card.driver("pad" if place.device.kind == "pad" else "keys", name).draw(screen, x, y)
+            card.driver(place.device.kind, name).draw(screen, x, y)
             color = self._selected(seat, DRIVE)
             card.driving(words(f"lobby.drive_{style}"), PICTURES[style], color).draw(screen, x, y)
         else:
