@@ -42,7 +42,19 @@ ONLY_IN = {
     "torch": set(),
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
-DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "aiohttp", "segno", "ifaddr", "gymnasium", "pettingzoo", "pymunk", "ray"}
+DEPENDENCIES |= {
+    "cv2",
+    "serial",
+    "matplotlib",
+    "onnxruntime",
+    "aiohttp",
+    "segno",
+    "ifaddr",
+    "gymnasium",
+    "pettingzoo",
+    "pymunk",
+    "ray",
+}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
 DEPENDENCIES |= ROS
 FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.py") if "micropython" not in path.parts)]

@@ -5,7 +5,7 @@
   const element = (id) => document.getElementById(id);
   const BITS = { fire: 1, turbo: 2, x: 4, y: 8, start: 16 };
   const FINAL = { 4000: "page_refused", 4001: "page_refused", 4003: "page_elsewhere" }; // no second attempt
-  const SHAPES = ["M-.9-.9H.9V.9H-.9Z", "M0-1 1 .8H-1Z", "M-1 0A1 1 0 1 1 1 0A1 1 0 1 1-1 0Z", "M0-1.1 1.1 0 0 1.1-1.1 0Z"];
+  const SHAPES = ["M-.95 0A.95 .95 0 1 1 .95 0A.95 .95 0 1 1-.95 0Z", "M0-1 1 .75H-1Z", "M-.85-.85H.85V.85H-.85Z", "M0-1.1 1.1 0 0 1.1-1.1 0Z"];
   const FRAME_MS = 1000 / 60, ALIVE_MS = 200, FLASH_MS = 160, RETRY_MS = [300, 600, 1000, 2000];
 
   let socket = null, resume = sessionStorage.getItem("resume") || "", attempts = 0, retry = 0;

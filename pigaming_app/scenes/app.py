@@ -25,6 +25,7 @@ from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnav
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.scenes.preloaded import MODULES
 from pigaming_app.storage.log import log_file, require_file
 from pigaming_app.storage.parsing import describe_error
@@ -114,6 +115,7 @@ def opened(options: Options) -> "Iterator[App]":
     finally:
         signal.signal(signal.SIGTERM, old_handler)
         context.stop_all_robots()
+        context.phone_host.close()
         context.preloader.end()
         context.compiler.end()
         context.network_compiler.end()
@@ -133,6 +135,7 @@ class App:
     def __init__(self, options: Options, context: Context, troubles: list[str]) -> None:
         self.options, self.context = options, context
         self.notices, self.meter = Notices(), FrameMeter()
+        self.phones = PhoneLink(context)
         session = context.session
         self.window = _camera_window(session)
         for line in troubles:
@@ -317,6 +320,7 @@ class App:
         if stack.scenes:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
             stack.apply(stack.top.update(seconds))
+        self.phones.update(stack.scenes)
 
     def _recover(self) -> bool:
         """After a scene has failed: clean up and restart at the title; false if that is impossible."""

@@ -17,6 +17,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, StickState
+from pigaming_app.ui.input.phones.host import PhoneHost
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.window import Canvas
@@ -44,6 +45,7 @@ class Context:
     network_compiler: Compiler = field(default_factory=lambda: Compiler(COMPILE_NETWORKS))  # for networks in the Lab
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)
+    phone_host: PhoneHost = field(init=False)
     highlights: Highlights = field(default_factory=Highlights)  # for attract mode
     sticks: Callable[[int, bool], StickState | None] = lambda *_: None  # joysticks of a network: see RosSession
     match_watchers: list[Callable[[dict[str, Any]], None]] = field(default_factory=list)  # get the state of a match
@@ -51,6 +53,7 @@ class Context:
 
     def __post_init__(self) -> None:
         self.driving = DrivingStyles(self.settings)
+        self.phone_host = PhoneHost(self.controls.phones)
 
     @property
     def robots(self) -> bool:

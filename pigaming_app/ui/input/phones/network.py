@@ -27,7 +27,7 @@ class Network:
 
 
 def networks() -> list[Network]:
-    """The networks on which a phone may be: wireless ones first. Raises PhonesUnavailable without the extra `phones`."""
+    """The networks on which a phone may be: wireless ones first. Raises PhonesUnavailable without ifaddr."""
     try:
         import ifaddr
     except ImportError:

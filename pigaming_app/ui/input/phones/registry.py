@@ -1,7 +1,7 @@
 """The connected phones, shared by two threads: the server writes what they send, the main loop reads it as a pad's.
 
-Buttons reach the main loop as a queue of changes, so no tap is lost; the stick is read at the tick that uses it. A phone
-that has been silent for a moment stands still, and is unplugged by the server soon after.
+Buttons reach the main loop as a queue of changes, so no tap is lost; the stick is read at the tick that uses it. A
+phone that has been silent for a moment stands still, and is unplugged by the server soon after.
 """
 
 import time
@@ -16,7 +16,14 @@ MAX_PHONES = 4
 FRESH_SECONDS = 0.6  # age of the last message after which a stick counts as released
 MAX_CHANGES = 1024  # queued changes of all phones, while the main loop does not read
 
-LABELS = {Button.FIRE: "A", Button.BACK: "B", Button.LEAVE_SEAT: "B", Button.X: "X", Button.Y: "Y", Button.START: "START"}
+LABELS = {
+    Button.FIRE: "A",
+    Button.BACK: "B",
+    Button.LEAVE_SEAT: "B",
+    Button.X: "X",
+    Button.Y: "Y",
+    Button.START: "START",
+}
 LABELS |= {Button.BRAIN: "Y", Button.UP: "↑", Button.DOWN: "↓", Button.LEFT: "←", Button.RIGHT: "→"}
 
 

@@ -102,8 +102,13 @@ class PhoneServer:
         app.router.add_get("/{token}", self._get_page)
         app.router.add_get("/{token}/pad", self._get_socket)
         app.router.add_get("/{token}/{file}", self._get_file)
-        settings = {"access_log": None, "logger": logger, "keepalive_timeout": IDLE_SECONDS, "lingering_time": 0.0}
-        runner = web.AppRunner(app, shutdown_timeout=CLOSE_SECONDS, **settings)
+        settings: dict[str, Any] = {
+            "access_log": None,
+            "logger": logger,
+            "keepalive_timeout": IDLE_SECONDS,
+            "lingering_time": 0.0,
+        }
+        runner = web.AppRunner(app, shutdown_timeout=CLOSE_SECONDS)
         await runner.setup()
         try:
             assert runner.server is not None
@@ -234,7 +239,7 @@ class _Guest(web.RequestHandler):
 
 
 def _first_part(path: str) -> bytes:
-    return path.strip("/").partition("/")[0].encode(errors="replace")
+    return path.strip("/").partition("/")[0].lower().encode(errors="replace")
 
 
 async def _closed(request: web.Request, code: int) -> web.WebSocketResponse:
