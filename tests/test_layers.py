@@ -31,6 +31,9 @@ ONLY_IN = {
     "cv2": {"hardware"},
     "serial": {"hardware"},
     "rospy": {"hardware"},
+    "aiohttp": {"ui", "jobs"},
+    "segno": {"ui"},
+    "ifaddr": {"ui"},
     "onnxruntime": {"ai"},
     "ray": {"ai"},
     "pymunk": {"jobs"},
@@ -41,6 +44,7 @@ ONLY_IN = {
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray", "PIL"}
+DEPENDENCIES |= {"aiohttp", "segno", "ifaddr"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
 DEPENDENCIES |= ROS
 FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.py") if "micropython" not in path.parts)]

@@ -26,11 +26,12 @@ from pigaming_app.boot.interpreter import (
 
 NEEDED = {"test": {"test"}, "bundle": {"bundle"}}
 OPTIONAL = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # extras that a job also runs without
-OPTIONAL |= {"test": {"train", "hardware", "plots", "gym", "onnx", "bundle"}, "bench": {"train", "gym", "bench"}}
-OPTIONAL |= {"bundle": {"train", "hardware"}}
+TESTED = {"train", "hardware", "plots", "gym", "onnx", "phones", "bundle"}
+OPTIONAL |= {"test": TESTED, "bench": {"train", "gym", "bench"}, "bundle": {"train", "hardware", "phones"}}
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
+    **dict.fromkeys(("phones", "--phones"), "phones"),
     **dict.fromkeys(("--ray", "--long"), "ray"),  # the long proofs train on several machines
 }
 EXTRA_OF_FILE = {".onnx": "onnx"}  # suffixes of files that require an extra, wherever one is named

@@ -18,6 +18,7 @@ def options(parser: ArgumentParser) -> None:
     parser.usage = "%(prog)s [JOB] [OPTIONS]"
     shared(parser, "--kiosk", "--display", "--scoreboard")
     mat_options(parser)
+    parser.add_argument("--phones", action="store_true", help="phones may join as pads; saved in the settings")
     ros_options(parser)
     parser.add_argument("--frames", type=integer(), help=argparse.SUPPRESS)
 
@@ -30,6 +31,8 @@ def run(arguments: Namespace) -> int:
 
     if arguments.emulate is not None:
         require("hardware")
+    if arguments.phones:
+        require("phones")
     return show(
         Options(
             kiosk=arguments.kiosk,
@@ -39,7 +42,7 @@ def run(arguments: Namespace) -> int:
             emulator_seed=arguments.emulate,
             ros_width=ros_width(arguments),
             emulated_things=arguments.things,
-            changed_settings=mat_settings(arguments),
+            changed_settings=mat_settings(arguments) | ({"phones": True} if arguments.phones else {}),
         )
     )
 

@@ -27,6 +27,7 @@ from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.operator.desk import OperatorDesk
+from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.scenes.preloaded import MODULES
 from pigaming_app.storage.heartbeat import Heartbeat
 from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
@@ -123,6 +124,7 @@ def opened(options: Options) -> "Iterator[App]":
     finally:
         signal.signal(signal.SIGTERM, old_handler)
         context.stop_all_robots()
+        context.phone_host.close()
         context.preloader.end()
         context.compiler.end()
         context.network_compiler.end()
@@ -144,6 +146,7 @@ class App:
         self.options, self.context = options, context
         self.notices, self.meter = Notices(), FrameMeter()
         self.pulse = Pulse(options.heartbeat) if options.heartbeat else None
+        self.phones = PhoneLink(context)
         session = context.session
         self.window = _camera_window(session)
         self.desk = OperatorDesk(context, self.notices, options.scoreboard, not options.without_title)
@@ -339,6 +342,7 @@ class App:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
             stack.apply(stack.top.update(seconds))
         self.desk.update(seconds, stack)
+        self.phones.update(stack.scenes)
 
     def _recover(self) -> bool:
         """After a scene has failed: clean up and restart at the title; false if that is impossible."""

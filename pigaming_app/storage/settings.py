@@ -169,6 +169,9 @@ class Settings:
     rumble: bool = _setting(True, Boolean())  # of the pads
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Boolean())
+    phones: bool = _setting(False, Boolean())  # phones may join as pads
+    phones_network: str = _setting("", ShortText())  # name or address of their interface; empty: the first one
+    phones_port: int = _setting(8787, Range(1024, 65535))
     attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # without input
     corners: list[int] = field(
         default_factory=list, metadata={"validator": Corners()}

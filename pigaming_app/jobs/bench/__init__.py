@@ -1,4 +1,6 @@
-"""Performance on this machine: the simulator, frames, start and memory; or `robots`, the proof of the robot loop."""
+"""Performance on this machine: the simulator, frames, start and memory; `phones` as pads; or `robots`, the proof of
+the robot loop.
+"""
 
 import json
 import sys
@@ -8,11 +10,11 @@ from typing import Any
 from pigaming_app.jobs.terminal.options import game_option, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, missing, refused, require
 
-ROBOTS = "robots"
+ROBOTS, PHONES = "robots", "phones"
 
 
 def options(parser: ArgumentParser) -> None:
-    game_option(parser, more=(ROBOTS,))
+    game_option(parser, more=(ROBOTS, PHONES))
     parser.add_argument("--arcade", action="store_true", help="robots: only the failures of a whole arcade")
     shared(parser, "--variant", "--json")
 
@@ -21,7 +23,8 @@ def run(arguments: Namespace) -> int:
     """Measure and print the figures. Raises Refusal."""
     if arguments.arcade and arguments.game != ROBOTS:
         raise Refusal("--arcade: only for robots")
-    figures = _robots(arguments.arcade) if arguments.game == ROBOTS else _game(arguments.game, arguments.variant)
+    special = {ROBOTS: lambda: _robots(arguments.arcade), PHONES: _phones}
+    figures = special.get(arguments.game, lambda: _game(arguments.game, arguments.variant))()
     if arguments.json:
         print(json.dumps(figures))
     else:
@@ -36,7 +39,7 @@ def _game(game: str, variant: str | None) -> dict[str, Any]:
     from pigaming_app.games.setup import ChoiceError, require_one_of
 
     with refused(ChoiceError):
-        require_one_of("game", game, [*games(), ROBOTS])
+        require_one_of("game", game, [*games(), ROBOTS, PHONES])
         variant = variant or games()[game].default.name
         require_one_of("variant", variant, list(games()[game].variants))
     from pigaming_app.jobs.bench.figures import measure
@@ -59,6 +62,19 @@ def _robots(arcade: bool) -> dict[str, Any]:
     missed = [key for key, good in reached(figures).items() if not good]
     note(f"not reached: {', '.join(missed)}" if missed else "everything is reached")
     return figures
+
+
+def _phones() -> dict[str, Any]:
+    """The latency of phones as pads."""
+    require("phones")
+    from pigaming_app.jobs.bench.phones import measure
+    from pigaming_app.ui.i18n import english
+    from pigaming_app.ui.input.phones.network import PhonesUnavailable
+
+    try:
+        return measure()
+    except PhonesUnavailable as trouble:
+        raise Refusal(english()(f"phones.{trouble.key}", **trouble.values)) from None
 
 
 def _print(figures: dict[str, Any], indent: str = "") -> None:

@@ -11,6 +11,7 @@ from pigaming_app.ui.i18n import english
 EXTRAS = {  # a module, and the package's name
     "hardware": ("cv2", "OpenCV"),
     "onnx": ("onnxruntime", "onnxruntime"),
+    "phones": ("aiohttp", "aiohttp"),
     "plots": ("matplotlib", "matplotlib"),
     "ray": ("ray", "Ray"),
     "train": ("numba", "numba"),

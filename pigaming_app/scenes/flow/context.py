@@ -20,6 +20,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, StickState
+from pigaming_app.ui.input.phones.host import PhoneHost
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.window import Canvas
@@ -47,6 +48,7 @@ class Context:
     network_compiler: Compiler = field(default_factory=lambda: Compiler(COMPILE_NETWORKS))  # for networks in the Lab
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)
+    phone_host: PhoneHost = field(init=False)
     highlights: Highlights = field(default_factory=Highlights)  # for attract mode
     day_log: DayLog = field(default_factory=DayLog)
     board_pages: list[BoardPage] = field(default_factory=list)  # of the second screen, in the order of the F2 key
@@ -58,6 +60,7 @@ class Context:
 
     def __post_init__(self) -> None:
         self.driving = DrivingStyles(self.settings)
+        self.phone_host = PhoneHost(self.controls.phones)
 
     @property
     def robots(self) -> bool:

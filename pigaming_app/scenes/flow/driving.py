@@ -22,21 +22,21 @@ class DrivingStyles:
     def of(self, device: Device, game: str, variant: str) -> str:
         """The style of a device in a game: its player's choice, the last choice on this kind of device, or the default.
 
-        The default of pads in party rules is to point.
+        The default of pads and phones in party rules is to point.
         """
-        last = self.settings.pad_driving if device.kind == "pad" else self.settings.keys_driving
+        last = self.settings.pad_driving if device.has_stick else self.settings.keys_driving
         for style in (self.chosen.get(device, ""), self.remembered.setdefault(device, last)):
             for name in (style, UNHELPED.get(style, "")):
                 if name in DRIVING[game]:
                     return name
-        return POINT if device.kind == "pad" and variant == PARTY else TURN
+        return POINT if device.has_stick and variant == PARTY else TURN
 
     def change(self, device: Device, game: str, variant: str, delta: int) -> None:
         """Step a device through the game's styles, and remember the new one for its kind of device."""
         names = list(DRIVING[game])
         style = names[(names.index(self.of(device, game, variant)) + delta) % len(names)]
         self.chosen[device] = style
-        if device.kind == "pad":
+        if device.has_stick:
             self.settings.pad_driving = style
         else:
             self.settings.keys_driving = style

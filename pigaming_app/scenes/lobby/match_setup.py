@@ -269,8 +269,7 @@ class MatchSetupPage:
     def _lineup(self) -> tuple[tuple[int, str], ...]:
         """(seat, driver icon) of every occupied seat."""
         kinds = ((i, place) for i, place in enumerate(self.seats.places) if place.kind != EMPTY)
-        signs = {"pad": "pad", "keys": "keys"}
-        return tuple((i, signs[place.device.kind] if place.device else "ai") for i, place in kinds)
+        return tuple((i, place.device.kind if place.device else "ai") for i, place in kinds)
 
     def _picture(self, screen: pygame.Surface) -> None:
         """Draw the arena preview sliding in, with markers at the start positions."""

@@ -23,7 +23,8 @@ from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
-from pigaming_app.scenes.lobby.view import LobbyPage, LobbyState, level_words, problem, spots
+from pigaming_app.scenes.lobby.view import CODE, LobbyPage, LobbyState, level_words, problem, spots
+from pigaming_app.scenes.phones.join import JoinByPhone
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
@@ -34,6 +35,7 @@ IDLE = 60.0  # s without input before the return to the title
 COUNTDOWN, COUNTDOWN_ALONE = 1.2, 2.4  # s, countdown once all are ready; longer for one person with an AI
 MESSAGE_SECONDS = 4.0  # s, display time of a message
 PREWARM_MS = 3.0  # ms per frame for prewarming
+CODE_SECONDS = 12.0  # s without input until the large QR code is shown
 POINTER_SECONDS = 4.0  # s for which the mouse focus stays visible after a movement
 
 
@@ -60,6 +62,7 @@ class Lobby:
         self.prewarm_queue = PrewarmQueue(card.prewarm_jobs())
         self.prewarm_queue.append(self._row_jobs())
         self.warmup: MatchRunner | None = None
+        self.code_due, self.code_open = True, False  # the large QR code: shown first without being asked for
 
     @property
     def variant(self) -> str:
@@ -71,6 +74,9 @@ class Lobby:
 
     def on_enter(self) -> None:
         """Reset on first display and on return from match setup: everyone has to confirm again."""
+        if self.code_open:
+            self.code_open = False
+            return
         self.context.sounds.music(True)
         self.now.starting = None
         self.seats.reset_ready()
@@ -107,7 +113,8 @@ class Lobby:
             case Button.LOST:
                 self._unplugged(device)
             case Button.POINT | Button.CLICK:
-                self._mouse(event)
+                if self._mouse(event):
+                    return self._open_code()
             case _:
                 pass
         self._update_countdown()
@@ -124,6 +131,8 @@ class Lobby:
             self.now.starting -= seconds
             if self.now.starting <= 0.0:
                 return self._go()
+        if self._code_is_due():
+            return self._open_code()
         self._prewarm()
         return Home() if self.context.idle > IDLE else None
 
@@ -131,6 +140,18 @@ class Lobby:
         self.page.draw(screen)
         if self.now.pointer_left > 0.0:
             self.focus.draw(screen)
+
+    def _code_is_due(self) -> bool:
+        """True if the large QR code should be shown: at first, and while nobody acts, as long as a seat is free."""
+        if not self.context.phone_host.url or self.now.starting is not None:
+            return False
+        idle = self.context.idle > CODE_SECONDS
+        due, self.code_due = (self.code_due or idle) and not self.seats.full, False
+        return due
+
+    def _open_code(self) -> StackOperation:
+        self.code_open = True
+        return Push(JoinByPhone(self.context, self.seats.devices, self.handle, lambda: self.now.starting is not None))
 
     def _prewarm(self) -> None:
         """Prewarm while people choose: first this page, then the sprites of the match."""
@@ -281,16 +302,20 @@ class Lobby:
         seat = self.seats.seat_of(device)
         if seat is not None:
             self.seats.leave(seat)
-            self._say(self.context.words("lobby.unplugged", player=seat + 1), "back")
+            key = "lobby.phone_gone" if device.kind == "phone" else "lobby.unplugged"
+            self._say(self.context.words(key, player=seat + 1), "back")
 
-    def _mouse(self, event: InputEvent) -> None:
+    def _mouse(self, event: InputEvent) -> bool:
+        """Act on the element under the pointer; true if that is the QR code."""
         self.now.pointer_left = POINTER_SECONDS
         self.focus.handle(event)
         name = self.focus.activated(event)
         if name is None:
-            return
+            return False
         what, seat = name.split()[0], int(name.split()[1])
         kind = self.seats.places[seat].kind
+        if what == CODE:
+            return True
         if what in (REAL, TEAM, DRIVE):
             self._change_row(seat, what, 1)
         elif what in ("weaker", "stronger"):
@@ -305,10 +330,11 @@ class Lobby:
         else:
             self.seats.places[seat].ready = not self.seats.places[seat].ready
             self.context.sounds.play("ready", seat)
+        return False
 
     def _update_countdown(self) -> None:
         """Start the countdown when all are ready, cancel it otherwise."""
-        self.focus.set_spots(spots(self.seats))
+        self.focus.set_spots(spots(self.seats, self.page.code_seat))
         alone = len(self.seats.of_kind(HUMAN)) == 1
         if not self.seats.of_kind(HUMAN) or self.seats.waiting:
             self.now.starting = None

@@ -63,6 +63,11 @@ class Seats:
         return PLACES - len(self.of_kind(EMPTY))
 
     @property
+    def full(self) -> bool:
+        """True if four people are seated."""
+        return len(self.of_kind(HUMAN)) == PLACES
+
+    @property
     def waiting(self) -> list[int]:
         """Seats of people who are not ready."""
         return [i for i in self.of_kind(HUMAN) if not self.places[i].ready]

@@ -14,6 +14,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
+from pigaming_app.scenes.phones.join import draw_code
 from pigaming_app.ui.draw import FOCUS, LABEL, PLAYERS, Color, dim
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, step
@@ -25,6 +26,7 @@ from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_actio
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, ask_bar, ready_bar
 
 TOP, MESSAGE_Y, LINE_Y = 216, 884, 932
+CODE, CODE_BOX = "code", pygame.Rect(24, 124, W - 48, W - 48)  # px on a card: the QR code for phones
 ROLL_IN = 0.35  # s, a robot's drive onto its turntable
 
 
@@ -95,10 +97,20 @@ class LobbyPage:
         free = [device for device in controls.players() if self.seats.seat_of(device) is None]
         return tuple(dict.fromkeys(words.key_name(controls.label(device, Button.FIRE)) for device in free))
 
+    @property
+    def code_seat(self) -> int | None:
+        """The empty seat whose card shows the QR code for phones: the last one; None if phones cannot join."""
+        empty = self.seats.of_kind(EMPTY)
+        return empty[-1] if empty and self.context.phone_host.url else None
+
     def _card(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
         title = words("lobby.seat", player=seat + 1)
         if place.kind == EMPTY:
+            if seat == self.code_seat:
+                card.by_phone(seat, title, words("lobby.by_phone"), words("lobby.or_press")).draw(screen, x, y)
+                draw_code(screen, self.context.phone_host.url, CODE_BOX.move(x, y))
+                return
             card.empty(seat, title).draw(screen, x, y)
             level = pulse(self.now.clock) if seat == self.seats.of_kind(EMPTY)[0] else 0
             card.invitation(seat, words("lobby.press_to_join"), self.invited, level).draw(screen, x, y)
@@ -114,7 +126,7 @@ class LobbyPage:
         if place.device:
             controls, style = self.context.controls, self.driving(place.device)
             name = controls.moves(place.device) or words(f"devices.{controls.name(place.device)}")
-            card.driver("pad" if place.device.kind == "pad" else "keys", name).draw(screen, x, y)
+            card.driver(place.device.kind, name).draw(screen, x, y)
             color = self._selected(seat, DRIVE)
             card.driving(words(f"lobby.drive_{style}"), PICTURES[style], color).draw(screen, x, y)
         else:
@@ -170,13 +182,16 @@ class LobbyPage:
             message = words("lobby.wait", player=waiting[0] + 1, button="{button}")
             label = words.key_name(self.context.controls.label(place.device, Button.FIRE))
         else:
-            message, label = words("lobby.first") if not self.seats.robots else problem(self.seats, words), ""
+            first = words("lobby.first_phone" if self.context.phone_host.url else "lobby.first")
+            message, label = first if not self.seats.robots else problem(self.seats, words), ""
         call_to_action(message, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
 
 
-def spots(seats: Seats) -> list[FocusSpot]:
-    """Mouse targets: arrows and teams on the cards, then the cards."""
+def spots(seats: Seats, code_seat: int | None = None) -> list[FocusSpot]:
+    """Mouse targets: arrows and teams on the cards, the QR code, then the cards."""
     targets = []
+    if code_seat is not None:
+        targets.append(FocusSpot(f"{CODE} {code_seat}", CODE_BOX.move(card_rect(code_seat).topleft)))
     for seat, place in enumerate(seats.places):
         x, y = card_rect(seat).topleft
         if place.kind == AI:

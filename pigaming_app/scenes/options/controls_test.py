@@ -57,7 +57,7 @@ class ControlsTest:
     def handle(self, event: InputEvent) -> StackOperation:
         """Highlight the button; Escape, the prompt, and B held, leave."""
         action = self._prompts().as_button(event)
-        if action.button is Button.BACK and action.device.kind != "pad":
+        if action.button is Button.BACK and not action.device.has_stick:
             return self._leave()
         if action.button is Button.BACK:
             self.holding, self.held = action.device, 0.0
@@ -89,7 +89,7 @@ class ControlsTest:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("padtest.title"), words("padtest.line")).draw(screen)
-        pads = self.context.controls.pads()[:PLACES]
+        pads = self.context.controls.handhelds()[:PLACES]
         for i in range(PLACES):
             x = span(3 * i, 3)[0]
             black_out(screen, *(pygame.Rect(x, y, gadgets.W, gadgets.H) for y in (PADS_Y, KEYS_Y)))
@@ -104,7 +104,7 @@ class ControlsTest:
         self._prompts().draw(screen)
 
     def _prompts(self) -> ButtonPrompts:
-        pad = self.context.controls.last.kind == "pad"
+        pad = self.context.controls.last.has_stick
         return self.context.prompts([(Button.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
 
     def _leave(self) -> StackOperation:
@@ -154,7 +154,7 @@ class ControlsTest:
         """Draw a device's robot, at home at (x, y)."""
         robot = self.driven.get(device, _new_robot()).robots[0]
         heading, rx, ry = robot.heading, x + robot.x, y + robot.y
-        number = device.number if device.kind == "keys" else self.context.controls.pads().index(device)
+        number = device.number if device.kind == "keys" else self.context.controls.handhelds().index(device)
         if drive.turbo:
             _add(screen, effects.flame(number, step(heading, effects.TURNS), pygame.time.get_ticks() // 60 % 2), rx, ry)
         blit_sprite(screen, tank(number, step(heading, HEADINGS)), rx, ry)

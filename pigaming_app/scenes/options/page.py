@@ -43,6 +43,7 @@ ROWS = (
     "display",
     "fullscreen",
     "padtest",
+    "phones",
     "robots",
     "day",
     "reset",
@@ -162,7 +163,8 @@ class OptionsPage:
             case "reset":
                 key = "cleared" if self.cleared else "clear"
                 return SettingValue("deed", (words(f"options.{key}"),))
-        return SettingValue("deed", (words("options.open" if name in ("padtest", "robots", "day") else "options.end"),))
+        opens = name in ("padtest", "phones", "robots", "day")
+        return SettingValue("deed", (words("options.open" if opens else "options.end"),))
 
     def _change(self, name: str, by: int) -> None:
         """Step a row's value."""
@@ -184,6 +186,10 @@ class OptionsPage:
             from pigaming_app.scenes.options.controls_test import ControlsTest
 
             return Push(ControlsTest(self.context))
+        if name == "phones":
+            from pigaming_app.scenes.phones.settings_page import PhonesPage
+
+            return Push(PhonesPage(self.context))
         if name == "robots":
             from pigaming_app.scenes.robots.menu import RobotsMenu
 

@@ -109,6 +109,12 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
         icon(ink, "pad", 0, 10, 130, FOCUS, LINE)
         if beat:
             ink.disc(0.44 * 130, 10 - 0.28 * 130, 12, ICE)
+    elif name == "phones":
+        icon(ink, "phone", 0, 10, 130, FOCUS, LINE)
+        if beat:
+            for side in (-1, 1):
+                start = (math.pi if side < 0 else 0.0) - 0.5
+                ink.arc(0, 10, 150, start, start + 1.0, ICE, LINE)
     elif name == "rumble":
         icon(ink, "pad", 0, 10, 110, FOCUS, LINE)
         for side in (-1, 1):

@@ -81,7 +81,7 @@ class DeviceTable:
         layer = Layer(LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH)
         panel(layer.glow, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, PLAYERS[seat], THIN)
         badge(layer.glow, seat, LEFT + 84, y, 40)
-        icon(layer.glow, "pad" if device.kind == "pad" else "keys", NAMES + 40, y, 34, MIST, THIN)
+        icon(layer.glow, device.kind, NAMES + 40, y, 34, MIST, THIN)
         name = words(f"devices.{controls.name(device)}")
         layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, MOVES - NAMES - 112, "body"))
         self._moves(layer, device, y)
@@ -92,7 +92,7 @@ class DeviceTable:
 
     def _moves(self, layer: Layer, device: Device, y: float) -> None:
         x = MOVES
-        if device.kind == "pad":
+        if device.has_stick:
             layer.glow.ring(x + 30, y, 30, ICE, THIN).ring(x + 30, y, 13, ICE, THIN)
             x += 78
         for mark in self.context.controls.moves(device).replace(" ", ""):

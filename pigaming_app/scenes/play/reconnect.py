@@ -1,4 +1,7 @@
-"""Two pages that halt a match for a while: a pad was unplugged, or nobody responds. A ring shows the time left."""
+"""Two pages that halt a match for a while: a pad was unplugged or a phone locked, or nobody responds.
+
+A ring shows the time left.
+"""
 
 import math
 from typing import Protocol
@@ -37,10 +40,14 @@ class OpenMatch(PausedMatch, Protocol):
 
 
 class Reconnect:
-    """The device of `seat` is unplugged: a free one takes over with FIRE, an AI after the timeout."""
+    """The device of `seat` is unplugged: a free one takes over with FIRE, or the same phone when it is back, and an AI
+    after the timeout.
+    """
 
     def __init__(self, match: OpenMatch, seat: int) -> None:
         self.match, self.context, self.seat = match, match.context, seat
+        self.device = match.devices[seat]
+        self.phone = self.device is not None and self.device.kind == "phone"
         self.age, self.replugged = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
         hints = [(Button.X, "pause.hint_ai"), (Button.BACK, "pause.hint_menu")]
@@ -60,7 +67,7 @@ class Reconnect:
             self.context.sounds.play("move")
         elif event.button is Button.LOST:
             self.replugged = False
-        elif event.button in (Button.FIRE, Button.START) and self.match.is_free(event.device):
+        elif event.button in (Button.FIRE, Button.START) and self._may_take(event.device):
             return self._hand(event.device)
         elif admitted is None or self.age < INPUT_LOCKOUT:
             return None
@@ -84,13 +91,21 @@ class Reconnect:
                 self.match.picture(), PLAYERS[self.seat], self._paint, self.replugged
             )
         screen.blit(self.pictures[self.replugged], (0, 0))
+        if not self.phone:
+            self._draw_plug(screen)
+        ring(screen, TIMEOUT - self.age, TIMEOUT)
+        self.prompts.draw(screen)
+        self.match.draw_overlay(screen)
+
+    def _draw_plug(self, screen: pygame.Surface) -> None:
         gap = 0 if self.replugged else round(4 + 4 * math.sin(self.age * math.tau / 1.4))
         plug(MIST if not self.replugged else GREEN, self.replugged).draw(screen, PAD[0], PAD[1] - gap)
         if not self.replugged and self.age % 1.4 < 0.7:
             bolt().draw(screen, *PAD)
-        ring(screen, TIMEOUT - self.age, TIMEOUT)
-        self.prompts.draw(screen)
-        self.match.draw_overlay(screen)
+
+    def _may_take(self, device: Device) -> bool:
+        """True for a free device, and for the phone of this seat, which keeps its number."""
+        return device == self.device or self.match.is_free(device)
 
     def _hand(self, device: Device | None) -> StackOperation:
         self.match.assign_seat(self.seat, device)
@@ -100,10 +115,14 @@ class Reconnect:
         words, ink = self.context.words, layer.glow
         sheet_title(layer, self.seat, words("pause.reconnect", player=self.seat + 1), ICE)
         x, y = PAD
-        icon(ink, "pad", x, y + 34, 100, PLAYERS[self.seat], LINE)
-        ink.line([(x, y - 16), (x, y - 46)], PLAYERS[self.seat], LINE)
-        ink.line([(x - 16, y - 46), (x + 16, y - 46)], PLAYERS[self.seat], LINE)
-        say(layer, words("pause.found" if self.replugged else "pause.how"), FOCUS if self.replugged else ICE)
+        if self.phone:
+            icon(ink, "phone", x, y + 10, 110, PLAYERS[self.seat], LINE)
+        else:
+            icon(ink, "pad", x, y + 34, 100, PLAYERS[self.seat], LINE)
+            ink.line([(x, y - 16), (x, y - 46)], PLAYERS[self.seat], LINE)
+            ink.line([(x - 16, y - 46), (x + 16, y - 46)], PLAYERS[self.seat], LINE)
+        how = "pause.how_phone" if self.phone else "pause.how"
+        say(layer, words("pause.found" if self.replugged else how), FOCUS if self.replugged else ICE)
         after(layer, words("pause.then_ai"))
 
 

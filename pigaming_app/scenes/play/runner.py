@@ -159,7 +159,7 @@ class MatchRunner:
         if device:
             style = self.context.driving.of(device, self.match.setup.game, self.match.setup.variant)
             sign = device.kind if style == TURN else PICTURES[style]
-        if device and device.kind == "pad":
+        if device and device.has_stick:
             return words(f"devices.{self.context.controls.name(device)}"), sign
         if device:
             moves = self.context.controls.moves(device)

@@ -340,8 +340,8 @@ class MatchScene:
         return [*self.ai_replaced, *reversed(ais)]
 
     def _escapes(self, device: Device) -> bool:
-        """True if BACK means Escape: on a pad it is the turbo, unless nobody is seated."""
-        return device.kind != "pad" or not self.access.seated
+        """True if BACK means Escape: on a pad or phone it is the turbo, unless nobody is seated."""
+        return not device.has_stick or not self.access.seated
 
     def _request_seat(self, event: InputEvent) -> None:
         """FIRE on a free device: take an unclaimed seat at once, any other after holding."""

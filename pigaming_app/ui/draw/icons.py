@@ -84,6 +84,14 @@ def _pad(pen: Pen) -> None:
         pen.dot(x, y, 0.075)
 
 
+def _phone(pen: Pen) -> None:
+    """A phone with a stick and a button on its screen."""
+    pen.line((-0.5, -0.95), (0.5, -0.95), (0.5, 0.95), (-0.5, 0.95), closed=True)
+    pen.line((-0.14, 0.7), (0.14, 0.7))
+    pen.dot(0, -0.4, 0.2)
+    pen.dot(0, 0.2, 0.12)
+
+
 def _keys(pen: Pen) -> None:
     pen.line(*cut_box(-1, -0.58, 2, 1.16, 0.14), closed=True)
     for y in (-0.25, 0.05):
@@ -246,6 +254,7 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "ricochet": _ricochet,
     "mine": _mine,
     "pad": _pad,
+    "phone": _phone,
     "keys": _keys,
     "ai": _ai,
     "check": _check,

@@ -1,6 +1,6 @@
 """Input devices as button events (for menus) and stick states (for robots).
 
-Devices are gamepads, the four key clusters and the mouse; two pads of the same model are two devices.
+Devices are gamepads, phones, the four key clusters and the mouse; two pads of the same model are two devices.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -12,6 +12,7 @@ from pigaming_app.ui.input import keyboard
 from pigaming_app.ui.input.edges import TapQueue
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.filters import DIRECTIONS, AutoRepeat, ButtonChange
+from pigaming_app.ui.input.phones import registry as phones
 
 _MOUSE = Device("mouse")
 _NOT_PERSONAL = (Button.FOUND, Button.LOST, Button.BRAIN, Button.STOP)  # do not change `last`
@@ -25,7 +26,7 @@ _PLAIN = (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP, pygame.JOYAXISMOTION, pygame
 
 
 class Controls:
-    """All input devices. `last`: the most recently used pad or key cluster, whose labels the hints show.
+    """All input devices. `last`: the most recently used pad, phone or key cluster, whose labels the hints show.
 
     `to_canvas` maps window coordinates to canvas coordinates.
     """
@@ -34,6 +35,7 @@ class Controls:
         self._to_canvas = to_canvas
         self._pads = pads.Pads()
         self._keyboard = keyboard.Keyboard()
+        self.phones = phones.Phones()
         self._repeat = AutoRepeat()
         self._taps = TapQueue()
         self._down: dict[tuple[Device, Button], frozenset[str]] = {}
@@ -42,6 +44,7 @@ class Controls:
     def presses(self, events: Iterable[pygame.Event]) -> list[InputEvent]:
         """The button events of this frame, in order. Call it once per frame with all pygame events."""
         pressed = [press for event in events for press in self._translate(event)]
+        pressed += self._phone_presses()
         for press in pressed:
             if press.device != _MOUSE and press.button not in _NOT_PERSONAL:
                 self.last = press.device
@@ -63,6 +66,8 @@ class Controls:
             if not pad.attached():
                 return StickState()
             state = pad.drive()
+        elif device.kind == "phone" and device.number in self.phones.plugged:
+            state = self.phones.drive(device.number)
         else:
             return StickState()
         fire = self._taps.read(device, Button.FIRE, state.fire)
@@ -86,35 +91,44 @@ class Controls:
         return any(parts and owner == device for (owner, _), parts in self._down.items())
 
     def rumble(self, device: Device, strong: float, weak: float, seconds: float) -> None:
-        """Rumble a pad with its strong and weak motor, each in [0, 1]. Devices without motors do nothing."""
+        """Rumble a pad or phone with its strong and weak motor, each in [0, 1]. Devices without motors do nothing."""
         if device.kind == "pad" and device.number in self._pads.plugged:
             self._pads.plugged[device.number].rumble(strong, weak, round(1000 * seconds))
+        elif device.kind == "phone":
+            self.phones.rumble(device.number, strong, weak, seconds)
 
     def stop_rumble(self) -> None:
-        """Stop the rumbling of all pads."""
+        """Stop the rumbling of all pads and phones."""
         for pad in self._pads.plugged.values():
             pad.stop_rumble()
+        self.phones.stop_rumble()
 
     def connected(self, device: Device) -> bool:
+        if device.kind == "phone":
+            return device.number in self.phones.plugged
         return device.kind != "pad" or device.number in self._pads.plugged
 
     def pads(self) -> list[Device]:
         """The connected pads, oldest first."""
         return [Device("pad", number) for number in sorted(self._pads.plugged)]
 
+    def handhelds(self) -> list[Device]:
+        """The connected pads, then the connected phones, each oldest first."""
+        return [*self.pads(), *(Device("phone", number) for number in sorted(self.phones.plugged))]
+
     def players(self) -> list[Device]:
-        """Every device that can drive a robot: connected pads and the key clusters."""
-        return [*self.pads(), *(Device("keys", number) for number in range(len(keyboard.CLUSTERS)))]
+        """Every device that can drive a robot: connected pads and phones, and the key clusters."""
+        return [*self.handhelds(), *(Device("keys", number) for number in range(len(keyboard.CLUSTERS)))]
 
     def name(self, device: Device) -> str:
-        """The type of a device: Xbox, PlayStation, Nintendo, Joystick, Keyboard or Mouse."""
+        """The type of a device: Xbox, PlayStation, Nintendo, Joystick, Phone, Keyboard or Mouse."""
         if device.kind == "pad":
             pad = self._pads.plugged.get(device.number)
             return pad.kind if pad else "Joystick"
-        return "Keyboard" if device.kind == "keys" else "Mouse"
+        return {"keys": "Keyboard", "phone": "Phone"}.get(device.kind, "Mouse")
 
     def moves(self, device: Device) -> str:
-        """The four steering keys of a cluster; empty for a pad or mouse."""
+        """The four steering keys of a cluster; empty for other devices."""
         return keyboard.CLUSTERS[device.number].moves if device.kind == "keys" else ""
 
     def label(self, device: Device | None, button: Button) -> str:
@@ -122,6 +136,8 @@ class Controls:
         device = device or self.last
         if device.kind == "keys":
             return keyboard.label(device.number, button)
+        if device.kind == "phone":
+            return phones.LABELS.get(button, "")
         return pads.label(self.name(device), button) if device.kind == "pad" else ""
 
     def _translate(self, event: pygame.Event) -> Iterator[InputEvent]:
@@ -151,6 +167,16 @@ class Controls:
         if pad is not None and isinstance(pad, pads.MappedPad) == (event.type in _MAPPED):
             for change in pad.changes(event):
                 yield from self._press(Device("pad", event.instance_id), change)
+
+    def _phone_presses(self) -> Iterator[InputEvent]:
+        for number, change in self.phones.changes():
+            device = Device("phone", number)
+            if change is Button.LOST:
+                yield self._lost(device)
+            elif isinstance(change, ButtonChange):
+                yield from self._press(device, change)
+            else:
+                yield InputEvent(Button.FOUND, device)
 
     def _press(self, device: Device, change: ButtonChange) -> Iterator[InputEvent]:
         self._track(device, change)
@@ -188,6 +214,6 @@ class Controls:
     def _release_keys(self) -> None:
         self._keyboard.release()
         self._taps.clear("keys")
-        self._down = {key: parts for key, parts in self._down.items() if key[0].kind == "pad"}
+        self._down = {key: parts for key, parts in self._down.items() if key[0].has_stick}
         for number in range(len(keyboard.CLUSTERS)):
             self._repeat.drop(Device("keys", number))

@@ -27,10 +27,15 @@ class Button(Enum):
 
 @dataclass(frozen=True)
 class Device:
-    """A pad (number: SDL's instance id), one of four keyboard clusters (0..3), or the mouse."""
+    """A pad (number: SDL's instance id), a phone, one of four keyboard clusters (0..3), or the mouse."""
 
-    kind: str  # "pad", "keys", "mouse"
+    kind: str  # "pad", "phone", "keys", "mouse"
     number: int = 0
+
+    @property
+    def has_stick(self) -> bool:
+        """True for a pad or a phone: a stick, buttons A, B, X, Y and START, and B is both turbo and BACK."""
+        return self.kind in ("pad", "phone")
 
 
 @dataclass(frozen=True)

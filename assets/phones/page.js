@@ -1,0 +1,204 @@
+// The pad on a phone: touches become frames of four bytes, see ui/input/phones/protocol.py.
+"use strict";
+(() => {
+  const texts = JSON.parse(document.getElementById("texts").textContent);
+  const element = (id) => document.getElementById(id);
+  const BITS = { fire: 1, turbo: 2, x: 4, y: 8, start: 16 };
+  const FINAL = { 4000: "page_refused", 4001: "page_refused", 4003: "page_elsewhere" }; // no second attempt
+  const SHAPES = ["M-.95 0A.95 .95 0 1 1 .95 0A.95 .95 0 1 1-.95 0Z", "M0-1 1 .75H-1Z", "M-.85-.85H.85V.85H-.85Z", "M0-1.1 1.1 0 0 1.1-1.1 0Z"];
+  const FRAME_MS = 1000 / 60, ALIVE_MS = 200, FLASH_MS = 160, RETRY_MS = [300, 600, 1000, 2000];
+
+  let socket = null, resume = sessionStorage.getItem("resume") || "", attempts = 0, retry = 0;
+  let x = 0, y = 0, buttons = 0, sentAt = 0, sent = "", waiting = 0;
+
+  // ---- the connection
+
+  function connect() {
+    clearTimeout(retry);
+    if (socket && socket.readyState < 2) return;
+    const base = location.pathname.split("/")[1];
+    const mine = socket = new WebSocket(`ws://${location.host}/${base}/pad?resume=${encodeURIComponent(resume)}`);
+    mine.binaryType = "arraybuffer";
+    mine.onopen = () => { sent = ""; send(); };
+    mine.onmessage = (event) => receive(JSON.parse(event.data));
+    mine.onclose = (event) => { if (socket === mine) closed(event.code); };
+  }
+
+  function closed(code) {
+    socket = null;
+    document.body.classList.add("closed");
+    release();
+    show(texts[FINAL[code]] || (code === 4002 ? texts.page_full : texts.page_lost));
+    if (FINAL[code] || document.hidden) return;
+    const wait = code === 4002 ? 3000 : RETRY_MS[Math.min(attempts++, RETRY_MS.length - 1)];
+    retry = setTimeout(attempts % 4 ? connect : check, wait);
+  }
+
+  // A refused socket gives no reason: ask for the page itself.
+  function check() {
+    fetch(location.pathname, { cache: "no-store" }).then(
+      (answer) => (answer.status === 403 ? show(texts.page_old) : connect()), connect);
+  }
+
+  function receive(message) {
+    if (message.resume) {
+      resume = message.resume;
+      sessionStorage.setItem("resume", resume);
+      attempts = 0;
+      document.body.classList.remove("closed");
+    }
+    if (message.state) dress(message.state);
+    if (message.rumble) shake(...message.rumble);
+  }
+
+  function show(text) { element("message").textContent = text; }
+
+  // ---- what the arcade reports
+
+  function dress(state) {
+    const seated = state.seat >= 0;
+    document.documentElement.style.setProperty("--seat", seated ? state.color : "#96acce");
+    element("seat").textContent = seated ? texts.page_player.replace("{player}", state.seat + 1) : texts.page_join;
+    element("shape").style.display = seated ? "" : "none";
+    if (seated) element("shape").firstElementChild.setAttribute("d", SHAPES[state.seat]);
+    document.body.classList.toggle("playing", state.playing);
+    const words = state.playing ? ["page_fire", "page_turbo"] : ["page_ok", "page_back"];
+    ["fire", "turbo"].forEach((id, i) => { element(id).lastElementChild.textContent = texts[words[i]]; });
+  }
+
+  function shake(strong, weak, milliseconds) {
+    const shaken = navigator.vibrate && navigator.vibrate(strong + weak > 0 ? milliseconds : 0);
+    if (shaken || milliseconds === 0 || strong + weak < 0.5) return;
+    element("flash").classList.add("lit");
+    setTimeout(() => element("flash").classList.remove("lit"), FLASH_MS);
+  }
+
+  // ---- what the player touches
+
+  function send() {
+    if (!socket || socket.readyState !== 1) return;
+    const frame = Int8Array.of(1, Math.round(127 * x), Math.round(127 * y), buttons);
+    sentAt = performance.now();
+    sent = frame.join();
+    socket.send(frame);
+  }
+
+  // Buttons go at once, the stick at most 60 times a second.
+  function moved() {
+    const left = FRAME_MS - (performance.now() - sentAt);
+    if (left <= 0) send();
+    else if (!waiting) waiting = setTimeout(() => { waiting = 0; send(); }, left);
+  }
+
+  setInterval(() => { if (performance.now() - sentAt >= ALIVE_MS - 20) send(); }, ALIVE_MS);
+
+  function press(id, down) {
+    const before = buttons;
+    buttons = down ? buttons | BITS[id] : buttons & ~BITS[id];
+    element(id).classList.toggle("down", down);
+    if (buttons !== before) send();
+  }
+
+  const fingers = {}; // what each pointer touches: the name of a button, or "stick"
+  let centre = null;
+
+  // The nearest of FIRE and TURBO on the right half, so that a thumb need not aim.
+  function nearest(event) {
+    const distance = (id) => {
+      const box = element(id).getBoundingClientRect();
+      return Math.hypot(event.clientX - box.x - box.width / 2, event.clientY - box.y - box.height / 2) - box.width / 2;
+    };
+    return distance("fire") <= distance("turbo") ? "fire" : "turbo";
+  }
+
+  function touch(event) {
+    event.preventDefault();
+    const target = event.target.closest("button, #stick, #buttons");
+    if (!target || event.pointerId in fingers) return;
+    if (target.id === "stick") {
+      if (Object.values(fingers).includes("stick")) return;
+      fingers[event.pointerId] = "stick";
+      centre = [event.clientX, event.clientY];
+      place(event);
+    } else if (target.id in BITS || target.id === "buttons") {
+      const id = target.id in BITS ? target.id : nearest(event);
+      fingers[event.pointerId] = id;
+      press(id, true);
+    }
+  }
+
+  function move(event) {
+    const id = fingers[event.pointerId];
+    if (id === "stick") place(event);
+    else if (id === "fire" || id === "turbo") slide(event, id);
+  }
+
+  // A thumb that slides from one of FIRE and TURBO to the other.
+  function slide(event, id) {
+    const over = document.elementFromPoint(event.clientX, event.clientY);
+    if (over && over.id !== id && (over.id === "fire" || over.id === "turbo")) {
+      fingers[event.pointerId] = over.id;
+      if (!Object.values(fingers).includes(id)) press(id, false);
+      press(over.id, true);
+    }
+  }
+
+  function lift(event) {
+    const id = fingers[event.pointerId];
+    delete fingers[event.pointerId];
+    if (id === "stick") centred();
+    else if (id && !Object.values(fingers).includes(id)) press(id, false);
+  }
+
+  function place(event) {
+    const reach = element("base").offsetWidth / 2;
+    let dx = event.clientX - centre[0], dy = event.clientY - centre[1];
+    const far = Math.hypot(dx, dy);
+    if (far > reach) { // the stick follows a thumb that wanders
+      centre = [centre[0] + dx * (1 - reach / far), centre[1] + dy * (1 - reach / far)];
+      dx *= reach / far;
+      dy *= reach / far;
+    }
+    const box = element("stick").getBoundingClientRect();
+    at("base", centre[0] - box.x, centre[1] - box.y);
+    at("knob", centre[0] + dx - box.x, centre[1] + dy - box.y);
+    [x, y] = [dx / reach, dy / reach];
+    moved();
+  }
+
+  function at(id, left, top) { Object.assign(element(id).style, { left: `${left}px`, top: `${top}px` }); }
+
+  function centred() {
+    for (const id of ["base", "knob"]) Object.assign(element(id).style, { left: "", top: "" });
+    x = y = 0;
+    send();
+  }
+
+  function release() {
+    for (const id of Object.keys(fingers)) delete fingers[id];
+    for (const id of Object.keys(BITS)) element(id).classList.remove("down");
+    buttons = 0;
+    centred();
+  }
+
+  addEventListener("pointerdown", touch);
+  addEventListener("pointermove", move);
+  addEventListener("pointerup", lift);
+  addEventListener("pointercancel", lift);
+  addEventListener("contextmenu", (event) => event.preventDefault());
+  addEventListener("touchmove", (event) => event.preventDefault(), { passive: false });
+  element("full").addEventListener("click", () => {
+    if (document.fullscreenElement) document.exitFullscreen();
+    else if (document.documentElement.requestFullscreen) document.documentElement.requestFullscreen();
+  });
+
+  // A locked phone, or another page in front, is an unplugged pad.
+  document.addEventListener("visibilitychange", () => {
+    if (document.hidden) { clearTimeout(retry); if (socket) socket.close(); }
+    else connect();
+  });
+
+  show(texts.page_lost);
+  dress({ seat: -1, color: "", playing: false });
+  connect();
+})();

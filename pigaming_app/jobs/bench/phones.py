@@ -1,0 +1,139 @@
+"""Phones as pads on loopback: from a moved stick to the tick that reads it, with four phones in a running match.
+
+Each phone moves its stick at random moments and reports it as the page does, at most 60 times a second. The match runs
+at 60 frames and 50 ticks a second in real time. A latency ends with the tick that reads the stick, so half a tick of
+waiting belongs to it; drawing, radio and Wi-Fi do not.
+"""
+
+import asyncio
+import random
+import threading
+import time
+from functools import partial
+from itertools import count
+from typing import Any
+
+from aiohttp import ClientSession
+
+from pigaming_app.ai.brain.kind import HumanPlayer
+from pigaming_app.ai.registry import DRIVING, TURN, new_match
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
+from pigaming_app.sim.world import HZ
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Device, StickState
+from pigaming_app.ui.input.filters import apply_dead_zone
+from pigaming_app.ui.input.phones.protocol import REACH, Touches, pack
+from pigaming_app.ui.input.phones.registry import MAX_PHONES
+from pigaming_app.ui.input.phones.server import PhoneServer
+
+FPS, RATE = 60, 60  # frames of the arcade, messages of a phone, each per second
+MOVE_SECONDS = 0.12, 0.2  # between two moves of a stick
+SECONDS = 20.0
+GOAL_MS = 30.0  # median
+
+
+class Mover(threading.Thread):
+    """Four phones in a thread of their own. `moved`: for each, the time of a move by the deflection it makes."""
+
+    def __init__(self, url: str, seconds: float) -> None:
+        super().__init__(daemon=True)
+        self.url, self.seconds = url, seconds
+        self.moved: list[dict[float, float]] = [{} for _ in range(MAX_PHONES)]
+        self.messages = 0
+        self.begun = threading.Barrier(2)
+
+    def run(self) -> None:
+        asyncio.run(self._all())
+
+    async def _all(self) -> None:
+        host, _, token = self.url.removeprefix("http://").partition("/")
+        async with ClientSession() as session:
+            address, origin = f"ws://{host}/{token}/pad", f"http://{host}"
+            sockets = [await session.ws_connect(address, origin=origin) for _ in range(MAX_PHONES)]
+            self.begun.wait()
+            await asyncio.gather(*(self._play(socket, phone) for phone, socket in enumerate(sockets)))
+            for socket in sockets:
+                await socket.close()
+
+    async def _play(self, socket: Any, phone: int) -> None:
+        """Move the stick now and then; report the latest position 60 times a second."""
+        rng, end = random.Random(phone), time.perf_counter() + self.seconds
+        move_at, step, x = time.perf_counter() + rng.uniform(*MOVE_SECONDS), count(), 0
+        due = time.perf_counter()
+        while (now := time.perf_counter()) < end:
+            if now >= move_at:
+                x = (40 + next(step) % (REACH - 48)) * (-1) ** (phone % 2)
+                self.moved[phone][_turn(x)] = move_at
+                move_at += rng.uniform(*MOVE_SECONDS)
+            await socket.send_bytes(pack(Touches(x / REACH)))
+            self.messages += 1
+            due += 1 / RATE
+            await asyncio.sleep(max(0.0, due - time.perf_counter()))
+
+
+def measure(seconds: float = SECONDS) -> dict[str, Any]:
+    """The figures: latencies in ms, messages a second of each phone. Raises PhonesUnavailable."""
+    controls = Controls()
+    server = PhoneServer(controls.phones, "127.0.0.1", 0, {})
+    server.start()
+    try:
+        mover = Mover(server.url, seconds)
+        mover.start()
+        mover.begun.wait()
+        latencies = _played(controls, mover, seconds)
+        mover.join()
+    finally:
+        server.stop()
+    ordered = sorted(latencies)
+    median, slow = ordered[len(ordered) // 2], ordered[int(0.99 * (len(ordered) - 1))]
+    return {
+        "phones": MAX_PHONES,
+        "messages_per_second_a_phone": mover.messages / MAX_PHONES / seconds,
+        "moves": len(ordered),
+        "stick_to_tick_ms_median": median,
+        "stick_to_tick_ms_99": slow,
+        "stick_to_tick_ms_worst": ordered[-1],
+        "goal_ms_median": GOAL_MS,
+        "reached": median <= GOAL_MS,
+    }
+
+
+def _played(controls: Controls, mover: Mover, seconds: float) -> list[float]:
+    """Play a match with the phones in real time; returns the latency of every move, ms."""
+    latencies: list[float] = []
+    last = [0.0] * MAX_PHONES
+
+    def read(seat: int) -> StickState:
+        state = controls.drive(Device("phone", seat))
+        if state.angular != last[seat]:
+            last[seat] = state.angular
+            if moved_at := mover.moved[seat].pop(state.angular, None):
+                latencies.append(1000 * (time.perf_counter() - moved_at))
+        return state
+
+    match = _match(read)
+    begun = time.perf_counter()
+    ticks = frames = 0
+    while (now := time.perf_counter() - begun) < seconds:
+        controls.presses([])
+        while ticks < now * HZ:
+            ticks += 1
+            match.tick()
+        frames += 1
+        time.sleep(max(0.0, begun + frames / FPS - time.perf_counter()))
+    return latencies
+
+
+def _match(read: Any) -> Match:
+    one, two, three, four = (Seat("human", seat) for seat in range(MAX_PHONES))
+    match = new_match(Setup("pitanks", "classic", (one, two, three, four), 60, 1, games()["pitanks"].default.name))
+    for seat in range(MAX_PHONES):
+        match.sit(seat, HumanPlayer(partial(read, seat), DRIVING["pitanks"][TURN]))
+    return match
+
+
+def _turn(x: int) -> float:
+    """What the arcade reads when a phone sends this deflection."""
+    return apply_dead_zone(x / REACH, 0.0)[0]

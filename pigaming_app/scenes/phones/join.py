@@ -1,0 +1,194 @@
+"""Join by phone: the QR code, large enough for a phone two metres away, beside the address in plain text.
+
+In the lobby, phones join and get ready while the page stays; any other device returns to the lobby and acts there.
+"""
+
+from collections.abc import Callable, Sequence
+
+import pygame
+
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.ui.draw import (
+    ALARM,
+    BLACK,
+    BODY,
+    FOCUS,
+    HAIR,
+    ICE,
+    LABEL,
+    MIST,
+    PLAYERS,
+    STEEL,
+    SUB,
+    THIN,
+    badge,
+    dim,
+    icon,
+)
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size, paragraph, wrap
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.phones.code import qr_code
+from pigaming_app.ui.input.phones.host import PhoneHost
+from pigaming_app.ui.widgets.labels import heading, pulse, sign
+
+IDLE = 60.0  # s without input until the title
+PATIENCE = 20.0  # s without a visitor, after which network and firewall are named
+CODE = pygame.Rect(LEFT, 206, 726, 726)
+TEXT_X = CODE.right + 72
+ROOM = RIGHT - TEXT_X
+STEPS_Y, STEP, ADDRESS_Y, SEATS_Y, HELP_Y = 262, 106, 640, 776, 886
+SEAT_W = 152
+Devices = Sequence[Device | None]
+
+
+class JoinByPhone:
+    """The page. `devices`: of the seats. `lobby`: handles the presses of phones; None over a paused match. `ready`:
+    true when the lobby goes on.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        devices: Callable[[], Devices],
+        lobby: Callable[[InputEvent], StackOperation] | None = None,
+        ready: Callable[[], bool] = lambda: False,
+    ) -> None:
+        self.context, self.devices, self.lobby, self.ready = context, devices, lobby, ready
+        self.clock = 0.0
+        self.prompts = context.prompts([(Button.BACK, "phones.hint_back")])
+
+    def on_enter(self) -> None:
+        pass
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """Phones act in the lobby below; the first press of another device returns there."""
+        event = self.prompts.as_button(event)
+        phone = event.device.kind == "phone"
+        if event.button is Button.FOUND and phone:
+            self.context.sounds.play("move")
+        if event.button is Button.POINT or (self.lobby is None and event.button in (Button.FOUND, Button.LOST)):
+            return None
+        if event.button is Button.BACK and (self.lobby is None or not phone):
+            self.context.sounds.play("back")
+            return Pop()
+        if event.button is Button.CLICK:
+            return Pop()
+        if self.lobby is None:
+            return None if phone else Pop()
+        operation = self.lobby(event)
+        if isinstance(operation, Push):
+            return Swap(operation.scene)
+        stays = event.button in (Button.FOUND, Button.LOST) or (phone and not self.ready())
+        return operation or (None if stays else Pop())
+
+    def update(self, seconds: float) -> StackOperation:
+        """Return when phones are off; to the title when the lobby is abandoned."""
+        self.clock += seconds
+        if not self.context.phone_host.on:
+            return Pop()
+        return Home() if self.lobby and self.context.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words, host = self.context.words, self.context.phone_host
+        screen.blit(backdrop(), (0, 0))
+        heading(words("phones.title"), words("phones.line")).draw(screen)
+        if host.url:
+            draw_code(screen, host.url, CODE)
+            steps((words("phones.step_wifi"), words("phones.step_scan"), words("phones.step_press"))).draw(screen)
+            address(words("phones.type"), plain(host.url)).draw(screen)
+            self._seats(screen)
+            if host.server and not host.server.visited and self.clock > PATIENCE:
+                hint(words("phones.firewall", port=host.server.port)).draw(screen)
+        else:
+            sign("phone", 150, STEEL, THIN).draw(screen, *CODE.center)
+            text = trouble(words, host)
+            for i, lit in enumerate(paragraph(text, ROOM, 4, ALARM)):
+                lit.draw(screen, TEXT_X, CODE.centery - 60 + 58 * i)
+        self.prompts.draw(screen)
+
+    def _seats(self, screen: pygame.Surface) -> None:
+        """The seats, with the phones that have joined, and the phones that have not."""
+        devices = self.devices()
+        for seat in range(4):
+            device = devices[seat] if seat < len(devices) else None
+            seat_sign(seat, device.kind if device else "").draw(screen, TEXT_X + SEAT_W * seat, SEATS_Y)
+        waiting = [device for device in self.context.controls.handhelds() if device not in devices]
+        count = sum(device.kind == "phone" for device in waiting)
+        if count:
+            sign("phone", 40, FOCUS, THIN, pulse(self.clock)).draw(screen, TEXT_X + SEAT_W * 4 + 76, SEATS_Y + 40)
+            number(f"× {count}").draw(screen, TEXT_X + SEAT_W * 4 + 126, SEATS_Y + 40)
+
+
+def draw_code(screen: pygame.Surface, url: str, box: pygame.Rect) -> None:
+    """Draw the QR code in the middle of a box; capitals alone make its modules larger."""
+    code = qr_code(url.upper(), box.w, BLACK, ICE)
+    screen.blit(code, code.get_rect(center=box.center))
+
+
+def plain(url: str) -> str:
+    """The address as it is typed."""
+    return url.removeprefix("http://")
+
+
+def trouble(words: Words, host: PhoneHost) -> str:
+    """Why phones cannot join, in one sentence; empty if they can."""
+    return words(f"phones.{host.trouble.key}", **host.trouble.values) if host.trouble else ""
+
+
+@cached
+@resumable
+def steps(lines: tuple[str, ...]) -> Steps[LitImage]:
+    """The numbered steps, top left of the text's column."""
+    layer = Layer(TEXT_X, STEPS_Y - 50, ROOM, STEP * len(lines))
+    for i, line in enumerate(lines):
+        y = STEPS_Y + STEP * i
+        layer.glow.ring(TEXT_X + 34, y, 34, FOCUS, THIN)
+        layer.canvas.crisp.text(str(i + 1), LABEL, TEXT_X + 34, y, FOCUS, "head", "c")
+        layer.canvas.body(line, TEXT_X + 100, y, ICE, "l", fit_size(line, BODY, ROOM - 100, "body"))
+        yield
+    return (yield from layer.render_steps())
+
+
+@cached
+@resumable
+def address(label: str, text: str) -> Steps[LitImage]:
+    """The address in plain text, below a label."""
+    layer = Layer(TEXT_X, ADDRESS_Y - 90, ROOM, 150)
+    layer.canvas.body(label, TEXT_X, ADDRESS_Y - 62, MIST, "l", 34)
+    layer.canvas.text(text, fit_size(text, SUB, ROOM), TEXT_X, ADDRESS_Y + 6, FOCUS)
+    layer.glow.line([(TEXT_X, ADDRESS_Y + 66), (RIGHT, ADDRESS_Y + 66)], dim(STEEL, 0.6), HAIR)
+    yield
+    return (yield from layer.render_steps())
+
+
+@cached
+def seat_sign(seat: int, kind: str) -> LitImage:
+    """The badge of a seat, and its device, if any; upper left corner at (0, 0)."""
+    layer = Layer(0, 0, SEAT_W - 12, 80)
+    color = PLAYERS[seat] if kind else dim(PLAYERS[seat], 0.45)
+    badge(layer.glow, seat, 36, 40, 32, color)
+    if kind:
+        icon(layer.glow, kind, 100, 40, 26, ICE, THIN)
+    return layer.render()
+
+
+@cached
+def number(text: str) -> LitImage:
+    """A number, its left end at (0, 0)."""
+    layer = Layer(0, -30, 110, 60)
+    layer.canvas.text(text, LABEL, 0, 0, FOCUS)
+    return layer.render()
+
+
+@cached
+def hint(text: str) -> LitImage:
+    """Advice in up to two lines at the foot of the text's column."""
+    layer = Layer(TEXT_X, HELP_Y - 30, ROOM, 100)
+    for i, line in enumerate(wrap(text, 32, ROOM)[:2]):
+        layer.canvas.body(line, TEXT_X, HELP_Y + 44 * i, MIST, "l", 32)
+    return layer.render()

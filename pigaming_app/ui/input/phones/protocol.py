@@ -1,0 +1,69 @@
+"""Messages between the arcade and a phone's page.
+
+A phone sends its whole state in a binary frame of four bytes: the version, x and y of the stick (signed, -127..127, y
+down), and a bit for each button held down. The arcade answers with JSON: `{"state": {...}}` describes the seat,
+`{"rumble": [strong, weak, milliseconds]}` shakes the phone, `{"resume": "..."}` identifies it when it returns.
+"""
+
+import json
+import struct
+from dataclasses import asdict, dataclass
+
+from pigaming_app.ui.input.events import Button
+
+VERSION = 1
+FRAME = struct.Struct("<Bbbb")
+REACH = 127  # full deflection of an axis
+BITS = {Button.FIRE: 1, Button.BACK: 2, Button.X: 4, Button.Y: 8, Button.START: 16}
+ALL_BITS = sum(BITS.values())
+MAX_FRAME = 64  # bytes; a longer one is refused before it is read
+MAX_RATE = 200  # messages in a second
+CLOSED_MALFORMED, CLOSED_FLOOD, CLOSED_FULL, CLOSED_REPLACED, CLOSED_SILENT = 4000, 4001, 4002, 4003, 4004
+
+
+@dataclass(frozen=True)
+class Touches:
+    """What a phone's player touches: the stick, each axis in [-1, 1] with y down, and the buttons, a sum of BITS."""
+
+    x: float = 0.0
+    y: float = 0.0
+    buttons: int = 0
+
+
+@dataclass(frozen=True)
+class SeatView:
+    """What a phone shows: its seat (0..3; -1: none), the seat's colour as #rrggbb, and whether a match is running."""
+
+    seat: int = -1
+    color: str = ""
+    playing: bool = False
+
+
+def parse(frame: bytes) -> Touches | None:
+    """The state in a frame of a phone; None if it is malformed."""
+    if len(frame) != FRAME.size:
+        return None
+    version, x, y, buttons = FRAME.unpack(frame)
+    if version != VERSION or min(x, y) < -REACH or not 0 <= buttons <= ALL_BITS:
+        return None
+    return Touches(x / REACH, y / REACH, buttons)
+
+
+def pack(touches: Touches) -> bytes:
+    """The frame that a page sends for this state."""
+    return FRAME.pack(VERSION, round(touches.x * REACH), round(touches.y * REACH), touches.buttons)
+
+
+def rumble_text(strong: float, weak: float, seconds: float) -> str:
+    """The message that shakes a phone; strengths in [0, 1]. Zero seconds stop it."""
+    return json.dumps({"rumble": [round(strong, 2), round(weak, 2), round(1000 * seconds)]})
+
+
+def state_text(view: SeatView) -> str:
+    """The message that describes the seat."""
+    return json.dumps({"state": asdict(view)})
+
+
+def resume_text(token: str) -> str:
+    """The message with the token by which a phone gets its device number back."""
+    return json.dumps({"resume": token})

@@ -1,0 +1,257 @@
+"""The server of the phones' page and sockets: aiohttp in a thread of its own, bound to one address.
+
+Everything needs the session's token, which is in the QR code. Requests for another host, sockets opened by pages of
+another origin, and peers with many connections are refused. No refusal costs more than a few bytes, and none is waited
+for: the arcade only ever reads queues.
+"""
+
+import asyncio
+import errno
+import hmac
+import html
+import json
+import logging
+import secrets
+import threading
+from collections.abc import Mapping
+from typing import Any
+
+from aiohttp import web
+
+from pigaming_app import ASSETS
+from pigaming_app.ui.input.phones import protocol
+from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, Seats
+from pigaming_app.ui.input.phones.network import PhonesUnavailable
+from pigaming_app.ui.input.phones.refusals import ErrorsOfLibrary, RateMeter, Refusals
+from pigaming_app.ui.input.phones.registry import Phones
+
+START_SECONDS = 5.0  # for the server to listen
+ALPHABET = "abcdefghjkmnpqrstuvwxyz23456789"  # without signs that look alike: the address may be typed
+TOKEN_LENGTH = 10  # 49 bits, guessed over a network within one session
+MAX_CONNECTIONS, MAX_OF_PEER = 64, 24
+MAX_OPENED, OPENED_SECONDS = 80, 10.0  # connections that a peer may open in that time
+IDLE_SECONDS = 5.0  # without a complete request
+FILES = {
+    "page.css": ("phones/page.css", "text/css"),
+    "page.js": ("phones/page.js", "text/javascript"),
+    "oxanium.woff2": ("fonts/oxanium-latin-700-normal.woff2", "font/woff2"),
+}
+FORBIDDEN_ERRORS = (errno.EACCES, errno.EPERM, 10013)  # 10013: Windows' WSAEACCES
+
+
+class PhoneServer:
+    """Serves `phones` on a port of an address. `texts`: the texts of the page, in the language of the screen."""
+
+    def __init__(self, phones: Phones, address: str, port: int, texts: Mapping[str, str]) -> None:
+        self.phones, self.address, self.port, self.texts = phones, address, port, texts
+        self.token = "".join(secrets.choice(ALPHABET) for _ in range(TOKEN_LENGTH))
+        self.refusals = Refusals()
+        self.visited = False  # whether a page was asked for with the right token
+        self._seats = Seats(phones, self.refusals)
+        self._files = {name: ((ASSETS / path).read_bytes(), kind) for name, (path, kind) in FILES.items()}
+        self._page = (ASSETS / "phones" / "page.html").read_text(encoding="utf-8")
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._ended: asyncio.Event | None = None
+        self._ready, self._error = threading.Event(), ""
+        self._thread = threading.Thread(target=self._run, name="phones", daemon=True)
+
+    @property
+    def url(self) -> str:
+        """The address for phones, with the token."""
+        return f"http://{self.address}:{self.port}/{self.token}"
+
+    def start(self) -> None:
+        """Listen. Raises PhonesUnavailable if the port is taken or forbidden, or the address is not this computer's."""
+        self._thread.start()
+        if not self._ready.wait(START_SECONDS):
+            self._error = "port_forbidden"
+        if self._error:
+            self.stop()
+            raise PhonesUnavailable(self._error, port=self.port)
+        self.phones.send = self._send
+
+    def stop(self) -> None:
+        """Close all connections and end the thread."""
+        self.phones.send = lambda number, text: None
+        if self._loop and self._ended and not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._ended.set)
+        self._thread.join(START_SECONDS)
+
+    # ---- in the main loop's thread
+
+    def _send(self, number: int, text: str) -> None:
+        """Hand a text to the server's thread; a phone that has just gone does not get it."""
+        if self._loop and not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._deliver, number, text)
+
+    # ---- in the server's thread
+
+    def _run(self) -> None:
+        try:
+            asyncio.run(self._serve())
+        except OSError as error:
+            self._error = _cause(error)
+        finally:
+            self._ready.set()
+
+    async def _serve(self) -> None:
+        self._loop, self._ended = asyncio.get_running_loop(), asyncio.Event()
+        logger = logging.Logger("phones")  # not in the hierarchy: its messages become refusals
+        logger.addHandler(ErrorsOfLibrary(self.refusals))
+        app = web.Application(middlewares=[self._checked], client_max_size=1024)
+        app.router.add_get("/{token}", self._get_page)
+        app.router.add_get("/{token}/pad", self._get_socket)
+        app.router.add_get("/{token}/{file}", self._get_file)
+        settings: dict[str, Any] = {
+            "access_log": None,
+            "logger": logger,
+            "keepalive_timeout": IDLE_SECONDS,
+            "lingering_time": 0.0,
+        }
+        runner = web.AppRunner(app, shutdown_timeout=CLOSE_SECONDS)
+        await runner.setup()
+        try:
+            assert runner.server is not None
+            guard = Guard(runner.server, settings, self.refusals)
+            listener = await self._loop.create_server(guard.handler, self.address, self.port)
+            self.port = listener.sockets[0].getsockname()[1]
+            self._ready.set()
+            await self._ended.wait()
+            listener.close()
+            await asyncio.gather(*(one.close(1001) for one in self._seats.connections.values()))
+        finally:
+            await runner.cleanup()
+
+    def _deliver(self, number: int, text: str) -> None:
+        if connection := self._seats.connections.get(number):
+            connection.send(text)
+
+    @web.middleware
+    async def _checked(self, request: web.Request, handler: Any) -> web.StreamResponse:
+        """Refuse requests for another host and without the token; close the connection after each answer."""
+        try:
+            if request.headers.get("Host", "") != f"{self.address}:{self.port}":
+                response = self._refused("foreign host refused", request)
+            elif not hmac.compare_digest(_first_part(request.path), self.token.encode()):
+                response = self._refused("wrong token refused", request)
+            else:
+                response = await handler(request)
+        except web.HTTPException as error:
+            self.refusals.note("unknown page refused", request.remote or "")
+            response = web.Response(status=error.status)
+        if not response.prepared:
+            response.headers.update(self._headers())
+            response.force_close()
+        return response
+
+    def _headers(self) -> dict[str, str]:
+        here = f"ws://{self.address}:{self.port}"
+        policy = f"default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; connect-src 'self' {here}"
+        return {
+            "Server": "PiGaming",
+            "Cache-Control": "no-store",
+            "Referrer-Policy": "no-referrer",
+            "X-Content-Type-Options": "nosniff",
+            "Content-Security-Policy": f"{policy}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+        }
+
+    def _refused(self, kind: str, request: web.Request) -> web.StreamResponse:
+        self.refusals.note(kind, request.remote or "")
+        sentence = html.escape(self.texts.get("page_old", ""))
+        meta = '<meta name="viewport" content="width=device-width"><meta charset="utf-8">'
+        return web.Response(status=403, text=f"<!doctype html>{meta}<p>{sentence}</p>", content_type="text/html")
+
+    async def _get_page(self, request: web.Request) -> web.StreamResponse:
+        self.visited = True
+        texts = json.dumps(dict(self.texts)).replace("<", "\\u003c")
+        page = self._page.replace("{token}", self.token).replace("{texts}", texts)
+        return web.Response(text=page, content_type="text/html")
+
+    async def _get_file(self, request: web.Request) -> web.StreamResponse:
+        if request.match_info["file"] not in self._files:
+            raise web.HTTPNotFound
+        body, kind = self._files[request.match_info["file"]]
+        return web.Response(body=body, content_type=kind)
+
+    async def _get_socket(self, request: web.Request) -> web.StreamResponse:
+        peer = request.remote or ""
+        if request.headers.get("Origin", "") != f"http://{self.address}:{self.port}":
+            return self._refused("foreign origin refused", request)
+        if not web.WebSocketResponse().can_prepare(request):
+            raise web.HTTPBadRequest
+        admitted = self._seats.admit(request.query.get("resume", ""), peer)
+        if admitted is None:
+            self.refusals.note("fifth phone refused", peer)
+            return await _closed(request, protocol.CLOSED_FULL)
+        connection, resume = admitted
+        try:
+            await connection.socket.prepare(request)
+            connection.send(protocol.resume_text(resume))
+            await connection.serve(request)
+        finally:
+            self._seats.leave(connection)
+        return connection.socket
+
+
+class Guard:
+    """Limits the connections of all peers and of each."""
+
+    def __init__(self, server: web.Server, settings: dict[str, Any], refusals: Refusals) -> None:
+        self.server, self.settings, self.refusals = server, settings, refusals
+        self.open: dict[web.RequestHandler, str] = {}  # address of the peer of each connection
+        self._opened: dict[str, RateMeter] = {}
+
+    def handler(self) -> asyncio.Protocol:
+        """A protocol for a new connection."""
+        return _Guest(self)
+
+    def admits(self, peer: str) -> bool:
+        """True if a peer may open one more connection."""
+        if len(self._opened) > MAX_CONNECTIONS:
+            self._opened.clear()
+        meter = self._opened.setdefault(peer, RateMeter(MAX_OPENED, OPENED_SECONDS))
+        often = meter.exceeded(asyncio.get_running_loop().time())
+        return not often and len(self.open) < MAX_CONNECTIONS and [*self.open.values()].count(peer) < MAX_OF_PEER
+
+
+class _Guest(web.RequestHandler):
+    """An HTTP connection that is cut at once if its peer has too many."""
+
+    __slots__ = ("_guard",)
+
+    def __init__(self, guard: Guard) -> None:
+        super().__init__(guard.server, loop=asyncio.get_running_loop(), **guard.settings)
+        self._guard = guard
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        super().connection_made(transport)
+        name = transport.get_extra_info("peername")
+        peer = str(name[0]) if name else ""
+        if self._guard.admits(peer):
+            self._guard.open[self] = peer
+        else:
+            self._guard.refusals.note("too many connections refused", peer)
+            self.force_close()
+
+    def connection_lost(self, exc: BaseException | None) -> None:
+        self._guard.open.pop(self, None)
+        super().connection_lost(exc)
+
+
+def _first_part(path: str) -> bytes:
+    return path.strip("/").partition("/")[0].lower().encode(errors="replace")
+
+
+async def _closed(request: web.Request, code: int) -> web.WebSocketResponse:
+    """A socket that is closed at once, for a reason that the page knows."""
+    socket = web.WebSocketResponse(timeout=CLOSE_SECONDS, max_msg_size=protocol.MAX_FRAME, compress=False)
+    await socket.prepare(request)
+    await socket.close(code=code)
+    return socket
+
+
+def _cause(error: OSError) -> str:
+    """The key of the sentence for an address that cannot be listened on."""
+    if error.errno in FORBIDDEN_ERRORS:
+        return "port_forbidden"
+    return "port_taken" if error.errno in (errno.EADDRINUSE, 10048) else "no_network"

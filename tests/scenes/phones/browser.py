@@ -1,0 +1,172 @@
+"""A headless Chromium, driven by the DevTools protocol: pages with a touch screen, each as a phone of its own."""
+
+import asyncio
+import itertools
+import shutil
+import subprocess
+import tempfile
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
+
+from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+OPTIONS = (
+    "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run", "--mute-audio",
+    "--remote-debugging-port=0", "--disable-extensions", "--disable-background-networking", "--disable-sync",
+    "--disable-background-timer-throttling", "--disable-renderer-backgrounding",
+)  # fmt: skip
+LANDSCAPE, PORTRAIT = (844, 390), (390, 844)
+WATCH_VIBRATION = "window.shaken = []; navigator.vibrate = (ms) => { window.shaken.push(ms); return true; };"
+
+
+def chromium() -> str | None:
+    """The path of the browser, if it is installed."""
+    return next((path for name in NAMES if (path := shutil.which(name))), None)
+
+
+class Browser:
+    """A running browser. Sessions of the protocol share one socket."""
+
+    def __init__(self, socket: ClientWebSocketResponse) -> None:
+        self._socket = socket
+        self._numbers = itertools.count(1)
+        self._answers: dict[int, asyncio.Future[Any]] = {}
+        self.errors: list[str] = []  # exceptions, and messages of the console, of all pages
+
+    async def ask(self, method: str, session: str | None = None, **parameters: Any) -> Any:
+        """The result of a command."""
+        number = next(self._numbers)
+        self._answers[number] = asyncio.get_running_loop().create_future()
+        message: dict[str, Any] = {"id": number, "method": method, "params": parameters}
+        await self._socket.send_json(message | ({"sessionId": session} if session else {}))
+        async with asyncio.timeout(20.0):
+            return await self._answers.pop(number)
+
+    async def listen(self) -> None:
+        """Receive answers and events until the socket is closed."""
+        async for message in self._socket:
+            if message.type is not WSMsgType.TEXT:
+                return
+            content = message.json()
+            if (number := content.get("id")) in self._answers:
+                if "error" in content:
+                    self._answers[number].set_exception(RuntimeError(str(content["error"])))
+                else:
+                    self._answers[number].set_result(content["result"])
+            elif content.get("method") in ("Runtime.exceptionThrown", "Log.entryAdded"):
+                self.errors.append(str(content["params"]))
+
+    async def phone(self, url: str, size: tuple[int, int] = LANDSCAPE, vibrates: bool = True) -> "Page":
+        """A page in a window of its own that shares nothing with the others."""
+        context = (await self.ask("Target.createBrowserContext"))["browserContextId"]
+        target = await self.ask("Target.createTarget", url="about:blank", browserContextId=context, newWindow=True)
+        attached = await self.ask("Target.attachToTarget", targetId=target["targetId"], flatten=True)
+        page = Page(self, attached["sessionId"], size)
+        for domain in ("Page", "Runtime", "Log"):
+            await page.ask(f"{domain}.enable")
+        await page.ask(
+            "Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=2, mobile=True
+        )
+        await page.ask("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
+        await page.ask("Emulation.setFocusEmulationEnabled", enabled=True)
+        source = WATCH_VIBRATION if vibrates else "navigator.vibrate = undefined;"
+        await page.ask("Page.addScriptToEvaluateOnNewDocument", source=source)
+        await page.ask("Page.navigate", url=url)
+        return page
+
+
+class Page:
+    """A phone. Fingers stay on the screen until they are lifted."""
+
+    def __init__(self, browser: Browser, session: str, size: tuple[int, int]) -> None:
+        self.browser, self.session, self.size = browser, session, size
+        self._fingers: dict[int, tuple[float, float]] = {}
+
+    async def ask(self, method: str, **parameters: Any) -> Any:
+        return await self.browser.ask(method, self.session, **parameters)
+
+    async def value(self, expression: str) -> Any:
+        """The value of an expression in the page."""
+        answer = await self.ask("Runtime.evaluate", expression=expression, returnByValue=True)
+        assert "exceptionDetails" not in answer, answer
+        return answer["result"].get("value")
+
+    async def until(self, expression: str, seconds: float = 10.0) -> None:
+        """Wait until an expression is true in the page."""
+        async with asyncio.timeout(seconds):
+            while not await self.value(expression):
+                await asyncio.sleep(0.03)
+
+    async def middle(self, name: str) -> tuple[float, float]:
+        """The middle of an element, px."""
+        box = await self.value(
+            f"(() => {{ const b = document.getElementById('{name}').getBoundingClientRect();"
+            " return [b.x + b.width / 2, b.y + b.height / 2]; })()"
+        )
+        return float(box[0]), float(box[1])
+
+    async def touch(self, finger: int, x: float, y: float) -> None:
+        """Put a finger down, or move it."""
+        kind = "touchMove" if finger in self._fingers else "touchStart"
+        self._fingers[finger] = (x, y)
+        await self._dispatch(kind)
+
+    async def lift(self, finger: int) -> None:
+        del self._fingers[finger]
+        await self._dispatch("touchEnd")
+
+    async def tap(self, name: str) -> None:
+        """Touch an element for a moment."""
+        await self.touch(9, *await self.middle(name))
+        await asyncio.sleep(0.05)
+        await self.lift(9)
+
+    async def _dispatch(self, kind: str) -> None:
+        points = [{"x": x, "y": y, "id": finger} for finger, (x, y) in self._fingers.items()]
+        await self.ask("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+
+
+@asynccontextmanager
+async def browsing() -> AsyncIterator[Browser]:
+    """A browser with an empty profile, ended and deleted afterwards."""
+    path = chromium()
+    assert path
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        command = [path, *OPTIONS, f"--user-data-dir={profile}", "about:blank"]
+        process = await asyncio.create_subprocess_exec(
+            *command, stdout=subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE, limit=1 << 20
+        )
+        try:
+            async with asyncio.timeout(30.0):
+                address = await _address(process)
+            async with ClientSession() as session, session.ws_connect(address, max_msg_size=0) as socket:
+                browser = Browser(socket)
+                tasks = [asyncio.create_task(browser.listen()), asyncio.create_task(_drain(process))]
+                yield browser
+                for task in tasks:
+                    task.cancel()
+        finally:
+            if process.returncode is None:
+                process.terminate()
+                try:
+                    async with asyncio.timeout(5.0):
+                        await process.wait()
+                except TimeoutError:
+                    process.kill()
+                    await process.wait()
+
+
+async def _address(process: asyncio.subprocess.Process) -> str:
+    assert process.stderr
+    async for line in process.stderr:
+        if b"DevTools listening on " in line:
+            return line.decode().split("listening on ")[1].strip()
+    raise RuntimeError("the browser has ended")
+
+
+async def _drain(process: asyncio.subprocess.Process) -> None:
+    assert process.stderr
+    while await process.stderr.read(65536):
+        pass

@@ -1,0 +1,238 @@
+"""The page in a real browser: four phones by touch through the lobby and a whole match in real time."""
+
+import asyncio
+import threading
+import time
+from collections.abc import Callable, Coroutine
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.phones.join import JoinByPhone
+from pigaming_app.scenes.phones.link import PhoneLink
+from pigaming_app.scenes.play.reconnect import Reconnect
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.scene import Results
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Device
+from tests.scenes.arcade import Arcade
+from tests.scenes.phones.browser import PORTRAIT, Browser, Page, browsing, chromium
+
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(not chromium(), reason="no Chromium: apt-get install chromium"),
+    pytest.mark.usefixtures("_no_threads_stay"),
+]
+OPEN = "!document.body.classList.contains('closed')"
+MINUTES = 0.2
+
+
+class Visitors(threading.Thread):
+    """Runs a story in the browser beside the arcade, which has the main thread."""
+
+    def __init__(self, story: Callable[[Browser], Coroutine[Any, Any, None]]) -> None:
+        super().__init__(daemon=True)
+        self.story = story
+        self.error: BaseException | None = None
+
+    def run(self) -> None:
+        try:
+            asyncio.run(self._run())
+        except BaseException as error:
+            self.error = error
+
+    async def _run(self) -> None:
+        async with browsing() as browser:
+            await self.story(browser)
+            assert browser.errors == []
+
+
+class OpenDay:
+    """An arcade in real time, with phones on."""
+
+    def __init__(self, arcade: Arcade) -> None:
+        self.arcade, self.link = arcade, PhoneLink(arcade.context)
+        settings = arcade.context.settings
+        settings.phones, settings.phones_network, settings.phones_port = True, "127.0.0.1", 0
+        self.link.update(arcade.stack.scenes)
+
+    @property
+    def url(self) -> str:
+        return self.arcade.context.phone_host.url
+
+    def run(self, visitors: Visitors, seconds: float = 90.0) -> None:
+        """Frames until the visitors are through."""
+        visitors.start()
+        last = end = time.perf_counter()
+        end += seconds
+        while visitors.is_alive():
+            now = time.perf_counter()
+            assert now < end, f"it takes too long; on top lies {type(self.arcade.stack.top).__name__}"
+            self.arcade.frame(min(0.1, now - last))
+            self.link.update(self.arcade.stack.scenes)
+            last = now
+            time.sleep(max(0.0, 1 / 60 - (time.perf_counter() - now)))
+        if visitors.error:
+            raise visitors.error
+
+    async def top(self, scene: type) -> None:
+        """Wait for a scene."""
+        async with asyncio.timeout(30.0):
+            while not isinstance(self.arcade.stack.top, scene):
+                await asyncio.sleep(0.02)
+
+
+@pytest.fixture
+def day(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    day = OpenDay(Arcade(controls))
+    yield day
+    day.arcade.context.phone_host.close()
+
+
+async def steer(page: Page, x: float, y: float) -> None:
+    """Hold the stick at a deflection, each axis in [-1, 1]."""
+    mx, my = await page.middle("stick")
+    reach = await page.value("document.getElementById('base').offsetWidth / 2")
+    if 0 not in page._fingers:
+        await page.touch(0, mx, my)
+    await page.touch(0, mx + x * reach, my + y * reach)
+
+
+def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
+    arcade = day.arcade
+    lobby = Lobby(arcade.context, "pitanks")
+    arcade.open(lobby)
+    scores: list[int] = []
+
+    async def story(browser: Browser) -> None:
+        pages = []
+        for seat in range(4):
+            page = await browser.phone(day.url, PORTRAIT if seat == 3 else (844, 390), vibrates=seat != 2)
+            await page.until(OPEN)
+            await page.tap("fire")
+            await page.until(f"document.getElementById('seat').textContent === 'Player {seat + 1}'")
+            pages.append(page)
+        colors = [await page.value("getComputedStyle(document.querySelector('#who')).color") for page in pages]
+        assert len(set(colors)) == 4
+        assert isinstance(arcade.stack.top, JoinByPhone)
+        one, two, three, four = (Seat("human", seat) for seat in range(4))
+        setup = Setup("pitanks", "classic", (one, two, three, four), MINUTES, 5, "plain")
+        match = MatchScene(arcade.context, setup, lobby.seats.devices())
+        devices = match.devices[:]
+        assert [device.kind for device in devices if device] == ["phone"] * 4
+        arcade.stack.scenes.append(match)
+        match.on_enter()
+        await pages[0].until("document.body.classList.contains('playing')")
+        while match.countdown.locked:
+            await asyncio.sleep(0.05)
+        starts = [(robot.x, robot.y, robot.heading) for robot in match.match.state.robots]
+        for page, (x, y) in zip(pages, ((0, -1), (0.7, -0.7), (-1, 0), (1, 0.3)), strict=True):
+            await steer(page, x, y)
+            await page.touch(1, *await page.middle("fire"))  # a second finger
+        await asyncio.sleep(1.0)
+        for seat, device in enumerate(devices):
+            assert device
+            state = arcade.context.controls.drive(device)
+            assert state.fire, seat
+            assert abs(state.linear) + abs(state.angular) > 0.5, seat
+        for page in pages:
+            await page.lift(1)
+            await page.touch(1, *await page.middle("turbo"))
+        await asyncio.sleep(0.3)
+        assert all(arcade.context.controls.drive(device).turbo for device in devices if device)
+        ends = [(robot.x, robot.y, robot.heading) for robot in match.match.state.robots]
+        assert all(start != end for start, end in zip(starts, ends, strict=True))
+        device = devices[1]
+        assert device
+        for target in (0, 2):  # feel a hit, with and without vibration
+            hit = devices[target]
+            assert hit
+            arcade.context.controls.rumble(hit, 0.9, 0.6, 0.28)
+        await pages[0].until("window.shaken.includes(280)")
+        await pages[2].until("document.getElementById('flash').classList.contains('lit')", 2.0)
+        await pages[1].ask("Page.setWebLifecycleState", state="frozen")  # a locked phone
+        await day.top(Reconnect)
+        await pages[1].ask("Page.setWebLifecycleState", state="active")
+        async with asyncio.timeout(10.0):
+            while device.number not in arcade.context.controls.phones.plugged:
+                await asyncio.sleep(0.02)
+        pages[1]._fingers.clear()
+        await pages[1].until(OPEN)
+        await pages[1].tap("fire")
+        await day.top(MatchScene)
+        assert match.devices == devices, "the same device in the same seat"
+        while not isinstance(arcade.stack.top, Results):
+            for seat, page in enumerate(pages):
+                await page.tap("fire")
+                await steer(page, (-1) ** seat, -0.5)
+            await asyncio.sleep(0.1)
+        scores.extend(robot.score for robot in match.match.state.robots)
+        assert not any([await page.value("document.body.classList.contains('playing')") for page in pages])
+
+    day.run(Visitors(story))
+    assert len(scores) == 4
+
+
+def test_the_page_reports_what_went_wrong(day: OpenDay) -> None:
+    arcade = day.arcade
+    arcade.open(Lobby(arcade.context, "pitanks"))
+
+    async def story(browser: Browser) -> None:
+        old = f"{day.url.rpartition('/')[0]}/abcdefghjk"
+        page = await browser.phone(old)
+        await page.until("document.body.textContent.includes('no longer valid')")
+        five = [await browser.phone(day.url) for _ in range(5)]
+        for one in five[:4]:
+            await one.until(OPEN)
+        await five[4].until("document.getElementById('message').textContent.includes('Four phones')")
+        await five[0].ask("Page.navigate", url="about:blank")
+        await five[4].until(OPEN)
+        await five[1].ask("Page.reload")
+        await five[1].until(OPEN)
+        numbers = sorted(arcade.context.controls.phones.plugged)
+        assert len(numbers) == 4
+        assert 1 in numbers, "a reloaded page is the same device"
+        browser.errors.clear()  # the refused page is an entry in the log
+
+    day.run(Visitors(story))
+
+
+def test_touches_become_stick_and_buttons(day: OpenDay) -> None:
+    arcade = day.arcade
+    controls = arcade.context.controls
+
+    async def drives(device: Device, condition: Callable[[Any], bool]) -> None:
+        async with asyncio.timeout(3.0):
+            while not condition(controls.drive(device)):
+                await asyncio.sleep(0.01)
+
+    async def story(browser: Browser) -> None:
+        for size in ((844, 390), PORTRAIT):
+            page = await browser.phone(day.url, size)
+            await page.until(OPEN)
+            device = controls.handhelds()[-1]
+            await steer(page, 0, -1)
+            await drives(device, lambda state: state.linear > 0.95 and abs(state.angular) < 0.1)
+            await steer(page, 1, 0)
+            await drives(device, lambda state: state.angular > 0.95 and abs(state.linear) < 0.1)
+            await page.touch(1, *await page.middle("fire"))
+            await drives(device, lambda state: state.fire and not state.turbo)
+            await page.touch(2, *await page.middle("turbo"))
+            await drives(device, lambda state: state.fire and state.turbo and state.angular > 0.95)
+            await page.lift(0)
+            await drives(device, lambda state: state.angular == 0.0 and state.fire)
+            await page.lift(1)
+            await page.lift(2)
+            await drives(device, lambda state: not state.fire and not state.turbo)
+            fire, turbo = await page.middle("fire"), await page.middle("turbo")
+            await page.touch(1, *fire)
+            await page.touch(1, *turbo)  # a thumb that slides over
+            await drives(device, lambda state: state.turbo and not state.fire)
+            await page.lift(1)
+            await drives(device, lambda state: not state.turbo)
+
+    day.run(Visitors(story))

@@ -1,0 +1,323 @@
+"""Phones in the arcade: the code in the lobby, seats, the reconnect page, and the operator's page."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
+from pigaming_app.scenes.lobby.scene import CODE_SECONDS, Lobby
+from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.scenes.phones.join import JoinByPhone
+from pigaming_app.scenes.phones.link import PhoneLink
+from pigaming_app.scenes.phones.settings_page import PhonesPage
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.reconnect import TIMEOUT, Reconnect
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw import PLAYERS
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.input.phones.protocol import BITS, SeatView, Touches
+from pigaming_app.ui.input.phones.registry import Phones
+from tests.scenes.arcade import KEYS, Arcade
+
+MOUSE = Device("mouse")
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    return Arcade(controls)
+
+
+@pytest.fixture
+def open_to_phones(arcade: Arcade) -> Iterator[Arcade]:
+    """Phones are on, on the loopback address."""
+    arcade.context.phone_host.switch(True, "127.0.0.1", 0, {})
+    yield arcade
+    arcade.context.phone_host.close()
+
+
+def join(arcade: Arcade) -> Device:
+    device = Device("phone", arcade.context.controls.phones.connect())
+    arcade.frame()
+    return device
+
+
+def tap(arcade: Arcade, device: Device, button: Button) -> None:
+    phones = arcade.context.controls.phones
+    for buttons in (BITS[button], 0):
+        phones.receive(device.number, Touches(buttons=buttons))
+        arcade.frame()
+
+
+def lobby_of(arcade: Arcade) -> Lobby:
+    lobby = Lobby(arcade.context, "pitanks")
+    arcade.open(lobby)
+    return lobby
+
+
+def test_the_lobby_opens_with_the_code_and_phones_join_on_it(open_to_phones: Arcade) -> None:
+    arcade = open_to_phones
+    lobby = lobby_of(arcade)
+    arcade.frame()
+    page = arcade.shown(JoinByPhone)
+    one, two = join(arcade), join(arcade)
+    tap(arcade, one, Button.FIRE)
+    tap(arcade, two, Button.FIRE)
+    assert lobby.seats.devices()[:2] == [one, two]
+    assert arcade.stack.top is page
+    page.draw(arcade.screen)
+    tap(arcade, two, Button.BACK)
+    assert lobby.seats.devices()[:2] == [one, None], "turbo leaves the seat, as on a pad"
+    tap(arcade, two, Button.FIRE)
+    tap(arcade, one, Button.FIRE)
+    assert arcade.stack.top is page, "one is ready"
+    tap(arcade, two, Button.FIRE)
+    assert arcade.stack.top is lobby, "both are ready: the countdown runs"
+    assert [place.ready for place in lobby.seats.places[:2]] == [True, True]
+    for _ in range(90):
+        arcade.frame()
+    arcade.shown(MatchSetupPage)
+
+
+def test_a_pad_or_key_joins_through_the_code_at_once(open_to_phones: Arcade) -> None:
+    lobby = lobby_of(open_to_phones)
+    open_to_phones.frame()
+    open_to_phones.shown(JoinByPhone)
+    open_to_phones.press(Button.FIRE)
+    assert open_to_phones.stack.top is lobby
+    assert lobby.seats.devices()[0] == KEYS[0]
+    open_to_phones.frame()
+    assert open_to_phones.stack.top is lobby, "not twice"
+
+
+def test_the_code_comes_back_while_nobody_acts(open_to_phones: Arcade) -> None:
+    lobby = lobby_of(open_to_phones)
+    open_to_phones.frame()
+    open_to_phones.press(Button.BACK)
+    assert open_to_phones.stack.top is lobby
+    open_to_phones.context.idle = CODE_SECONDS + 1.0
+    open_to_phones.frame()
+    open_to_phones.shown(JoinByPhone)
+    open_to_phones.context.idle = 61.0
+    open_to_phones.frame()
+    assert open_to_phones.stack.top is open_to_phones.title
+
+
+def test_a_click_on_the_small_code_shows_the_large_one(open_to_phones: Arcade) -> None:
+    lobby = lobby_of(open_to_phones)
+    open_to_phones.frame()
+    open_to_phones.press(Button.BACK)
+    lobby.draw(open_to_phones.screen)
+    open_to_phones.press(Button.POINT, MOUSE)
+    open_to_phones.click(*next(spot.rect.center for spot in lobby.focus.spots if spot.name.startswith("code")))
+    open_to_phones.shown(JoinByPhone)
+    open_to_phones.click(960, 540)
+    assert open_to_phones.stack.top is lobby
+
+
+def test_start_on_a_phone_leads_on_to_the_match(open_to_phones: Arcade) -> None:
+    lobby = lobby_of(open_to_phones)
+    open_to_phones.frame()
+    one = join(open_to_phones)
+    tap(open_to_phones, one, Button.FIRE)
+    tap(open_to_phones, one, Button.START)
+    open_to_phones.shown(MatchSetupPage)
+    assert open_to_phones.stack.scenes[-2] is lobby
+
+
+def test_while_phones_are_off_nothing_of_them_is_shown(arcade: Arcade) -> None:
+    lobby = lobby_of(arcade)
+    arcade.context.idle = CODE_SECONDS + 1.0
+    arcade.frame()
+    assert arcade.stack.top is lobby
+    assert lobby.page.code_seat is None
+    assert not [spot for spot in lobby.focus.spots if spot.name.startswith("code")]
+
+
+def test_a_locked_phone_frees_its_seat_in_the_lobby(open_to_phones: Arcade) -> None:
+    lobby = lobby_of(open_to_phones)
+    open_to_phones.frame()
+    one = join(open_to_phones)
+    tap(open_to_phones, one, Button.FIRE)
+    open_to_phones.context.controls.phones.disconnect(one.number)
+    open_to_phones.frame()
+    assert lobby.seats.devices() == [None] * 4
+    assert "phone" in lobby.now.message
+
+
+def match_with(arcade: Arcade, *devices: Device | None) -> MatchScene:
+    brains = ["human" if device else "idle" for device in devices] + ["off"] * (4 - len(devices))
+    one, two, three, four = (Seat(brain, seat) for seat, brain in enumerate(brains))
+    match = MatchScene(arcade.context, Setup("pitanks", "classic", (one, two, three, four), 2, 1, "plain"), devices)
+    arcade.open(match)
+    while match.countdown.locked:
+        arcade.frame()
+    return match
+
+
+def test_a_locked_phone_halts_the_match_and_goes_on_as_the_same_device(arcade: Arcade) -> None:
+    one, two = join(arcade), join(arcade)
+    match = match_with(arcade, one, two)
+    phones = arcade.context.controls.phones
+    phones.disconnect(two.number)
+    arcade.frame()
+    page = arcade.shown(Reconnect)
+    assert page.seat == 1
+    page.draw(arcade.screen)
+    tap(arcade, one, Button.FIRE)
+    assert arcade.stack.top is page, "another player's phone does not take the seat"
+    phones.connect(two.number)
+    arcade.frame()
+    assert page.replugged
+    page.draw(arcade.screen)
+    tap(arcade, two, Button.FIRE)
+    assert arcade.stack.top is match
+    assert match.devices[:2] == [one, two]
+
+
+def test_without_an_answer_an_ai_drives_until_the_phone_returns(arcade: Arcade) -> None:
+    one, two = join(arcade), join(arcade)
+    match = match_with(arcade, one, two)
+    phones = arcade.context.controls.phones
+    phones.disconnect(two.number)
+    arcade.frame()
+    arcade.shown(Reconnect)
+    arcade.frame(TIMEOUT + 0.1)
+    assert arcade.stack.top is match
+    assert match.devices[1] is None
+    phones.connect(two.number)
+    arcade.frame()
+    tap(arcade, two, Button.FIRE)
+    assert match.devices[1] == two
+
+
+def test_a_phone_drives_pauses_and_does_not_pause_by_turbo(arcade: Arcade) -> None:
+    one = join(arcade)
+    match = match_with(arcade, one, None)
+    phones = arcade.context.controls.phones
+    heading = match.match.state.robots[0].heading
+    phones.receive(one.number, Touches(1.0, 0.0, BITS[Button.BACK]))
+    for _ in range(30):
+        arcade.frame()
+        phones.receive(one.number, Touches(1.0, 0.0, BITS[Button.BACK]))
+    assert match.match.state.robots[0].heading != heading
+    assert arcade.stack.top is match
+    tap(arcade, one, Button.START)
+    arcade.shown(Pause)
+
+
+def test_the_pause_shows_the_code_while_phones_are_on(open_to_phones: Arcade) -> None:
+    arcade = open_to_phones
+    one = join(arcade)
+    match_with(arcade, one, None)
+    tap(arcade, one, Button.START)
+    pause = arcade.shown(Pause)
+    assert "phones" in [spot.name for spot in pause.focus.spots]
+    pause.focus.move_to("phones")
+    tap(arcade, one, Button.FIRE)
+    arcade.shown(JoinByPhone).draw(arcade.screen)
+    tap(arcade, one, Button.FIRE)
+    arcade.shown(JoinByPhone)
+    tap(arcade, one, Button.BACK)
+    assert arcade.stack.top is pause
+
+
+def test_phones_are_told_their_seats(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: dict[int, SeatView] = {}
+    monkeypatch.setattr(Phones, "show", lambda self, number, view: shown.__setitem__(number, view))
+    link = PhoneLink(arcade.context)
+    lobby = lobby_of(arcade)
+    free, seated = join(arcade), join(arcade)
+    tap(arcade, seated, Button.FIRE)
+    link.update(arcade.stack.scenes)
+    assert shown[free.number].seat == -1
+    assert shown[seated.number] == SeatView(0, "#{:02x}{:02x}{:02x}".format(*PLAYERS[0]), False)
+    assert arcade.stack.top is lobby
+    match_with(arcade, None, seated)
+    link.update(arcade.stack.scenes)
+    assert shown[seated.number] == SeatView(1, "#{:02x}{:02x}{:02x}".format(*PLAYERS[1]), True)
+    assert not shown[free.number].playing
+    tap(arcade, seated, Button.START)
+    arcade.shown(Pause)
+    link.update(arcade.stack.scenes)
+    assert shown[seated.number].seat == 1
+    assert not shown[seated.number].playing, "X and Y count in a menu"
+
+
+def test_the_link_follows_the_settings(arcade: Arcade) -> None:
+    link, settings, host = PhoneLink(arcade.context), arcade.context.settings, arcade.context.phone_host
+    link.update(arcade.stack.scenes)
+    assert not host.on
+    settings.phones, settings.phones_network, settings.phones_port = True, "127.0.0.1", 0
+    link.update(arcade.stack.scenes)
+    try:
+        assert host.url
+        assert host.server is not None
+        assert host.server.texts["page_player"] == "Player {player}"
+        arcade.context.words.switch("pt")
+        link.update(arcade.stack.scenes)
+        assert host.server.texts["page_player"] == "Jogador {player}"
+    finally:
+        settings.phones = False
+        link.update(arcade.stack.scenes)
+    assert host.server is None
+
+
+def test_only_the_operator_switches_phones_in_a_kiosk(arcade: Arcade) -> None:
+    arcade.context.kiosk = True
+    assert "phones" not in OptionsPage(arcade.context).rows
+    assert "phones" in OptionsPage(arcade.context, operator=True).rows
+
+
+def test_the_operators_page_changes_and_keeps_the_settings(arcade: Arcade, tmp_path: Path) -> None:
+    page = PhonesPage(arcade.context)
+    arcade.open(page)
+    page.draw(arcade.screen)
+    arcade.press(Button.RIGHT)
+    assert arcade.context.settings.phones
+    assert Settings.load(tmp_path / "config")[0].phones
+    arcade.press(Button.FIRE)
+    assert not arcade.context.settings.phones
+    if page.networks:
+        arcade.press(Button.DOWN)
+        arcade.press(Button.RIGHT)
+        assert arcade.context.settings.phones_network == page.networks[0].name
+        arcade.press(Button.LEFT)
+        assert arcade.context.settings.phones_network == ""
+    arcade.press(Button.UP)
+    arcade.press(Button.UP)
+    arcade.press(Button.FIRE)
+    assert arcade.stack.top is page, "phones are off: there is no code"
+    assert page.navigation.sentence
+    page.draw(arcade.screen)
+    arcade.press(Button.BACK)
+    assert arcade.stack.top is not page
+
+
+def test_trouble_is_one_sentence_on_both_pages(arcade: Arcade) -> None:
+    arcade.context.phone_host.switch(True, "a network that is gone", 8787, {})
+    try:
+        for page in (PhonesPage(arcade.context), JoinByPhone(arcade.context, lambda: [])):
+            arcade.open(page)
+            page.draw(arcade.screen)
+            arcade.press(Button.BACK)
+        assert lobby_of(arcade).page.code_seat is None
+    finally:
+        arcade.context.phone_host.close()
+
+
+def test_the_large_code_in_the_picture_can_be_read(open_to_phones: Arcade) -> None:
+    cv2 = pytest.importorskip("cv2", reason="the extra `hardware` is not installed")
+    from pigaming_app.ui.draw.pixels import pixels_of
+
+    url = open_to_phones.context.phone_host.url
+    page = JoinByPhone(open_to_phones.context, lambda: [None] * 4)
+    page.draw(open_to_phones.screen)
+    seen = pygame.transform.smoothscale(open_to_phones.screen, (960, 540))
+    text, _, _ = cv2.QRCodeDetector().detectAndDecode(pixels_of(seen))
+    assert text == url.upper()

@@ -1,0 +1,80 @@
+"""A phone without a browser: a WebSocket of the same library, and plain requests."""
+
+import asyncio
+import json
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, TypeVar
+
+from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
+
+from pigaming_app.ui.input.phones.protocol import Touches, pack
+from pigaming_app.ui.input.phones.registry import Phones
+from pigaming_app.ui.input.phones.server import PhoneServer
+
+TEXTS = {"page_old": "This code is old.", "page_fire": "fire </script>"}
+T = TypeVar("T")
+
+
+class Phone:
+    """An open socket. `resume`: the token of its first message."""
+
+    def __init__(self, socket: ClientWebSocketResponse) -> None:
+        self.socket, self.resume = socket, ""
+
+    async def touch(self, x: float = 0.0, y: float = 0.0, buttons: int = 0) -> None:
+        await self.socket.send_bytes(pack(Touches(x, y, buttons)))
+
+    async def told(self) -> Any:
+        """The next message of the arcade."""
+        return json.loads((await self.socket.receive(timeout=3.0)).data)
+
+    async def closed(self) -> int | None:
+        """The code with which the arcade closes the socket; None if it is cut. Earlier messages are skipped."""
+        while True:
+            message = await self.socket.receive(timeout=3.0)
+            if message.type in (WSMsgType.CLOSE, WSMsgType.CLOSED, WSMsgType.CLOSING, WSMsgType.ERROR):
+                return self.socket.close_code
+
+
+async def phone(session: ClientSession, server: PhoneServer, resume: str = "") -> Phone:
+    """A phone that has scanned the code."""
+    one = Phone(await socket_of(session, server, resume))
+    one.resume = (await one.told())["resume"]
+    return one
+
+
+async def socket_of(session: ClientSession, server: PhoneServer, resume: str = "", **more: Any) -> Any:
+    options: dict[str, Any] = {"origin": origin(server), **more}
+    return await session.ws_connect(f"{server.url}/pad?resume={resume}", **options)
+
+
+def origin(server: PhoneServer) -> str:
+    return f"http://{server.address}:{server.port}"
+
+
+def play(story: Callable[[ClientSession], Awaitable[T]]) -> T:
+    """Run a story of phones to its end."""
+
+    async def run() -> T:
+        async with ClientSession() as session, asyncio.timeout(10.0):
+            return await story(session)
+
+    return asyncio.run(run())
+
+
+async def until(condition: Callable[[], Any], seconds: float = 3.0) -> None:
+    """Wait until the server's thread has done its part."""
+    async with asyncio.timeout(seconds):
+        while not condition():
+            await asyncio.sleep(0.005)
+
+
+@contextmanager
+def serving(phones: Phones, **options: Any) -> Iterator[PhoneServer]:
+    server = PhoneServer(phones, "127.0.0.1", options.pop("port", 0), options.pop("texts", TEXTS))
+    server.start()
+    try:
+        yield server
+    finally:
+        server.stop()

@@ -1,0 +1,400 @@
+"""The server: a page and sockets for phones, and everything that it refuses."""
+
+import asyncio
+import json
+import logging
+import socket
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from aiohttp import ClientSession, WSServerHandshakeError
+
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button, Device, StickState
+from pigaming_app.ui.input.phones import connection, protocol
+from pigaming_app.ui.input.phones import server as servers
+from pigaming_app.ui.input.phones.network import PhonesUnavailable
+from pigaming_app.ui.input.phones.protocol import BITS, SeatView
+from pigaming_app.ui.input.phones.server import PhoneServer
+from tests.ui.input.phones.client import origin, phone, play, serving, socket_of, until
+
+pytestmark = pytest.mark.usefixtures("_no_threads_stay")
+
+
+@pytest.fixture
+def server(controls: Controls) -> Iterator[PhoneServer]:
+    with serving(controls.phones) as server:
+        yield server
+
+
+def pressed(controls: Controls) -> list[tuple[Button, int]]:
+    return [(press.button, press.device.number) for press in controls.presses([])]
+
+
+async def answer(session: ClientSession, server: PhoneServer, path: str, **headers: str) -> tuple[int, str]:
+    async with session.get(f"{origin(server)}{path}", headers=headers) as response:
+        return response.status, (await response.read()).decode(errors="replace")
+
+
+async def still_plays(session: ClientSession, server: PhoneServer, controls: Controls) -> None:
+    """A phone joins, presses FIRE, and leaves."""
+    one = await phone(session, server)
+    await one.touch(buttons=BITS[Button.FIRE])
+    seen: list[Button] = []
+    await until(lambda: seen.extend(button for button, _ in pressed(controls)) or Button.FIRE in seen)
+    await one.socket.close()
+    await until(lambda: seen.extend(button for button, _ in pressed(controls)) or Button.LOST in seen)
+
+
+def test_a_phone_joins_drives_and_is_told_its_seat(controls: Controls, server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        one = await phone(session, server)
+        await one.touch(0.0, -1.0, BITS[Button.FIRE])
+        await until(lambda: server.phones.plugged or pressed(controls))
+        number = next(iter(server.phones.plugged))
+        device = Device("phone", number)
+        await until(lambda: pressed(controls) or controls.drive(device) == StickState(1.0, 0.0, True))
+        controls.phones.show(number, SeatView(2, "#14e48c", True))
+        assert await one.told() == {"state": {"seat": 2, "color": "#14e48c", "playing": True}}
+        controls.rumble(device, 1.0, 0.5, 0.2)
+        assert await one.told() == {"rumble": [1.0, 0.5, 200]}
+        await one.socket.close()
+        await until(lambda: pressed(controls) == [(Button.LOST, number)])
+
+    play(story)
+
+
+def test_the_page_has_its_texts_and_nothing_from_elsewhere(server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        async with session.get(server.url) as response:
+            page = await response.text()
+            policy = response.headers["Content-Security-Policy"]
+            assert response.headers["Cache-Control"] == "no-store"
+            assert "Set-Cookie" not in response.headers
+        assert "default-src 'none'" in policy
+        assert "fire \\u003c/script>" in page, "a text cannot end the script"
+        for name in servers.FILES:
+            status, body = await answer(session, server, f"/{server.token}/{name}")
+            assert status == 200
+            assert len(body) > 1000
+            for word in ("http://", "https://", "//cdn", "document.cookie", "localStorage"):
+                assert word not in page + (body if name != "oxanium.woff2" else "")
+        assert (await answer(session, server, f"/{server.token.upper()}"))[0] == 200, "the QR code is in capitals"
+
+    play(story)
+
+
+@pytest.mark.parametrize("path", ["/", "/abcdefghjk", "/abcdefghjk/page.js", "/%ff%fe", "//", "/../etc/passwd"])
+def test_without_the_token_nothing_is_served(controls: Controls, server: PhoneServer, path: str) -> None:
+    async def story(session: ClientSession) -> None:
+        status, body = await answer(session, server, path)
+        assert status == 403
+        assert "This code is old." in body
+        assert server.refusals.counts["wrong token refused"] == 1
+
+    play(story)
+
+
+def test_an_old_token_is_refused_after_switching_off_and_on(controls: Controls) -> None:
+    with serving(controls.phones) as server:
+        old, port = server.token, server.port
+    with serving(controls.phones, port=port) as server:
+        assert server.token != old
+
+        async def story(session: ClientSession) -> None:
+            assert (await answer(session, server, f"/{old}"))[0] == 403
+            with pytest.raises(WSServerHandshakeError) as refused:
+                await session.ws_connect(f"{origin(server)}/{old}/pad", origin=origin(server))
+            assert refused.value.status == 403
+
+        play(story)
+
+
+@pytest.mark.parametrize("foreign", ["http://evil.example", "null", "", "http://127.0.0.1", "https://127.0.0.1:1"])
+def test_a_page_of_another_origin_opens_no_socket(controls: Controls, server: PhoneServer, foreign: str) -> None:
+    async def story(session: ClientSession) -> None:
+        with pytest.raises(WSServerHandshakeError) as refused:
+            await socket_of(session, server, origin=foreign or None)
+        assert refused.value.status == 403
+        assert server.refusals.counts["foreign origin refused"] == 1
+        assert pressed(controls) == []
+
+    play(story)
+
+
+def test_another_host_name_for_this_address_is_refused(server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        assert (await answer(session, server, f"/{server.token}", Host="evil.example"))[0] == 403
+        assert server.refusals.counts["foreign host refused"] == 1
+
+    play(story)
+
+
+def test_unknown_pages_and_methods_are_refused(controls: Controls, server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        for path in ("/settings.toml", "/page.html", "/..%2f..%2fsettings.toml", "/pad/pad"):
+            assert (await answer(session, server, f"/{server.token}{path}"))[0] == 404
+        assert (await answer(session, server, f"/{server.token}/pad"))[0] == 403, "no socket, no origin"
+        async with session.post(server.url, data=b"x" * 5000) as response:
+            assert response.status == 405
+        await still_plays(session, server, controls)
+
+    play(story)
+
+
+@pytest.mark.parametrize(
+    ("frame", "kind"),
+    [
+        (b"", bytes),
+        (b"\x01\x00\x00", bytes),
+        (b"\x02\x00\x00\x00", bytes),
+        (b"\x01\x00\x00\xff", bytes),
+        (b"x" * 63, bytes),
+        (b"x" * 100_000, bytes),
+        ("text", str),
+        ("{" * 60, str),
+    ],
+)
+def test_a_malformed_or_giant_frame_ends_the_connection(
+    controls: Controls, server: PhoneServer, frame: Any, kind: type
+) -> None:
+    async def story(session: ClientSession) -> None:
+        one = await phone(session, server)
+        await (one.socket.send_bytes(frame) if kind is bytes else one.socket.send_str(frame))
+        assert await one.closed() in (protocol.CLOSED_MALFORMED, 1009, 1006)
+        assert server.refusals.counts["malformed or giant frame refused"] == 1
+        await until(lambda: not server.phones._connected)
+        pressed(controls)
+        await still_plays(session, server, controls)
+
+    play(story)
+
+
+def test_a_frame_that_announces_gigabytes_is_refused_before_it_comes(controls: Controls, server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        one = await phone(session, server)
+        transport = one.socket.get_extra_info("transport") or one.socket._writer.transport
+        transport.write(b"\x82\xff" + (2**62).to_bytes(8, "big") + b"\0\0\0\0" + b"x" * 1000)
+        await one.closed()
+        assert server.refusals.counts["malformed or giant frame refused"] == 1
+
+    play(story)
+
+
+def test_a_flood_ends_the_connection_and_slows_nobody(controls: Controls, server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        good, bad = await phone(session, server), await phone(session, server)
+        for i in range(protocol.MAX_RATE + 50):
+            await bad.touch(buttons=i % 2)
+        assert await bad.closed() in (protocol.CLOSED_FLOOD, 1006)
+        assert server.refusals.counts["more than 200 messages in a second refused"] == 1
+        await good.touch(0.0, -1.0)
+        pressed(controls)
+        await until(lambda: pressed(controls) or controls.drive(Device("phone", 0)).linear == 1.0)
+
+    play(story)
+
+
+def test_pings_count_as_messages(server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        one = await phone(session, server)
+        await one.socket.ping(b"x")
+        assert await one.closed() in (protocol.CLOSED_MALFORMED, 1006)
+
+    play(story)
+
+
+def test_sixty_messages_a_second_are_no_flood() -> None:
+    from pigaming_app.ui.input.phones.refusals import RateMeter
+
+    meter = RateMeter(protocol.MAX_RATE)
+    assert not any(meter.exceeded(i / 60) for i in range(600))
+    assert not any(meter.exceeded(20 + i / 199) for i in range(600))
+    assert any(meter.exceeded(40 + i / 220) for i in range(600))
+
+
+def test_a_fifth_phone_is_told_that_four_play_and_joins_when_one_leaves(
+    controls: Controls, server: PhoneServer
+) -> None:
+    async def story(session: ClientSession) -> None:
+        four = [await phone(session, server) for _ in range(4)]
+        fifth = await socket_of(session, server)
+        await fifth.receive()
+        assert fifth.close_code == protocol.CLOSED_FULL
+        await four[2].socket.close()
+        await until(lambda: not server.phones.full)
+        fifth_phone = await phone(session, server)
+        await fifth_phone.touch()
+        await until(lambda: [b for b, _ in pressed(controls)] or len(server.phones.plugged) == 4)
+        assert sorted(server.phones.plugged) == [0, 1, 3, 4]
+
+    play(story)
+
+
+def test_a_phone_that_returns_gets_its_number_back(controls: Controls, server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        one, two = await phone(session, server), await phone(session, server)
+        pressed(controls)
+        for locked, number in ((one, 0), (two, 1)):
+            await locked.socket.close()
+            await until(lambda n=number: pressed(controls) == [(Button.LOST, n)])
+        again = await phone(session, server, two.resume)
+        assert pressed(controls) == [(Button.FOUND, 1)]
+        assert again.resume != two.resume
+        stranger = await phone(session, server, two.resume)
+        assert pressed(controls) == [(Button.FOUND, 2)], "a token counts once"
+        await stranger.socket.close()
+
+    play(story)
+
+
+def test_a_phone_that_returns_before_it_was_missed_replaces_itself(controls: Controls, server: PhoneServer) -> None:
+    """The network dropped the old connection, and the server has not noticed yet."""
+
+    async def story(session: ClientSession) -> None:
+        old = await phone(session, server)
+        await old.touch(0.0, -1.0, BITS[Button.FIRE])
+        await until(lambda: (Button.FIRE, 0) in pressed(controls))
+        new = await phone(session, server, old.resume)
+        assert pressed(controls) == [], "neither lost nor found"
+        controls.forget_taps()
+        assert controls.drive(Device("phone", 0)) == StickState(), "nothing held before counts"
+        await old.touch(1.0, 0.0)
+        await old.closed()
+        assert controls.drive(Device("phone", 0)) == StickState(), "the old connection has no say"
+        await new.touch(1.0, 0.0)
+        await until(lambda: pressed(controls) == [(Button.RIGHT, 0)])
+        assert controls.drive(Device("phone", 0)) == StickState(angular=1.0)
+
+    play(story)
+
+
+def test_a_silent_phone_is_unplugged(controls: Controls, server: PhoneServer, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connection, "SILENT_SECONDS", 0.1)
+
+    async def story(session: ClientSession) -> None:
+        one = await phone(session, server)
+        assert await one.closed() in (protocol.CLOSED_SILENT, 1006)
+        await until(lambda: not server.phones._connected)
+        assert pressed(controls) == [], "found and lost within one frame"
+
+    play(story)
+
+
+def test_switching_off_unplugs_all_phones(controls: Controls) -> None:
+    async def story(session: ClientSession) -> None:
+        with serving(controls.phones) as server:
+            one, _ = await phone(session, server), await phone(session, server)
+            assert pressed(controls) == [(Button.FOUND, 0), (Button.FOUND, 1)]
+        assert pressed(controls) == [(Button.LOST, 0), (Button.LOST, 1)]
+        assert await one.closed() in (1001, 1006)
+
+    play(story)
+
+
+def test_a_peer_with_many_connections_is_cut_off_but_not_those_who_play(
+    controls: Controls, server: PhoneServer
+) -> None:
+    async def story(session: ClientSession) -> None:
+        one = await phone(session, server)
+        held = []
+        for _ in range(servers.MAX_OPENED + 20):
+            peer = socket.create_connection((server.address, server.port))
+            held.append(peer)
+        await until(lambda: server.refusals.counts["too many connections refused"] >= 20)
+        for peer in held:
+            peer.close()
+        await one.touch(0.0, -1.0)
+        pressed(controls)
+        await until(lambda: pressed(controls) or controls.drive(Device("phone", 0)).linear == 1.0)
+
+    play(story)
+
+
+def test_a_connection_that_sends_nothing_is_closed(controls: Controls, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(servers, "IDLE_SECONDS", 0.2)
+    with serving(controls.phones) as server:
+        for first in (b"", b"GET / HTTP/1.1\r\nHost:"):
+            with socket.create_connection((server.address, server.port)) as peer:
+                peer.sendall(first)
+                peer.settimeout(3.0)
+                assert peer.recv(1000) == b""
+
+
+@pytest.mark.parametrize(
+    "request_bytes",
+    [
+        b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + b"\0" * 200,  # TLS
+        b"GET " + b"/" * 20_000 + b" HTTP/1.1\r\n\r\n",
+        b"GET / HTTP/1.1\r\n" + b"".join(b"A%d: b\r\n" % i for i in range(500)) + b"\r\n",
+        b"GET / HTTP/9.9\r\n\r\n",
+        b"OPTIONS * HTTP/1.1\r\nHost: x\r\n\r\n",
+        b"\0" * 5000,
+        b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
+    ],
+)
+def test_a_malformed_request_is_refused_in_one_line(
+    controls: Controls, server: PhoneServer, request_bytes: bytes, caplog: pytest.LogCaptureFixture, capfd: Any
+) -> None:
+    logging.getLogger("pigaming").propagate = True
+    with socket.create_connection((server.address, server.port)) as peer:
+        peer.settimeout(3.0)
+        try:
+            peer.sendall(request_bytes)
+            first = peer.recv(1000)
+        except ConnectionError:
+            first = b""
+    assert first[:12] in (b"", b"HTTP/1.1 400", b"HTTP/1.0 400", b"HTTP/1.1 403", b"HTTP/1.1 405", b"HTTP/1.0 403")
+    assert "Traceback" not in caplog.text + "".join(capfd.readouterr())
+    assert len(caplog.records) <= 2
+    play(lambda session: still_plays(session, server, controls))
+
+
+def test_refusals_are_logged_in_one_line_per_kind_and_time(caplog: pytest.LogCaptureFixture) -> None:
+    from pigaming_app.ui.input.phones.refusals import LOG_SECONDS, Refusals
+
+    now = [0.0]
+    refusals = Refusals(lambda: now[0])
+    for _ in range(1000):
+        refusals.note("wrong token refused", "10.0.0.9")
+    now[0] = LOG_SECONDS
+    refusals.note("wrong token refused", "10.0.0.9")
+    lines = [record.getMessage() for record in caplog.records]
+    assert lines == ["phones: wrong token refused, 10.0.0.9.", "phones: wrong token refused, 10.0.0.9, and 999 more."]
+    assert refusals.counts["wrong token refused"] == 1001
+
+
+def test_it_listens_on_the_chosen_address_only(server: PhoneServer) -> None:
+    with pytest.raises(OSError, match=r".*"):
+        socket.create_connection(("127.0.0.2", server.port), 0.5)
+
+
+def test_a_port_in_use_is_one_sentence(controls: Controls) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        with pytest.raises(PhonesUnavailable) as trouble, serving(controls.phones, port=taken.getsockname()[1]):
+            pass
+    assert trouble.value.key == "port_taken"
+
+
+def test_an_address_of_another_computer_is_one_sentence(controls: Controls) -> None:
+    server = PhoneServer(controls.phones, "203.0.113.9", 0, {})
+    with pytest.raises(PhonesUnavailable) as trouble:
+        server.start()
+    assert trouble.value.key == "no_network"
+
+
+def test_texts_for_a_slow_phone_do_not_pile_up(controls: Controls, server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        one = await phone(session, server)
+        await until(lambda: pressed(controls))
+        sender = server._seats.connections[0]
+        for i in range(1000):
+            sender._texts.append(json.dumps(i))
+        assert len(sender._texts) == connection.MAX_TEXTS
+        await one.socket.close()
+        await asyncio.sleep(0)
+
+    play(story)
