@@ -30,11 +30,11 @@ from pigaming_app.storage.log import log_file, require_file
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores
-from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.storage.settings import FILE, Settings, folders
 from pigaming_app.ui import memory as heap
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 from pigaming_app.ui.draw.surface_cache import surfaces
-from pigaming_app.ui.i18n import Words, english
+from pigaming_app.ui.i18n import Words, english, system_language
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, StickState
 from pigaming_app.ui.sounds import Sounds
@@ -89,7 +89,10 @@ def opened(options: Options) -> "Iterator[App]":
     """The arcade with window and devices; closes all and saves the settings on exit. Raises NoDisplay."""
     heap.return_large_blocks()
     data_folders = folders()
+    first_start = not any(data_folders.config.glob(f"{FILE}*"))  # neither settings nor a backup
     settings, damaged = Settings.load(data_folders.config)
+    if first_start:
+        settings.language = system_language()
     scores, damaged_scores = Scores.load(data_folders.data)
     for name, value in options.changed_settings.items():
         settings.choose(name, value)

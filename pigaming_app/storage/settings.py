@@ -152,7 +152,7 @@ Flat = dict[Key, Any]
 class Settings:
     """The operator's settings, and the last choices before a match."""
 
-    language: str = _setting("en", OneOf(("en", "pt")))
+    language: str = _setting("en", OneOf(("en", "pt", "es", "fr", "de")))
     music: int = _setting(6, Range(0, 10))
     sounds: int = _setting(8, Range(0, 10))
     flashes: str = _setting("full", OneOf(("off", "soft", "full")))

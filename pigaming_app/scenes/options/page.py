@@ -144,7 +144,7 @@ class OptionsPage:
         off_on = (words("options.off"), words("options.on"))
         match name:
             case "language":
-                return SettingValue("toggle", tuple(NAMES[code] for code in LANGUAGES), LANGUAGES.index(words.language))
+                return SettingValue("arrows", tuple(NAMES[code] for code in LANGUAGES), LANGUAGES.index(words.language))
             case "music" | "sounds":
                 return SettingValue("meter", (), settings.music if name == "music" else settings.sounds)
             case "flashes":

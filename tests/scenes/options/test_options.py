@@ -16,6 +16,7 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.window import Canvas
+from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -85,7 +86,7 @@ def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> N
     assert arcade.context.settings.shake is False
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
     page = arcade.shown(OptionsPage)

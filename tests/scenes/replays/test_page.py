@@ -18,6 +18,7 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import places
+from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.recordings.test_store import NOON, replay
@@ -129,7 +130,7 @@ def test_a_damaged_file_is_one_line_and_a_vanished_one_a_sentence(arcade: Arcade
     assert page.message == arcade.context.words("replays.gone")
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_texts_keep_off_each_other(
     arcade: Arcade, replay: Replay, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:

@@ -21,6 +21,7 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
+from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import KEYS, Arcade, setup
 
 ALONE = ScoreTable("pitanks", "classic", "points", rules="plain", length=1, people=1)
@@ -65,7 +66,7 @@ def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, t
 LOST = outcome({0: -4, 1: -1, 2: 5}, (2,))
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize(
     ("brains", "scores", "winners", "teams", "finished"),
     [
