@@ -54,10 +54,11 @@ class Title:
         self.lab: Scene | None = None
 
     def on_enter(self) -> None:
-        """Release the sprites of matches and start the music; in a kiosk, offer its rule sets again."""
+        """Release the sprites of matches and start the music; in a kiosk, offer its rules and driving styles again."""
         surfaces.release_matches()
         if self.context.kiosk:
             reset_rules(self.context.settings)
+            self.context.driving.forget_one_button()
         self.context.idle = 0.0
         self.context.sounds.music(True)
         self.focus.set_spots(self._spots())
