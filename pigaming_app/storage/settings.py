@@ -157,6 +157,7 @@ class Settings:
     sounds: int = _setting(8, Range(0, 10))
     flashes: str = _setting("full", OneOf(("off", "soft", "full")))
     shake: bool = _setting(True, Boolean())
+    calm: bool = _setting(False, Boolean())  # nothing flashes more than three times a second, nothing shakes
     rumble: bool = _setting(True, Boolean())  # of the pads
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Boolean())
