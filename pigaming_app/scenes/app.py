@@ -32,6 +32,7 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import FILE, Settings, folders
 from pigaming_app.ui import memory as heap
+from pigaming_app.ui.draw import read_large
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import Words, english, system_language
@@ -100,9 +101,11 @@ def opened(options: Options) -> "Iterator[App]":
     canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
     crash_file = _open_log(data_folders.data)
     pygame.font.init()
+    read_large(settings.large_text)
     context = Context(
         settings, scores, Words(settings.language), Controls(canvas.to_canvas), Sounds(), canvas, options.kiosk
     )
+    context.controls.remap(settings.controls)
     context.sounds.volume(settings.music, settings.sounds)
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)

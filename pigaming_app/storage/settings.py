@@ -22,6 +22,7 @@ LEVELS = ("level1", "level2", "level3", "level4", "level5")  # of AIs
 LEGACY_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}  # from when there were three
 MAX_NAME = 60  # characters
 MAX_GAMES = 64
+MAX_DEVICES = 16  # with changed controls, and functions of each
 MAX_MESSAGES = 5  # per file
 log = logging.getLogger("pigaming")
 
@@ -112,6 +113,18 @@ class RobotKinds:
         return None if short else "not a list of four short texts"
 
 
+class ChangedControls:
+    """Whole numbers by function, by device: see ui/input/remap.py. Users of the setting must check the names."""
+
+    def error(self, value: object) -> str | None:
+        tables = list(value.values()) if isinstance(value, dict) and len(value) <= MAX_DEVICES else [None]
+        codes = [code for table in tables if isinstance(table, dict) and len(table) <= MAX_DEVICES for code in table.values()]
+        valid = all(isinstance(table, dict) and table for table in tables) and all(
+            type(code) is int and 0 <= code < 1024 for code in codes
+        )
+        return None if valid else "not a table of tables of key or button numbers"
+
+
 class HexKey:
     """Nothing, or 32 hexadecimal digits."""
 
@@ -158,6 +171,7 @@ class Settings:
     flashes: str = _setting("full", OneOf(("off", "soft", "full")))
     shake: bool = _setting(True, Boolean())
     calm: bool = _setting(False, Boolean())  # nothing flashes more than three times a second, nothing shakes
+    large_text: bool = _setting(False, Boolean())  # in menus, where there is room
     rumble: bool = _setting(True, Boolean())  # of the pads
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Boolean())
@@ -190,6 +204,9 @@ class Settings:
     )  # of the robot on each radio; empty: as it announces
     pad_driving: str = _setting("", ShortText())  # driving style last chosen on a pad; empty: never
     keys_driving: str = _setting("", ShortText())  # the same on the keyboard
+    controls: dict[str, dict[str, int]] = field(
+        default_factory=dict, metadata={"validator": ChangedControls()}
+    )  # changed keys and buttons, by key cluster (keys1 to keys4) and by kind of pad
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:

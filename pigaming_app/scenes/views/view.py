@@ -147,7 +147,12 @@ class MatchView:
         marks.draw(under, now)
         put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
         if fast:
-            put(under, effects.flame(seat, step(heading, effects.TURNS), 0 if self.options.calm else int(now * 30) % 2), x, y)
+            put(
+                under,
+                effects.flame(seat, step(heading, effects.TURNS), 0 if self.options.calm else int(now * 30) % 2),
+                x,
+                y,
+            )
 
     def paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
         """Draw background and batches: light below robots (clipped to the arena), opaque sprites, light, topmost

@@ -16,7 +16,9 @@ def match_of(game: str, press: StickState, every: int = 25) -> Match:
     """A match of a minute; seat 0 has one button, which goes down once in `every` ticks, and sticks that drift."""
     rules = games()[game].default
     one, two, three, four = Seat("human", 0), Seat("idle", 1), Seat("off", 2), Seat("off", 3)
-    match = new_match(Setup(game, "classic" if game != "factory" else "hall", (one, two, three, four), 1.0, 5, rules.name))
+    match = new_match(
+        Setup(game, "classic" if game != "factory" else "hall", (one, two, three, four), 1.0, 5, rules.name)
+    )
     drift = StickState(linear=-1.0, angular=1.0)
     read = lambda: press if match.state.tick % every < every // 2 else drift  # noqa: E731
     match.sit(0, make_person(game, ONE_BUTTON, read, 7))

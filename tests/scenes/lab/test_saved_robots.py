@@ -12,9 +12,9 @@ from pigaming_app.scenes.lab.name_page import NamePage, middle
 from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.i18n import LANGUAGES
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad

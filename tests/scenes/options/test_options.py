@@ -12,11 +12,11 @@ from pigaming_app.scenes.options.page import CLEAR, OptionsPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.window import Canvas
-from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 

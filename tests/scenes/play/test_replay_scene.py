@@ -15,9 +15,9 @@ from pigaming_app.scenes.play.replay import IDLE, LINE_LEFT, LINE_RIGHT, LINE_Y,
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.title.attract import PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import Arcade, setup
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.title.test_attract import scores_of

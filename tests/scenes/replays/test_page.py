@@ -15,10 +15,10 @@ from pigaming_app.scenes.replays.page import CONFIRM_SECONDS, ReplaysPage
 from pigaming_app.scenes.replays.view import ROWS, cross_box, row_box
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import places
-from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.recordings.test_store import NOON, replay

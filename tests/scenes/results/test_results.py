@@ -18,10 +18,10 @@ from pigaming_app.scenes.results.rematch_vote import PATIENCE
 from pigaming_app.scenes.results.scene import IDLE, Results
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
-from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import KEYS, Arcade, setup
 
 ALONE = ScoreTable("pitanks", "classic", "points", rules="plain", length=1, people=1)

@@ -12,9 +12,9 @@ from pigaming_app.scenes.results.celebration import Celebration, confetti
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import LENGTH, SKIP, WinnersMoment, celebrated, title
 from pigaming_app.ui.draw import ICE, PLAYERS
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.results.test_results import outcome
 from tests.scenes.screens import ENDINGS

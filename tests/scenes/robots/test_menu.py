@@ -14,10 +14,10 @@ from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.robots.menu import SHEET, RobotsMenu
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
-from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import Arcade
 
 

@@ -14,10 +14,10 @@ from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.kiosk_unlock import HOLD
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
-from pigaming_app.ui.i18n import LANGUAGES
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 

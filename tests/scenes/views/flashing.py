@@ -1,6 +1,6 @@
-"""Counting flashes in pictures, as WCAG 2.3 defines them: https://www.w3.org/TR/WCAG22/#dfn-general-flash-and-red-flash-thresholds
+"""Counting flashes in pictures, by the definition of WCAG 2.2 (https://www.w3.org/TR/WCAG22/, general flash).
 
-A flash is a pair of opposing changes in relative luminance of 10 % or more of the maximum, where the darker one is below
+A flash is a pair of opposing changes in relative luminance of 10 % or more of the maximum, the darker one below
 0.8. The picture is divided into cells; cells smaller than the area of the definition count too, so the count is strict.
 """
 
