@@ -16,9 +16,13 @@ import pytest
 from pigaming_app.cli import BLAS
 from pigaming_app.sim.kernel import PACKAGE, _cache_folder
 
+WORDY = ("pt", "de")
+
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["SDL_AUDIODRIVER"] = "dummy"
 os.environ["SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS"] = "1"  # as in the arcade: pads count though a window was closed
+os.environ["LANG"] = "C.UTF-8"  # the arcade starts in English
+os.environ.pop("LANGUAGE", None)
 os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
 os.environ.update(dict.fromkeys(BLAS, "1"))  # as in every job, which comes too late here
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))  # before home moves: compiling takes long
@@ -78,11 +82,11 @@ def _cache_of_its_own() -> Iterator[None]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the English case of a test that also runs in Portuguese `long`: Portuguese texts are the longer ones."""
+    """Of a test that runs in all languages, mark all cases `long` but those whose texts are the longest."""
     languages = [item for item in items if isinstance(item, pytest.Function) and "language" in _values(item)]
-    both = {_twin(item) for item in languages if _values(item)["language"] == "pt"}
+    both = {_twin(item) for item in languages if _values(item)["language"] in WORDY}
     for item in languages:
-        if _values(item)["language"] == "en" and _twin(item) in both:
+        if _values(item)["language"] not in WORDY and _twin(item) in both:
             item.add_marker(pytest.mark.long)
 
 

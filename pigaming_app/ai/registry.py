@@ -9,8 +9,8 @@ from typing import Any
 
 from pigaming_app.ai.brain import baselines
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
-from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
+from pigaming_app.ai.brain.driving import Controller, Driving, point_where_to_go, turn_and_drive
+from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, HumanPlayer, OneButtonPlayer
 from pigaming_app.ai.brain_files import is_path, read_brain
 from pigaming_app.ai.factory import foreman, foreman_thoughts
 from pigaming_app.ai.factory import levels as factory_levels
@@ -72,14 +72,17 @@ RIVALS: dict[str, tuple[str, ...]] = {  # AI opponents offered in the lobby, in 
 
 TURN, POINT = "turn", "point"
 HELPED_TURN, HELPED_POINT = "helped_turn", "helped_point"  # with steering help
+ONE_BUTTON = "one_button"  # an AI drives, see `make_person`; its entries below show a stick on pages without a match
+CHAUFFEURS = {"pitanks": "level3", "factory": "level3", "race": "level3"}  # the AI that drives for one button
 DRIVING: dict[str, dict[str, Driving]] = {  # driving styles for people, in the order in which the lobby steps through
-    "pitanks": {TURN: turn_and_drive, POINT: point_where_to_go},
-    "factory": {TURN: turn_and_drive, POINT: point_where_to_go},
+    "pitanks": {TURN: turn_and_drive, POINT: point_where_to_go, ONE_BUTTON: turn_and_drive},
+    "factory": {TURN: turn_and_drive, POINT: point_where_to_go, ONE_BUTTON: turn_and_drive},
     "race": {
         TURN: turn_and_drive,
         POINT: point_where_to_go,
         HELPED_TURN: with_help(turn_and_drive),
         HELPED_POINT: with_help(point_where_to_go),
+        ONE_BUTTON: turn_and_drive,
     },
 }
 
@@ -119,6 +122,13 @@ def level_of(brain: str) -> int:
 def make_brain(game: str, name: str, seed: int) -> BrainPlayer:
     """A player with the brain `name` of `game`. Raises ChoiceError."""
     return BrainPlayer(find_brain(game, name), seed)
+
+
+def make_person(game: str, style: str, read: Callable[[], Controller], seed: int) -> HumanPlayer | OneButtonPlayer:
+    """A person who drives in a style, one of `DRIVING[game]`; `read` polls the device."""
+    if style != ONE_BUTTON:
+        return HumanPlayer(read, DRIVING[game][style])
+    return OneButtonPlayer(read, make_brain(game, CHAUFFEURS[game], seed), boosts=game == "race")
 
 
 def new_match(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant, arena: Arena | None = None) -> Match:

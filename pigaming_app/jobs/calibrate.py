@@ -9,7 +9,8 @@ from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import decimal, display, mat_settings, path, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
-from pigaming_app.ui.i18n import all_languages
+from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.i18n import with_english
 
 VIEWS = ("good", "defocused", "long", "stubborn", "silent", "dim", "dark", "tilted")  # of the emulated camera
 
@@ -49,11 +50,13 @@ def _write(path: Path, edge: float) -> int:
     from pigaming_app.hardware.calibration.marker_sheet import sheet
     from pigaming_app.storage.safe_files import require_writable, write_atomic
 
+    language = Settings.load(folders().config)[0].language
     if path.suffix.lower() != ".pdf":
         raise Refusal(f"{path}: the page is a PDF; give it a name that ends in .pdf.")
     with refused(OperatorError, ValueError):
         require_writable(path)
-        write_atomic(path, sheet(edge, all_languages("sheet.print", "sheet.cut"), all_languages("sheet.blocks")))
+        notes = with_english(language, "sheet.print", "sheet.cut")
+        write_atomic(path, sheet(edge, notes, with_english(language, "sheet.blocks")))
     print(f"{path}: print it at 100 %; the ruler on it must measure 100 mm")
     return 0
 

@@ -34,11 +34,12 @@ from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores
-from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.storage.settings import FILE, Settings, folders
 from pigaming_app.ui import memory as heap
+from pigaming_app.ui.draw import read_large
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 from pigaming_app.ui.draw.surface_cache import surfaces
-from pigaming_app.ui.i18n import Words, english
+from pigaming_app.ui.i18n import Words, english, system_language
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, StickState
 from pigaming_app.ui.pulse import Pulse
@@ -96,7 +97,10 @@ def opened(options: Options) -> "Iterator[App]":
     """The arcade with window and devices; closes all and saves the settings on exit. Raises NoDisplay."""
     heap.return_large_blocks()
     data_folders = folders()
+    first_start = not any(data_folders.config.glob(f"{FILE}*"))  # neither settings nor a backup
     settings, damaged = Settings.load(data_folders.config)
+    if first_start:
+        settings.language = system_language()
     scores, damaged_scores = Scores.load(data_folders.data)
     for name, value in options.changed_settings.items():
         settings.choose(name, value)
@@ -104,6 +108,7 @@ def opened(options: Options) -> "Iterator[App]":
     canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
     crash_file = _open_log(data_folders.data)
     pygame.font.init()
+    read_large(settings.large_text)
     context = Context(
         settings, scores, Words(settings.language), Controls(canvas.to_canvas), Sounds(), canvas, options.kiosk
     )
@@ -111,6 +116,7 @@ def opened(options: Options) -> "Iterator[App]":
     context.day_log = DayLog(data_folders.data)
     context.day_log.delete_old(date.today())
     context.day_log.note("start")
+    context.controls.remap(settings.controls)
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
     if isinstance(session, RosSession):

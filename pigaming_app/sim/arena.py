@@ -6,6 +6,7 @@ has goes into the arena's `plan`.
 [title]
 en = "Courtyard"
 pt = "Pátio"
+es = "Patio"             # es, fr and de may be left out
 
 [[start]]                # four, in the order of the seats
 at = [110, 110]          # px, x right, y down, in an arena of 1600 x 900
@@ -34,7 +35,8 @@ from pigaming_app.sim.things.spec import ThingSpec, mud_capsules, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable, quote
 from pigaming_app.sim.world import MUDS, ROBOTS, SOLID, WALLS, World
 
-LANGUAGES = ("en", "pt")
+LANGUAGES = ("en", "pt", "es", "fr", "de")
+NEEDED = ("en", "pt")  # of the languages; a title that lacks another is shown in English
 HEALTH = 5
 BUILT = 24  # walls in a file; things need the rest of WALLS
 MAX_TITLE = 40  # characters
@@ -170,6 +172,8 @@ def _title(table: TomlTable) -> Mapping[str, str]:
     title.only(*LANGUAGES)
     for language in LANGUAGES:
         text = title.entries.get(language)
+        if text is None and language not in NEEDED:
+            continue
         if not isinstance(text, str) or not text.strip():
             raise title.error(language, "a text is missing")
         if len(text) > MAX_TITLE or not text.isprintable():

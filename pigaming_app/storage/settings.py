@@ -23,6 +23,7 @@ LEVELS = ("level1", "level2", "level3", "level4", "level5")  # of AIs
 LEGACY_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}  # from when there were three
 MAX_NAME = 60  # characters
 MAX_GAMES = 64
+MAX_DEVICES = 16  # with changed controls, and functions of each
 MAX_MESSAGES = 5  # per file
 log = logging.getLogger("pigaming")
 
@@ -119,6 +120,16 @@ class TimeOfDay:
     def error(self, value: object) -> str | None:
         valid = isinstance(value, str) and re.fullmatch("([01][0-9]|2[0-3]):[0-5][0-9]", value)
         return None if valid else "no time such as 22:30"
+class ChangedControls:
+    """Whole numbers by function, by device: see ui/input/remap.py. Users of the setting must check the names."""
+
+    def error(self, value: object) -> str | None:
+        tables = list(value.values()) if isinstance(value, dict) and len(value) <= MAX_DEVICES else [None]
+        codes = [code for table in tables if isinstance(table, dict) and len(table) <= MAX_DEVICES for code in table.values()]
+        valid = all(isinstance(table, dict) and table for table in tables) and all(
+            type(code) is int and 0 <= code < 1024 for code in codes
+        )
+        return None if valid else "not a table of tables of key or button numbers"
 
 
 class HexKey:
@@ -161,11 +172,13 @@ Flat = dict[Key, Any]
 class Settings:
     """The operator's settings, and the last choices before a match."""
 
-    language: str = _setting("en", OneOf(("en", "pt")))
+    language: str = _setting("en", OneOf(("en", "pt", "es", "fr", "de")))
     music: int = _setting(6, Range(0, 10))
     sounds: int = _setting(8, Range(0, 10))
     flashes: str = _setting("full", OneOf(("off", "soft", "full")))
     shake: bool = _setting(True, Boolean())
+    calm: bool = _setting(False, Boolean())  # nothing flashes more than three times a second, nothing shakes
+    large_text: bool = _setting(False, Boolean())  # in menus, where there is room
     rumble: bool = _setting(True, Boolean())  # of the pads
     display: int = _setting(0, Range(0, 15))
     fullscreen: bool = _setting(True, Boolean())
@@ -206,6 +219,9 @@ class Settings:
     quiet_from: str = _setting("00:00", TimeOfDay())  # title and attract mode are silent from here
     quiet_until: str = _setting("00:00", TimeOfDay())  # to here; the same time: never
     group_minutes: int = _setting(0, Range(0, 120))  # from the title to the title; 0: no limit
+    controls: dict[str, dict[str, int]] = field(
+        default_factory=dict, metadata={"validator": ChangedControls()}
+    )  # changed keys and buttons, by key cluster (keys1 to keys4) and by kind of pad
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:

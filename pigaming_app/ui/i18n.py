@@ -1,4 +1,4 @@
-"""All texts in English and Portuguese, from assets/text/en.toml and pt.toml, which have the same keys.
+"""All texts in five languages, from assets/text/LANGUAGE.toml; all these files have the same keys.
 
 words = Words("pt")
 words("lobby.seat", player=2)      "Jogador 2"
@@ -12,9 +12,9 @@ from typing import Any, Protocol
 
 from pigaming_app import ASSETS
 
-LANGUAGES = ("en", "pt")
+LANGUAGES = ("en", "pt", "es", "fr", "de")
 DECIMAL = re.compile(r"[+−-]?\d+\.\d+")
-NAMES = {"en": "English", "pt": "Português"}
+NAMES = {"en": "English", "pt": "Português", "es": "Español", "fr": "Français", "de": "Deutsch"}
 
 
 class Message(Protocol):
@@ -57,9 +57,9 @@ class Words:
         self._texts = texts(language)
 
     @property
-    def other(self) -> str:
-        """The other language."""
-        return LANGUAGES[1 - LANGUAGES.index(self.language)]
+    def following(self) -> str:
+        """The next language, cyclically."""
+        return LANGUAGES[(LANGUAGES.index(self.language) + 1) % len(LANGUAGES)]
 
     def key_name(self, label: str) -> str:
         """The local name of the button labelled `label`: the space bar, for example, is translated."""
@@ -77,9 +77,16 @@ def english() -> Words:
     return Words("en")
 
 
-def all_languages(*keys: str) -> list[str]:
-    """The texts of these keys in all languages, language by language."""
-    return [Words(language)(key) for language in LANGUAGES for key in keys]
+def with_english(language: str, *keys: str) -> list[str]:
+    """The texts of these keys in a language, and then in English: for what is printed."""
+    return [Words(code)(key) for code in dict.fromkeys((language, "en")) for key in keys]
+
+
+def system_language() -> str:
+    """The first language of the system's user that has texts, else English."""
+    from pygame.system import get_pref_locales
+
+    return next((place["language"] for place in get_pref_locales() if place["language"] in LANGUAGES), "en")
 
 
 @cache

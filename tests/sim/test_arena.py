@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.arenas import parse as parse_of
-from pigaming_app.sim.arena import ArenaError, build
+from pigaming_app.sim.arena import LANGUAGES, ArenaError, build
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.world import SOLID, World
 
@@ -35,7 +35,7 @@ def test_every_shipped_arena_is_valid(name):
     world = World()
     build(world, arena)
     assert arena.name == name
-    assert set(arena.title) == {"en", "pt"}
+    assert set(arena.title) == set(LANGUAGES)
     assert not any(in_wall(world, robot.x, robot.y) for robot in world.robots)
 
 

@@ -1,26 +1,74 @@
-"""Screen texts: both languages have the same keys and placeholders."""
+"""Screen texts: all languages have the same keys and placeholders."""
 
 import ast
 import re
 from collections.abc import Iterator
+from itertools import combinations
 from string import Formatter
 
+import pygame
 import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.games.registry import games
-from pigaming_app.ui.i18n import LANGUAGES, Words, texts
+from pigaming_app.ui.draw import font
+from pigaming_app.ui.i18n import LANGUAGES, Words, system_language, texts, with_english
 
 
-def test_both_languages_have_the_same_keys() -> None:
-    english, portuguese = texts("en"), texts("pt")
-    assert sorted(english) == sorted(portuguese)
-    assert all(text.strip() for text in [*english.values(), *portuguese.values()])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_all_languages_have_the_same_keys_in_the_same_order(language: str) -> None:
+    assert list(texts(language)) == list(texts("en"))
+    assert all(text.strip() for text in texts(language).values())
 
 
-def test_both_languages_have_the_same_placeholders() -> None:
-    english, portuguese = texts("en"), texts("pt")
-    assert [key for key in english if _holes(english[key]) != _holes(portuguese[key])] == []
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_all_languages_have_the_same_placeholders_and_line_breaks(language: str) -> None:
+    english, foreign = texts("en"), texts(language)
+    assert [key for key in english if _holes(english[key]) != _holes(foreign[key])] == []
+    assert [key for key in english if english[key].count("|") != foreign[key].count("|")] == []
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_fonts_have_every_letter(language: str) -> None:
+    """A missing letter is drawn as a box: as a character that no font here has."""
+    letters = {letter for text in texts(language).values() for letter in text if letter.isalpha()}
+    for face in ("head", "hero", "body"):
+        box = pygame.image.tobytes(font(face, 40).render("\u4e00", True, "white"), "RGBA")
+        drawn = {letter: font(face, 40).render(letter, True, "white") for letter in letters}
+        assert [letter for letter, image in drawn.items() if pygame.image.tobytes(image, "RGBA") == box] == []
+
+
+def test_french_signs_stay_with_their_word() -> None:
+    assert [key for key, text in texts("fr").items() if re.search(" [!?:;]", text)] == []
+
+
+def test_every_language_has_its_own_texts() -> None:
+    """Nobody forgot to translate: few texts are the same in two languages, as names and units are."""
+    for one, other in combinations(LANGUAGES, 2):
+        same = [key for key, text in texts(one).items() if text == texts(other)[key] and " " in text]
+        assert len(same) < 40, (one, other)
+
+
+@pytest.mark.parametrize(
+    ("system", "language"),
+    [
+        ("fr_CA.UTF-8", "fr"),
+        ("de_AT.UTF-8", "de"),
+        ("es_MX.UTF-8", "es"),
+        ("pt_BR.UTF-8", "pt"),
+        ("C", "en"),
+        ("ja", "en"),
+    ],
+)
+def test_the_first_language_is_that_of_the_system(monkeypatch: pytest.MonkeyPatch, system: str, language: str) -> None:
+    monkeypatch.setenv("LANG", system)
+    monkeypatch.delenv("LANGUAGE", raising=False)
+    assert system_language() == language
+
+
+def test_what_is_printed_is_in_english_too() -> None:
+    assert with_english("de", "keys.SPACE", "options.off") == ["LEERTASTE", "Aus", "SPACE", "Off"]
+    assert with_english("en", "keys.SPACE") == ["SPACE"]
 
 
 def test_values_are_put_in_and_the_language_can_change() -> None:
@@ -28,7 +76,9 @@ def test_values_are_put_in_and_the_language_can_change() -> None:
     assert words("lobby.seat", player=2) == "Player 2"
     words.switch("pt")
     assert words("lobby.seat", player=2) == "Jogador 2"
-    assert (words.language, words.other) == ("pt", "en")
+    assert (words.language, words.following) == ("pt", "es")
+    words.switch("de")
+    assert words.following == "en"
 
 
 def test_numbers_have_the_decimal_sign_of_the_language() -> None:

@@ -78,3 +78,25 @@ class HumanPlayer:
         device = self.read()
         linear, angular = self.driving(state, seat, device)
         set_action(state.actions[seat], linear, angular, int(device.fire), int(device.turbo))
+
+
+class OneButtonPlayer:
+    """A person with one button: an AI drives, and the button, FIRE or turbo, does the rest.
+
+    `boosts`: the button is the turbo too, where there may be nothing to fire. Otherwise the AI uses the turbo.
+    """
+
+    def __init__(self, read: Callable[[], Controller], brain: BrainPlayer, boosts: bool) -> None:
+        self.read, self.brain, self.boosts = read, brain, boosts
+        self._buttons = 0, 0  # fire and turbo as the AI last set them: on most ticks it leaves its action as it was
+
+    def think(self, state: Any, seat: int) -> None:
+        """Set the seat's action: the AI's stick, and the button's present state."""
+        device, action = self.read(), state.actions[seat]
+        action.fire, action.turbo = self._buttons
+        self.brain.think(state, seat)
+        self._buttons = action.fire, action.turbo
+        pressed = int(device.fire or device.turbo)
+        action.fire, action.aim = pressed, 0
+        if self.boosts:
+            action.turbo = pressed

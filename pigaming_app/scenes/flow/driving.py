@@ -1,12 +1,18 @@
 """The driving style of each device: chosen by its player, remembered for its kind of device."""
 
-from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, POINT, TURN
+from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Device
 
 PARTY = "party"  # the rule set for novices
 UNHELPED = {HELPED_TURN: TURN, HELPED_POINT: POINT}  # the same styles in games without help
-PICTURES = {TURN: "wheel", POINT: "point", HELPED_TURN: "wheel", HELPED_POINT: "point"}  # icon of each style
+PICTURES = {
+    TURN: "wheel",
+    POINT: "point",
+    HELPED_TURN: "wheel",
+    HELPED_POINT: "point",
+    ONE_BUTTON: "button",
+}  # icon of each style
 
 
 class DrivingStyles:
@@ -32,14 +38,23 @@ class DrivingStyles:
         return POINT if device.has_stick and variant == PARTY else TURN
 
     def change(self, device: Device, game: str, variant: str, delta: int) -> None:
-        """Step a device through the game's styles, and remember the new one for its kind of device."""
+        """Step a device through the game's styles, and remember the new one for its kind of device.
+
+        One button is a need of one person, so it is not remembered for others.
+        """
         names = list(DRIVING[game])
         style = names[(names.index(self.of(device, game, variant)) + delta) % len(names)]
         self.chosen[device] = style
+        if style == ONE_BUTTON:
+            return
         if device.has_stick:
             self.settings.pad_driving = style
         else:
             self.settings.keys_driving = style
+
+    def forget_one_button(self) -> None:
+        """Give up one button on all devices: the next player may be another."""
+        self.chosen = {device: style for device, style in self.chosen.items() if style != ONE_BUTTON}
 
     def inherit(self, device: Device, before: Device) -> None:
         """Give the style of the device that drove before to a device whose player has not chosen."""

@@ -36,8 +36,8 @@ def playable_arenas(game: str) -> tuple[str, ...]:
 
 
 def arena_title(arena: Arena, language: str) -> str:
-    """An arena's title in a language."""
-    return arena.title.get(language, arena.name)
+    """An arena's title in a language, else in English."""
+    return arena.title.get(language, arena.title.get("en", arena.name))
 
 
 def last_choice(context: Context, game: str) -> Choice:

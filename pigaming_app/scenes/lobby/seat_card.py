@@ -31,6 +31,7 @@ from pigaming_app.ui.draw import (
     dim,
     icon,
     panel,
+    readable,
     shape_points,
     text_width,
 )
@@ -101,7 +102,9 @@ def invitation(player: int, text: str, labels: tuple[str, ...], level: int) -> L
         return dimmed(invitation(player, text, labels, LEVELS), level / LEVELS)
     layer = Layer(0, 230, W, 370)
     icon(layer.glow, "plus", MIDDLE, PLUS_Y, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
-    layer.canvas.body(text, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fit_size(text, BODY, W - 48, "body"))
+    layer.canvas.body(
+        text, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fit_size(text, readable(BODY), W - 48, "body")
+    )
     rows = rows_of(labels)
     for i, row in enumerate(rows):
         x = MIDDLE - (sum(map(button_width, row)) + GAP * (len(row) - 1)) / 2
@@ -134,7 +137,7 @@ def driver(sign: str, name: str) -> LitImage:
         for i, mark in enumerate(marks):
             icon(layer.glow, ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, ICE, LINE)
     else:
-        layer.canvas.body(name, 136, DEVICE_Y, ICE, "l", fit_size(name, BODY, W - 160, "body"))
+        layer.canvas.body(name, 136, DEVICE_Y, ICE, "l", fit_size(name, readable(BODY), W - 160, "body"))
     return layer.render()
 
 
@@ -148,7 +151,7 @@ def strength(text: str, stars: str, color: Color | None) -> LitImage:
     if stars:
         layer.canvas.text(stars, STAR_SIZE, MIDDLE, STARS_Y, ICE, "head", "c")
     lines = [text] if stars else wrap(text, BODY, room)
-    size = min(fit_size(line, BODY, room) for line in lines)
+    size = min(fit_size(line, readable(BODY), room) for line in lines)
     middle = 534 if stars else 498
     for i, line in enumerate(lines):
         layer.canvas.text(line, size, MIDDLE, middle + 1.2 * size * (i - (len(lines) - 1) / 2), ICE, "head", "c")
@@ -204,7 +207,7 @@ def _row(text: str, middle: int, color: Color | None, sign: int, face: str = "he
     layer = Layer(*box)
     if color:
         layer.glow.line(cut_box(*box, 12), color, THIN, True)
-    size = fit_size(text, BODY, W - 196 - sign, face)
+    size = fit_size(text, readable(BODY), W - 196 - sign, face)
     _arrows(layer, middle, color or STEEL, 16)
     return layer, MIDDLE - (text_width(text, size, face) + sign) / 2, size
 

@@ -24,7 +24,6 @@ from pigaming_app.ui.draw import ADD, ICE
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
-from pigaming_app.ui.input.keyboard import CLUSTERS
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite, heading
 
@@ -127,7 +126,8 @@ class ControlsTest:
 
     def _cluster(self, screen: pygame.Surface, x: int, y: int, number: int) -> None:
         device = Device("keys", number)
-        drive, labels = self.context.controls.drive(device), CLUSTERS[number].key_name
+        controls = self.context.controls
+        drive, labels = controls.drive(device), {button: controls.label(device, button) for button in gadgets.KEYS}
         for button, box in gadgets.KEYS.items():
             label = self.context.words.key_name(labels[button])
             gadgets.cap(label, *box.size, _down(drive, button)).draw(screen, x + box.x, y + box.y)

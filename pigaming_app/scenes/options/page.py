@@ -17,9 +17,10 @@ from pigaming_app.scenes.views.race.ghost_files import delete_ghosts
 from pigaming_app.scenes.views.rumble import TAKEN
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw import LABEL
+from pigaming_app.ui.draw import LABEL, read_large
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import backdrop, span
+from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
@@ -40,6 +41,7 @@ ROWS = (
     "flashes",
     "shake",
     "rumble",
+    "ease",
     "display",
     "fullscreen",
     "padtest",
@@ -48,19 +50,24 @@ ROWS = (
     "day",
     "reset",
 )
-FOR_CHILDREN = ("language", "flashes", "shake", "rumble", "padtest")
+FOR_CHILDREN = ("language", "flashes", "shake", "rumble", "ease", "padtest")
+EASE, EASE_FOR_CHILDREN = ("calm", "large", "remap"), ("calm", "large")
+OPENING = ("padtest", "phones", "robots", "day", "ease", "remap")  # rows that open a page
 TOP, BOTTOM, HIGH = 240, 908, 64
 log = logging.getLogger("pigaming")
 
 
 class OptionsPage:
-    """The options; `operator`: all rows, also in a kiosk."""
+    """The options; `operator`: all rows, also in a kiosk. `ease`: those that make seeing and playing easier."""
 
-    def __init__(self, context: Context, operator: bool = False) -> None:
+    def __init__(self, context: Context, operator: bool = False, ease: bool = False) -> None:
         self.context, self.operator, self.untimed = context, operator, operator
-        self.rows: Sequence[str] = ROWS
-        if context.kiosk:
-            self.rows = (*ROWS, "close") if operator else FOR_CHILDREN
+        self.title = "options.ease" if ease else "options.operator" if operator else "options.title"
+        self.rows: Sequence[str] = EASE if ease else ROWS
+        if context.kiosk and not operator:
+            self.rows = EASE_FOR_CHILDREN if ease else FOR_CHILDREN
+        elif context.kiosk and not ease:
+            self.rows = (*ROWS, "close")
         self.clock = 0.0
         self.cleared = False
         self.clearing = HoldTimers(context.controls, CLEAR)
@@ -104,7 +111,7 @@ class OptionsPage:
     def draw(self, screen: pygame.Surface) -> None:
         words, focus = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
-        heading(words("options.operator" if self.operator else "options.title")).draw(screen)
+        heading(words(self.title)).draw(screen)
         black_out(screen, dials.PANEL)
         values = {name: self._value(name) for name in self.rows}
         dials.draw(screen, words, self.focus, "options", values)
@@ -146,7 +153,7 @@ class OptionsPage:
         off_on = (words("options.off"), words("options.on"))
         match name:
             case "language":
-                return SettingValue("toggle", tuple(NAMES[code] for code in LANGUAGES), LANGUAGES.index(words.language))
+                return SettingValue("arrows", tuple(NAMES[code] for code in LANGUAGES), LANGUAGES.index(words.language))
             case "music" | "sounds":
                 return SettingValue("meter", (), settings.music if name == "music" else settings.sounds)
             case "flashes":
@@ -156,6 +163,8 @@ class OptionsPage:
                 return SettingValue("toggle", off_on, int(settings.shake))
             case "rumble":
                 return SettingValue("toggle", off_on, int(settings.rumble))
+            case "calm" | "large":
+                return SettingValue("toggle", off_on, int(settings.calm if name == "calm" else settings.large_text))
             case "fullscreen":
                 return SettingValue("toggle", off_on, int(canvas.fullscreen))
             case "display":
@@ -163,8 +172,7 @@ class OptionsPage:
             case "reset":
                 key = "cleared" if self.cleared else "clear"
                 return SettingValue("deed", (words(f"options.{key}"),))
-        opens = name in ("padtest", "phones", "robots", "day")
-        return SettingValue("deed", (words("options.open" if opens else "options.end"),))
+        return SettingValue("deed", (words("options.open" if name in OPENING else "options.end"),))
 
     def _change(self, name: str, by: int) -> None:
         """Step a row's value."""
@@ -190,6 +198,12 @@ class OptionsPage:
             from pigaming_app.scenes.phones.settings_page import PhonesPage
 
             return Push(PhonesPage(self.context))
+        if name == "ease":
+            return Push(OptionsPage(self.context, self.operator, ease=True))
+        if name == "remap":
+            from pigaming_app.scenes.options.remap_page import RemapPage
+
+            return Push(RemapPage(self.context))
         if name == "robots":
             from pigaming_app.scenes.robots.menu import RobotsMenu
 
@@ -235,6 +249,13 @@ class OptionsPage:
                 settings.rumble = bool(chosen)
                 if settings.rumble:
                     context.controls.rumble(context.controls.last, *TAKEN)
+            case "calm":
+                settings.calm = bool(chosen)
+            case "large":
+                settings.large_text = bool(chosen)
+                read_large(settings.large_text)
+                surfaces.clear()
+                self.prewarm = PrewarmQueue(self._prewarm_jobs())
             case "display" | "fullscreen":
                 canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
                 settings.display, settings.fullscreen = canvas.display, canvas.fullscreen

@@ -22,6 +22,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.widgets.labels import blit_sprite
 from pigaming_app.ui.widgets.setting_row import CENTRE
 
@@ -98,11 +99,11 @@ def _note(loud: int, beat: int) -> LitImage:
 def _drawn(name: str, chosen: int, beat: int) -> LitImage:
     ink = GlowCanvas(480, 340).set_transform(240, 170)
     if name == "language":
-        for i, code in enumerate(("EN", "PT")):
-            lit: Color = FOCUS if i == chosen else STEEL
+        for i, code in enumerate((LANGUAGES[chosen], LANGUAGES[(chosen + 1) % len(LANGUAGES)])):
+            lit: Color = STEEL if i else FOCUS
             x, y = (-88, -40) if i == 0 else (72, 40)
             _bubble(ink, x, y, -1 if i == 0 else 1, lit)
-            ink.text(code, LABEL, x, y, lit, "head", "c")
+            ink.text(code.upper(), LABEL, x, y, lit, "head", "c")
     elif name in ("display", "fullscreen"):
         _monitor(ink, bool(chosen) if name == "fullscreen" else False, beat)
     elif name == "padtest":
@@ -122,6 +123,18 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
                 half = 0.5 - 0.1 * i
                 start = (math.pi if side < 0 else 0.0) - half
                 ink.arc(0, 10, reach, start, start + 2 * half, ICE if chosen else dim(STEEL, 0.7), LINE)
+    elif name in ("ease", "calm"):
+        ink.arc(0, 96, 190, 1.5 * math.pi - 0.82, 1.5 * math.pi + 0.82, ICE, LINE)  # an eye
+        ink.arc(0, -96, 190, 0.5 * math.pi - 0.82, 0.5 * math.pi + 0.82, ICE, LINE)
+        ink.ring(0, 0, 46, FOCUS, LINE)
+        ink.disc(0, 0, 20, FOCUS if name == "ease" or not chosen else STEEL)
+    elif name == "large":
+        ink.text("A", 2 * LABEL, -60, 24, dim(STEEL, 0.9) if chosen else FOCUS, "head", "c")
+        ink.text("A", 4 * LABEL, 70, 0, FOCUS if chosen else dim(STEEL, 0.9), "head", "c")
+    elif name == "remap":
+        for x, lit in ((-84, STEEL), (84, FOCUS)):
+            ink.line(cut_box(x - 52, -52, 104, 104, 14), lit, LINE, True)
+        ink.line([(-20, 0), (20, 0)], ICE, LINE).line([(6, -14), (20, 0), (6, 14)], ICE, LINE)
     elif name == "robots":
         ink.ring(0, 0, 104, FOCUS, LINE).line(cut_box(-46, -46, 92, 92, 4), ICE, LINE, True)
         ink.fill([(-30, -30), (0, -30), (0, 0), (-30, 0)], ICE).fill([(0, 0), (30, 0), (30, 30), (0, 30)], ICE)

@@ -21,7 +21,7 @@ from pigaming_app.scenes.real_replays import shown_things
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import VIEWS
 from pigaming_app.scenes.views.rumble import Rumble
-from pigaming_app.scenes.views.view import SoundCue
+from pigaming_app.scenes.views.view import ShownEffects, SoundCue
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import PLAYERS
@@ -50,7 +50,7 @@ class MatchRunner:
         self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
         kind = VIEWS[match.setup.game]
         with self._tag_sprites():
-            self.view = kind(match.arena, match.state, self.players, context.settings, context.words)
+            self.view = kind(match.arena, match.state, self.players, ShownEffects(context.settings), context.words)
         self.brain = BrainOverlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
         self.things: Sequence[ThingSpec] = match.arena.things  # in the view

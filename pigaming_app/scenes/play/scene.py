@@ -13,8 +13,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.brain.kind import HumanPlayer
-from pigaming_app.ai.registry import DRIVING, make_brain, new_match
+from pigaming_app.ai.registry import ONE_BUTTON, make_brain, make_person, new_match
 from pigaming_app.events.day_log import PlayedMatch, now
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
@@ -56,11 +55,11 @@ SUBSTITUTE_BRAIN = "level3"  # the brain that takes over for a person
 class MatchScene:
     """One match, from its countdown to its results. `devices`: the device of each seat; None: an AI, or nobody yet.
 
-    `humans`: seats of people, present or away; `ai_assisted`: those for whom an AI has driven for a while;
-    `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see `Results`. `rounds`: the rounds
-    before this one, in a match of several; None: it is the only one. `arena`: that of the setup with things on it; its
-    results are no records. `after`: makes the scene that follows in place of the results; nobody then joins the match
-    or restarts it.
+    `humans`: seats of people, present or away; `ai_assisted`: those for whom an AI has driven, for a
+    while or with one button; `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see
+    `Results`. `rounds`: the rounds before this one, in a match of several; None: it is the only one. `arena`: that of
+    the setup with things on it; its results are no records. `after`: makes the scene that follows in place of the
+    results; nobody then joins the match or restarts it.
     """
 
     def __init__(
@@ -381,12 +380,13 @@ class MatchScene:
 
     def _sit(self, seat: int, device: Device | None) -> None:
         self.devices[seat] = device
-        if device is None:
+        if device is None or self.style_of(device) == ONE_BUTTON:
             self.ai_assisted.add(seat)
+        game = self.setup.game
         brain = (
-            HumanPlayer(lambda: self._read(seat, device), DRIVING[self.setup.game][self.style_of(device)])
+            make_person(game, self.style_of(device), lambda: self._read(seat, device), new_seed())
             if device
-            else make_brain(self.setup.game, SUBSTITUTE_BRAIN, new_seed())
+            else make_brain(game, SUBSTITUTE_BRAIN, new_seed())
         )
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else SUBSTITUTE_BRAIN

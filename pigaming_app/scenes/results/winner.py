@@ -21,6 +21,7 @@ from pigaming_app.scenes.results.stars import STARS, star
 from pigaming_app.scenes.views.sprites.effects import SPARK_SIZES, SPARK_TURNS, sparks
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.sprites.robot import robot
+from pigaming_app.scenes.views.view import ShownEffects
 from pigaming_app.ui.draw import (
     ADD,
     BLACK,
@@ -88,7 +89,7 @@ class WinnersMoment:
         self.celebration = Celebration(self.setup.game, self.seats, self._colors())
         cheerful = self.stars != 0
         self.volleys = [*VOLLEYS] if cheerful else []
-        self.bursts = [*BURSTS] if cheerful and context.settings.flashes != "off" else []
+        self.bursts = [*BURSTS] if cheerful and ShownEffects(context.settings).flashes != "off" else []
         self.age = 0.0
         self.queue = PrewarmQueue(self._jobs())
         self.access = Access(context, lambda: ended.devices)

@@ -14,7 +14,7 @@ from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, G
 from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph
-from pigaming_app.ui.i18n import all_languages, english
+from pigaming_app.ui.i18n import english, with_english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.focus import Focus
@@ -127,9 +127,8 @@ class RobotsMenu:
 
         path, words = folders().data / SHEET, self.context.words
         try:
-            write_atomic(
-                path, sheet(notes=all_languages("sheet.print", "sheet.cut"), block_notes=all_languages("sheet.blocks"))
-            )
+            notes = with_english(words.language, "sheet.print", "sheet.cut")
+            write_atomic(path, sheet(notes=notes, block_notes=with_english(words.language, "sheet.blocks")))
             self.navigation.show_message(words("robots.written", path=path))
         except OpenCVMissing as missing:
             log.warning("%s", english().long_sentence(missing.message))

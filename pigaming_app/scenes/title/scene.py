@@ -23,7 +23,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
-from pigaming_app.ui.i18n import LANGUAGES, NAMES
+from pigaming_app.ui.i18n import NAMES
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import (
@@ -55,10 +55,11 @@ class Title:
         self.music = True  # off in the quiet hours
 
     def on_enter(self) -> None:
-        """Release the sprites of matches and start the music; in a kiosk, offer its rule sets again."""
+        """Release the sprites of matches and start the music; in a kiosk, offer its rules and driving styles again."""
         surfaces.release_matches()
         if self.context.kiosk:
             reset_rules(self.context.settings)
+            self.context.driving.forget_one_button()
         self.context.idle = 0.0
         self.music = not self.context.quiet
         self.context.sounds.music(self.music)
@@ -67,7 +68,7 @@ class Title:
     def handle(self, event: InputEvent) -> StackOperation:
         """Directions and the mouse move the focus; FIRE, START or a click activate; Y changes the language."""
         if event.button is Button.Y:
-            self._set_language(self.context.words.other)
+            self._next_language()
         elif self.focus.handle(event):
             self.context.sounds.play("move")
         self.game = self.focus.name if self.focus.name in games() else self.game
@@ -112,8 +113,8 @@ class Title:
             self.context.sounds.music(self.music)
 
     def _open(self, name: str) -> StackOperation:
-        if name in LANGUAGES:
-            self._set_language(name)
+        if name == "language":
+            self._next_language()
             return None
         scene = self._scene(name)
         self.context.sounds.play("accept")
@@ -156,11 +157,11 @@ class Title:
         self.lab = self.lab or Lab(self.context)
         return self.lab
 
-    def _set_language(self, language: str) -> None:
-        if language != self.context.words.language:
-            self.context.words.switch(language)
-            self.context.settings.language = language
-            self.context.sounds.play("accept")
+    def _next_language(self) -> None:
+        words = self.context.words
+        words.switch(words.following)
+        self.context.settings.language = words.language
+        self.context.sounds.play("accept")
         self.focus.set_spots(self._spots())
 
     def _spots(self) -> list[FocusSpot]:
@@ -170,12 +171,8 @@ class Title:
             w = chip_width(self.context.words(f"title.{name}"))
             spots.append(FocusSpot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
             x += w + 24
-        x = RIGHT
-        for language in reversed(LANGUAGES):
-            w = chip_width(language.upper())
-            spots.append(FocusSpot(language, pygame.Rect(x - w, FOOT_Y - 32, w, 64)))
-            x -= w + 12
-        return spots
+        w = chip_width(self._item_name("language"))
+        return [*spots, FocusSpot("language", pygame.Rect(RIGHT - w, FOOT_Y - 32, w, 64))]
 
     def _menu(self) -> tuple[str, ...]:
         items = "howto", "ladder", "events", "lab", "replays", "options"
@@ -198,21 +195,21 @@ class Title:
         label = words.key_name(self.context.controls.label(None, Button.FIRE))
         if name in games():
             return words("title.press", button="{button}"), label
-        return words("title.choose", button="{button}", what=self._item_name(name)), label
+        what = words("options.language") if name == "language" else self._item_name(name)
+        return words("title.choose", button="{button}", what=what), label
 
     def _item_name(self, name: str) -> str:
-        """The name of a menu item."""
-        return NAMES[name] if name in LANGUAGES else self.context.words(f"title.{name}")
+        """The word on a menu item; the language is called by its own name."""
+        words = self.context.words
+        return NAMES[words.language] if name == "language" else words(f"title.{name}")
 
     def _foot(self, screen: pygame.Surface) -> None:
-        words = self.context.words
-        for name in (*self._menu(), *LANGUAGES):
-            lit = name == words.language if name in LANGUAGES else name == self.focus.name
-            word, box = name.upper() if name in LANGUAGES else words(f"title.{name}"), self.focus.rect(name)
-            chip(word, box.w, "on" if lit else "off").draw(screen, *box.topleft)
+        for name in (*self._menu(), "language"):
+            box = self.focus.rect(name)
+            chip(self._item_name(name), box.w, "on" if name == self.focus.name else "off").draw(screen, *box.topleft)
         label = self.context.controls.label(None, Button.Y)
         if label:
-            button_label(label).draw(screen, self.focus.rect(LANGUAGES[0]).left - 28 - button_width(label), FOOT_Y)
+            button_label(label).draw(screen, self.focus.rect("language").left - 28 - button_width(label), FOOT_Y)
 
 
 @cached

@@ -26,6 +26,7 @@ from pigaming_app.ui.draw.sprites import Batch, Sprite, put, step
 
 MAX_PARTICLES = 320  # limit of live particles
 SHAKE = 0.28  # s
+CALM_BURSTS = 3  # in a second, in calm mode
 RISE, RISING = 60.0, 0.8  # px, s: height and duration of a popup
 Cone = tuple[float, float]  # centre and half the opening angle, rad
 ALL: Cone = (0.0, math.pi)
@@ -66,7 +67,9 @@ class ScorePopup(NamedTuple):
 class Particles:
     """All effects of a match, in canvas px and seconds."""
 
-    def __init__(self) -> None:
+    def __init__(self, calm: bool = False) -> None:
+        self.calm = calm  # at most CALM_BURSTS bursts and lights begin in a second
+        self.began: list[float] = []  # of the last second
         self.clock = 0.0
         self.random = random.Random(7)
         self.particles: list[Particle] = []
@@ -76,6 +79,8 @@ class Particles:
 
     def burst(self, x: float, y: float, color: Color, count: int, start: float, reach: float, cone: Cone = ALL) -> None:
         """Sparks from a radius of `start` px around (x, y), travelling up to `reach` px within a cone."""
+        if not self._permitted():
+            return
         for _ in range(min(count, MAX_PARTICLES - len(self.particles))):
             a = cone[0] + self.random.uniform(-cone[1], cone[1])
             c, s, far = math.cos(a), math.sin(a), reach * self.random.random() ** 0.6
@@ -102,7 +107,8 @@ class Particles:
 
     def bloom(self, x: float, y: float, seconds: float, frames: tuple[Sprite, ...]) -> None:
         """Light that plays its frames once."""
-        self.blooms.append(Bloom(self.clock, seconds, x, y, frames))
+        if self._permitted():
+            self.blooms.append(Bloom(self.clock, seconds, x, y, frames))
 
     def score(self, x: float, y: float, text: str, player: int) -> None:
         """Score popup over a robot, kept inside the arena; replaces an overlapping one."""
@@ -113,6 +119,16 @@ class Particles:
     def shake(self) -> None:
         """Start a slight screen shake."""
         self.shaken = self.clock
+
+    def _permitted(self) -> bool:
+        """True if another burst or light may begin: those of the same moment are one."""
+        if not self.calm or self.clock in self.began:
+            return True
+        self.began = [time for time in self.began if self.clock - time < 1.0]
+        if len(self.began) == CALM_BURSTS:
+            return False
+        self.began.append(self.clock)
+        return True
 
     def advance(self, seconds: float) -> None:
         self.clock += seconds

@@ -33,8 +33,36 @@ SoundCue = tuple[str, int | None, float]  # sound name, player for the pitch, x 
 class ViewOptions(Protocol):
     """Settings used by a view."""
 
-    flashes: str  # off, soft (no screen shake, no light on the ground), full
-    shake: bool
+    @property
+    def flashes(self) -> str:
+        """off, soft (no screen shake, no light on the ground) or full."""
+
+    @property
+    def shake(self) -> bool:
+        """True if the screen shakes on hits."""
+
+    @property
+    def calm(self) -> bool:
+        """True if nothing may flash more than three times a second."""
+
+
+class ShownEffects:
+    """The effects that a match shows by the settings. Calm mode takes precedence: no flashes, no shake."""
+
+    def __init__(self, settings: ViewOptions) -> None:
+        self.settings = settings
+
+    @property
+    def flashes(self) -> str:
+        return "off" if self.calm else self.settings.flashes
+
+    @property
+    def shake(self) -> bool:
+        return self.settings.shake and not self.calm
+
+    @property
+    def calm(self) -> bool:
+        return self.settings.calm
 
 
 class MatchView:
@@ -61,7 +89,7 @@ class MatchView:
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.hints: dict[int, str] = {}  # text key of a hint about FIRE, by seat
         self.rumbles: dict[int, Rumble] = {}  # of the last tick, by seat
-        self.particles = Particles()
+        self.particles = Particles(options.calm)
         self.treads = [TreadMarks(i) for i in range(len(state.robots))]
         self.previous_poses = self.current_poses = _poses(state)
         self.things = ThingsOnMat(self.style, things)
@@ -119,7 +147,12 @@ class MatchView:
         marks.draw(under, now)
         put(under, effects.beam(seat, step(heading, effects.BEAM_TURNS)), x, y)
         if fast:
-            put(under, effects.flame(seat, step(heading, effects.TURNS), int(now * 30) % 2), x, y)
+            put(
+                under,
+                effects.flame(seat, step(heading, effects.TURNS), 0 if self.options.calm else int(now * 30) % 2),
+                x,
+                y,
+            )
 
     def paint(self, screen: pygame.Surface, under: Batch, over: Batch, light: Batch, top: Batch) -> None:
         """Draw background and batches: light below robots (clipped to the arena), opaque sprites, light, topmost

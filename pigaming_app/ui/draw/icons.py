@@ -246,6 +246,11 @@ def _point(pen: Pen) -> None:
         pen.fill(*((a * c - b * s, a * s + b * c) for a, b in ((1.0, 0.0), (0.5, 0.42), (0.5, -0.42))))
 
 
+def _button(pen: Pen) -> None:
+    pen.ring(0.92)
+    pen.dot(0, 0, 0.56)
+
+
 ICONS: dict[str, Callable[[Pen], None]] = {
     "shield": _shield,
     "speed": _speed,
@@ -282,4 +287,5 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "fastest": _fastest,
     "wheel": _wheel,
     "point": _point,
+    "button": _button,
 }

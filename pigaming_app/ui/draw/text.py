@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.ui.draw import BODY, ICE, Color, GlowCanvas, font, text_width
+from pigaming_app.ui.draw import BODY, ICE, Color, GlowCanvas, font, readable, text_width
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
@@ -82,7 +82,7 @@ def text(
 
 def paragraph(sentence: str, room: int, max_lines: int = 4, color: Color = ICE, align: str = "l") -> list[LitImage]:
     """A sentence as at most `max_lines` lines of `room` px; longer ones are set smaller."""
-    size, lines = fit_lines(sentence, room, max_lines)
+    size, lines = fit_lines(sentence, room, max_lines, range(readable(BODY), SMALLEST, -2))
     return [text(line, size, color, "body", align, room) for line in lines]
 
 

@@ -25,6 +25,7 @@ FOCUS, ALARM, GREY, BLACK, WHITE = (255, 236, 64), (255, 72, 72), (112, 112, 112
 HAIR, THIN, LINE, BOLD = 2, 4, 6, 9
 # Type sizes, px: the only five.
 BODY, LABEL, SUB, TITLE, HERO = 40, 52, 72, 96, 200
+LARGER = 1.2  # factor of readable texts, if the setting asks for it
 
 CAPITALS = 0.70  # height of the capitals of both faces, em
 STARS = "★☆"  # lit and unlit, in any text; the fonts have neither
@@ -36,6 +37,22 @@ _FACES = {
     "hero": "oxanium-latin-800-normal.woff2",
     "body": "lexend-latin-500-normal.woff2",
 }
+
+
+class _Reading:
+    """The size of texts that people read, as a share of the usual one."""
+
+    scale = 1.0
+
+
+def read_large(large: bool) -> None:
+    """Make readable texts larger, or as usual, from now on. What is drawn already stays as it is."""
+    _Reading.scale = LARGER if large else 1.0
+
+
+def readable(size: int) -> int:
+    """The size at which a text is set whose box has room for larger ones, px."""
+    return round(size * _Reading.scale)
 
 
 def mix(a: Color, b: Color, t: float) -> Color:

@@ -3,7 +3,7 @@
 Devices are gamepads, phones, the four key clusters and the mouse; two pads of the same model are two devices.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 import pygame
 
@@ -13,6 +13,7 @@ from pigaming_app.ui.input.edges import TapQueue
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.filters import DIRECTIONS, AutoRepeat, ButtonChange
 from pigaming_app.ui.input.phones import registry as phones
+from pigaming_app.ui.input.remap import Tables
 
 _MOUSE = Device("mouse")
 _NOT_PERSONAL = (Button.FOUND, Button.LOST, Button.BRAIN, Button.STOP)  # do not change `last`
@@ -39,16 +40,46 @@ class Controls:
         self._repeat = AutoRepeat()
         self._taps = TapQueue()
         self._down: dict[tuple[Device, Button], frozenset[str]] = {}
+        self._listener: Callable[[Device, int], None] | None = None
         self.last = self._default()
 
     def presses(self, events: Iterable[pygame.Event]) -> list[InputEvent]:
         """The button events of this frame, in order. Call it once per frame with all pygame events."""
-        pressed = [press for event in events for press in self._translate(event)]
+        pressed = [press for event in events if not self._listened(event) for press in self._translate(event)]
         pressed += self._phone_presses()
         for press in pressed:
             if press.device != _MOUSE and press.button not in _NOT_PERSONAL:
                 self.last = press.device
         return pressed
+
+    def remap(self, changed: Mapping[str, Mapping[str, int]]) -> None:
+        """Change keys and buttons, see remap.py. Invalid changes are left out."""
+        self._keyboard.remap(changed)
+        self._pads.remap(changed)
+        self._down.clear()
+
+    def tables(self) -> Tables:
+        """The key or button of each function, by key cluster and by kind of pad."""
+        return {**self._keyboard.tables, **self._pads.tables}
+
+    def listen(self, listener: Callable[[Device, int], None] | None) -> None:
+        """Pass the next key or button that goes down to `listener` instead: a device and a scancode or number."""
+        self._listener = listener
+
+    def _listened(self, event: pygame.Event) -> bool:
+        """True if a listener got the event."""
+        listener, device = self._listener, None
+        if listener and event.type == pygame.KEYDOWN:
+            device, code = Device("keys"), event.scancode
+        elif listener and event.type in (pygame.CONTROLLERBUTTONDOWN, pygame.JOYBUTTONDOWN):
+            pad = self._pads.plugged.get(event.instance_id)
+            if pad is not None and isinstance(pad, pads.MappedPad) == (event.type == pygame.CONTROLLERBUTTONDOWN):
+                device, code = Device("pad", event.instance_id), event.button
+        if listener is None or device is None:
+            return False
+        self._listener = None
+        listener(device, code)
+        return True
 
     def repeats(self, seconds: float) -> list[InputEvent]:
         """Auto-repeat events of held directions, after `seconds` more of real time."""
@@ -129,16 +160,16 @@ class Controls:
 
     def moves(self, device: Device) -> str:
         """The four steering keys of a cluster; empty for other devices."""
-        return keyboard.CLUSTERS[device.number].moves if device.kind == "keys" else ""
+        return self._keyboard.clusters[device.number].moves if device.kind == "keys" else ""
 
     def label(self, device: Device | None, button: Button) -> str:
         """The label printed on a button (None: of the device used last); empty if the device lacks it."""
         device = device or self.last
         if device.kind == "keys":
-            return keyboard.label(device.number, button)
+            return self._keyboard.label(device.number, button)
         if device.kind == "phone":
             return phones.LABELS.get(button, "")
-        return pads.label(self.name(device), button) if device.kind == "pad" else ""
+        return self._pads.label(self.name(device), button) if device.kind == "pad" else ""
 
     def _translate(self, event: pygame.Event) -> Iterator[InputEvent]:
         if event.type in (pygame.KEYDOWN, pygame.KEYUP):

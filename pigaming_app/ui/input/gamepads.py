@@ -4,7 +4,7 @@ A pad is identified by SDL's instance id, which is not reused while the arcade r
 and never read again.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Protocol
 
 import pygame
@@ -12,14 +12,27 @@ from pygame._sdl2 import controller
 
 from pigaming_app.ui.input.events import Button, StickState
 from pigaming_app.ui.input.filters import ButtonChange, StickDirection, Trigger, apply_dead_zone
+from pigaming_app.ui.input.remap import Codes, merged
 
 _AXIS_MAX = 32767.0  # SDL's largest axis value
-_BUTTONS = {
-    pygame.CONTROLLER_BUTTON_A: Button.FIRE,
-    pygame.CONTROLLER_BUTTON_B: Button.BACK,
-    pygame.CONTROLLER_BUTTON_X: Button.X,
-    pygame.CONTROLLER_BUTTON_Y: Button.Y,
-    pygame.CONTROLLER_BUTTON_START: Button.START,
+FUNCTIONS = {"fire": Button.FIRE, "turbo": Button.BACK, "x": Button.X, "y": Button.Y, "start": Button.START}
+_XBOX = {
+    "fire": pygame.CONTROLLER_BUTTON_A,
+    "turbo": pygame.CONTROLLER_BUTTON_B,
+    "x": pygame.CONTROLLER_BUTTON_X,
+    "y": pygame.CONTROLLER_BUTTON_Y,
+    "start": pygame.CONTROLLER_BUTTON_START,
+}
+DEFAULTS = {
+    **dict.fromkeys(("Xbox", "PlayStation", "Nintendo"), _XBOX),
+    "Joystick": {"fire": 0, "turbo": 1, "x": 2, "y": 3},
+}  # buttons by kind and function; START of a plain joystick depends on how many it has
+_FURTHER = {
+    pygame.CONTROLLER_BUTTON_BACK: "SELECT",
+    pygame.CONTROLLER_BUTTON_LEFTSTICK: "L3",
+    pygame.CONTROLLER_BUTTON_RIGHTSTICK: "R3",
+}  # further buttons of a mapped pad that can have a function
+_CROSS = {
     pygame.CONTROLLER_BUTTON_DPAD_UP: Button.UP,
     pygame.CONTROLLER_BUTTON_DPAD_DOWN: Button.DOWN,
     pygame.CONTROLLER_BUTTON_DPAD_LEFT: Button.LEFT,
@@ -28,7 +41,6 @@ _BUTTONS = {
 _STICK = (pygame.CONTROLLER_AXIS_LEFTX, pygame.CONTROLLER_AXIS_LEFTY)
 _SHOULDERS = (pygame.CONTROLLER_BUTTON_LEFTSHOULDER, pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
 _PLAIN_SHOULDERS = (4, 5)
-_PLAIN = (Button.FIRE, Button.BACK, Button.X, Button.Y)  # the first four buttons of a plain joystick
 _DIRECTIONS = {Button.UP: "↑", Button.DOWN: "↓", Button.LEFT: "←", Button.RIGHT: "→"}
 _SHARED = {Button.LEAVE_SEAT: Button.BACK, Button.BRAIN: Button.Y}  # shared buttons; BRAIN only in a pause
 _LABELS = {
@@ -53,6 +65,7 @@ class Pad(Protocol):
     """A connected pad. `kind` is one of Xbox, PlayStation, Nintendo and Joystick."""
 
     kind: str
+    codes: Codes  # the button of each of FUNCTIONS
 
     def changes(self, event: pygame.Event) -> Iterator[ButtonChange]:
         """Button changes in an event of this pad."""
@@ -86,12 +99,15 @@ class MappedPad:
         }
         self._shoulders: set[int] = set()
         self.kind = _kind(self._pad.name)
+        self.codes = dict(DEFAULTS[self.kind])
 
     def changes(self, event: pygame.Event) -> Iterator[ButtonChange]:
         if event.type in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP):
             down = event.type == pygame.CONTROLLERBUTTONDOWN
-            if event.button in _BUTTONS:
-                yield ButtonChange(_BUTTONS[event.button], down)
+            if event.button in _CROSS:
+                yield ButtonChange(_CROSS[event.button], down)
+            elif button := _function(self.codes, event.button):
+                yield ButtonChange(button, down)
             elif event.button in _SHOULDERS:
                 yield from _chord(self._shoulders, event.button, down, _SHOULDERS)
                 if event.button == pygame.CONTROLLER_BUTTON_RIGHTSHOULDER:
@@ -114,8 +130,8 @@ class MappedPad:
         return StickState(
             float(pressed(pygame.CONTROLLER_BUTTON_DPAD_UP) - pressed(pygame.CONTROLLER_BUTTON_DPAD_DOWN)) or -y,
             float(pressed(pygame.CONTROLLER_BUTTON_DPAD_RIGHT) - pressed(pygame.CONTROLLER_BUTTON_DPAD_LEFT)) or x,
-            pressed(pygame.CONTROLLER_BUTTON_A) or self._axis(pygame.CONTROLLER_AXIS_TRIGGERRIGHT) > 0.5,
-            pressed(pygame.CONTROLLER_BUTTON_B)
+            pressed(self.codes["fire"]) or self._axis(pygame.CONTROLLER_AXIS_TRIGGERRIGHT) > 0.5,
+            pressed(self.codes["turbo"])
             or pressed(pygame.CONTROLLER_BUTTON_RIGHTSHOULDER)
             or self._axis(pygame.CONTROLLER_AXIS_TRIGGERLEFT) > 0.5,
         )
@@ -139,6 +155,7 @@ class PlainPad:
 
     def __init__(self, joystick: "pygame.joystick.JoystickType") -> None:
         self._pad = joystick
+        self.codes = dict(DEFAULTS[self.kind])
         self._stick = StickDirection()
         self._hat: dict[Button, bool] = {}
         self._shoulders: set[int] = set()
@@ -147,7 +164,7 @@ class PlainPad:
         count = joystick.get_numbuttons()
         self._shoulders_too = count >= 12  # then 6 and 7 are the lower shoulder buttons, and start has a higher number
         start = 9 if self._shoulders_too else min(7, count - 1)
-        self._buttons = dict(enumerate(_PLAIN)) | ({start: Button.START} if start >= len(_PLAIN) else {})
+        self._start = start if start >= len(self.codes) else None
 
     def changes(self, event: pygame.Event) -> Iterator[ButtonChange]:
         if event.type in (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP):
@@ -166,8 +183,8 @@ class PlainPad:
         return StickState(
             float(up) or -y,
             float(right) or x,
-            self._held(0) or (self._shoulders_too and self._held(7)),
-            self._held(1) or self._held(5) or (self._shoulders_too and self._held(6)),
+            self._held(self.codes["fire"]) or (self._shoulders_too and self._held(7)),
+            self._held(self.codes["turbo"]) or self._held(5) or (self._shoulders_too and self._held(6)),
         )
 
     def attached(self) -> bool:
@@ -180,8 +197,10 @@ class PlainPad:
         self._pad.stop_rumble()
 
     def _button(self, button: int, down: bool) -> Iterator[ButtonChange]:
-        if button in self._buttons:
-            yield ButtonChange(self._buttons[button], down)
+        if function := _function(self.codes, button):
+            yield ButtonChange(function, down)
+        elif button == self._start:
+            yield ButtonChange(Button.START, down)
         elif button in _PLAIN_SHOULDERS:
             yield from _chord(self._shoulders, button, down, _PLAIN_SHOULDERS)
         if button == _PLAIN_SHOULDERS[1] or (self._shoulders_too and button == 6):
@@ -205,6 +224,7 @@ class Pads:
 
     def __init__(self) -> None:
         self.plugged: dict[int, Pad] = {}
+        self.tables = merged(DEFAULTS, {}, shared=False)
         try:
             controller.init()
             pygame.joystick.init()
@@ -221,20 +241,52 @@ class Pads:
                 number = joystick.get_instance_id()
                 if number not in self.plugged:
                     mapped = controller.is_controller(index)
-                    self.plugged[number] = MappedPad(index) if mapped else PlainPad(joystick)
+                    self.plugged[number] = pad = MappedPad(index) if mapped else PlainPad(joystick)
+                    pad.codes = dict(self.tables[pad.kind])
                     opened.append(number)
             except pygame.error:
                 continue  # unplugged again since the event
         return opened
+
+    def remap(self, changed: Mapping[str, Mapping[str, int]]) -> None:
+        """Change the buttons of each kind of pad, see remap.py; buttons that cannot have a function are left out."""
+        fitting = {
+            kind: {name: code for name, code in codes.items() if usable(kind, code)} for kind, codes in changed.items()
+        }
+        self.tables = merged(DEFAULTS, fitting, shared=False)
+        for pad in self.plugged.values():
+            pad.codes = dict(self.tables[pad.kind])
+
+    def label(self, kind: str, button: Button) -> str:
+        """The label printed on a button of this kind of pad; empty if it has none."""
+        function = next((name for name, one in FUNCTIONS.items() if one is _SHARED.get(button, button)), "")
+        code = self.tables[kind].get(function)
+        return _DIRECTIONS.get(button) or (_printed(kind, button) if code is None else button_label(kind, code))
 
     def forget(self, number: int) -> bool:
         """Drop an unplugged pad; true if it was open."""
         return self.plugged.pop(number, None) is not None
 
 
-def label(kind: str, button: Button) -> str:
-    """The label printed on a button of this kind of pad; empty if it has none."""
-    return _DIRECTIONS.get(button) or _LABELS[kind].get(_SHARED.get(button, button), "")
+def button_label(kind: str, code: int) -> str:
+    """What is printed on a button of this kind of pad."""
+    function = next((name for name, default in DEFAULTS[kind].items() if default == code), "")
+    return _printed(kind, FUNCTIONS[function]) if function else _FURTHER.get(code, str(code + 1))
+
+
+def usable(kind: str, code: int) -> bool:
+    """True if a button can have a function: shoulder buttons stop all robots, the cross steers."""
+    if kind == "Joystick":
+        return 0 <= code < 32 and code not in _PLAIN_SHOULDERS
+    return code in DEFAULTS[kind].values() or code in _FURTHER if kind in DEFAULTS else False
+
+
+def _printed(kind: str, button: Button) -> str:
+    return _LABELS[kind].get(_SHARED.get(button, button), "")
+
+
+def _function(codes: Codes, number: int) -> Button | None:
+    return next((FUNCTIONS[name] for name, code in codes.items() if code == number), None)
 
 
 def _chord(down_buttons: set[int], button: int, down: bool, pair: tuple[int, int]) -> Iterator[ButtonChange]:

@@ -1,16 +1,17 @@
-"""One keyboard as four devices: clusters of keys by scancode, so that every layout works.
+"""One keyboard as four devices: clusters of keys by scancode, so that every layout works. Their keys can be changed.
 
 Enter, Escape and similar keys are shared: they count as pressed by the most recently used cluster or, where only seated
 devices act, by the most recently used seated one.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import pygame
 
 from pigaming_app.ui.input.events import Button, Device, StickState
 from pigaming_app.ui.input.filters import ButtonChange
+from pigaming_app.ui.input.remap import Tables, merged
 
 
 @dataclass(frozen=True)
@@ -97,22 +98,54 @@ _SHARED_LABELS = {
 _SYSTEM_MODIFIERS = pygame.KMOD_LALT | pygame.KMOD_GUI  # modifiers of window-manager shortcuts
 
 
-def _own_keys() -> dict[int, tuple[Device, Button]]:
-    keys = {}
-    for number, cluster in enumerate(CLUSTERS):
-        parts = (
-            (cluster.up, Button.UP),
-            (cluster.left, Button.LEFT),
-            (cluster.down, Button.DOWN),
-            (cluster.right, Button.RIGHT),
-            (cluster.fire, Button.FIRE),
-            (cluster.turbo, Button.LEAVE_SEAT),
-        )
-        keys.update({code: (Device("keys", number), button) for codes, button in parts for code in codes})
-    return keys
+FUNCTIONS = {
+    "up": Button.UP,
+    "left": Button.LEFT,
+    "down": Button.DOWN,
+    "right": Button.RIGHT,
+    "fire": Button.FIRE,
+    "turbo": Button.LEAVE_SEAT,
+}  # of each cluster, by the names of its fields
+DEFAULTS = {
+    f"keys{number}": {name: getattr(cluster, name)[0] for name in FUNCTIONS}
+    for number, cluster in enumerate(CLUSTERS, start=1)
+}  # the first key of each function
+_PRINTED = {
+    code: cluster.key_name[button] for cluster in CLUSTERS for name, button in FUNCTIONS.items()
+    for code in getattr(cluster, name)[:1]
+}  # on the keys of the clusters
+_SCANCODE = 1 << 30  # marks a keycode that is a scancode, see SDL_Keycode
 
 
-_OWN = _own_keys()
+def key_label(code: int) -> str:
+    """What is printed on a key, on an English keyboard."""
+    name = pygame.key.name(code | _SCANCODE, use_compat=False).upper()
+    return _PRINTED.get(code) or name.replace("LEFT ", "L ").replace("RIGHT ", "R ").replace("KEYPAD ", "")
+
+
+def usable(function: str, code: int) -> bool:
+    """True if a key can have a function: menus do not need it; one that steers has one character."""
+    label = key_label(code)
+    shared = code in _SHARED or pygame.KSCAN_F1 <= code <= pygame.KSCAN_F12
+    return not shared and 0 < len(label) <= (1 if function in ("up", "left", "down", "right") else 9)
+
+
+def _changed(tables: Tables) -> tuple[Cluster, ...]:
+    """The clusters with these codes. Second keys of a function stay if nothing else uses them."""
+    used = {code for codes in tables.values() for code in codes.values()}
+    clusters = []
+    for cluster, (device, codes) in zip(CLUSTERS, tables.items(), strict=True):
+        keys = {
+            name: (code, *(other for other in getattr(cluster, name)[1:] if other not in used))
+            for name, code in codes.items()
+            if code == DEFAULTS[device][name]
+        }
+        keys = {name: keys.get(name, (code,)) for name, code in codes.items()}
+        labels = {button: key_label(codes[name]) for name, button in FUNCTIONS.items()}
+        steered = [labels[button] for button in (Button.UP, Button.LEFT, Button.DOWN, Button.RIGHT)]
+        same = all(codes[name] == DEFAULTS[device][name] for name in ("up", "left", "down", "right"))
+        clusters.append(Cluster(**keys, moves=cluster.moves if same else "".join(steered), key_name=labels))
+    return tuple(clusters)
 
 
 class Keyboard:
@@ -120,7 +153,24 @@ class Keyboard:
 
     def __init__(self) -> None:
         self._down: set[int] = set()
+        self.remap({})
         self.latest = tuple(Device("keys", number) for number in range(len(CLUSTERS)))  # most recently used first
+
+    def remap(self, changed: Mapping[str, Mapping[str, int]]) -> None:
+        """Change the keys of the clusters, see remap.py; keys that cannot have a function are left out."""
+        fitting = {
+            device: {name: code for name, code in codes.items() if usable(name, code)}
+            for device, codes in changed.items()
+        }
+        self.tables = merged(DEFAULTS, fitting)
+        self.clusters = _changed(self.tables)
+        self._own = {
+            code: (Device("keys", number), button)
+            for number, cluster in enumerate(self.clusters)
+            for name, button in FUNCTIONS.items()
+            for code in getattr(cluster, name)
+        }
+        self._down.clear()
 
     def changes(self, event: pygame.Event) -> Iterator[tuple[Device, ButtonChange]]:
         """The change caused by a KEYDOWN or KEYUP event, and its cluster."""
@@ -129,8 +179,8 @@ class Keyboard:
         if down == (code in self._down) or (down and event.mod & _SYSTEM_MODIFIERS):
             return
         (self._down.add if down else self._down.discard)(code)
-        if code in _OWN:
-            device, button = _OWN[code]
+        if code in self._own:
+            device, button = self._own[code]
             if down:
                 self.latest = (device, *(other for other in self.latest if other != device))
             yield device, ButtonChange(button, down, str(code))
@@ -143,7 +193,7 @@ class Keyboard:
 
     def drive(self, number: int) -> StickState:
         """The current state of a cluster."""
-        cluster, down = CLUSTERS[number], self._down
+        cluster, down = self.clusters[number], self._down
         return StickState(
             float(any(key in down for key in cluster.up) - any(key in down for key in cluster.down)),
             float(any(key in down for key in cluster.right) - any(key in down for key in cluster.left)),
@@ -152,6 +202,6 @@ class Keyboard:
         )
 
 
-def label(number: int, button: Button) -> str:
-    """The label of a cluster's key for a button; empty if there is none."""
-    return CLUSTERS[number].key_name.get(button) or _SHARED_LABELS.get(button, "")
+    def label(self, number: int, button: Button) -> str:
+        """The label of a cluster's key for a button; empty if there is none."""
+        return self.clusters[number].key_name.get(button) or _SHARED_LABELS.get(button, "")

@@ -14,6 +14,7 @@ from pigaming_app.ui.draw import (
     button,
     button_width,
     cut_box,
+    readable,
     text_width,
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage
@@ -83,7 +84,8 @@ class ButtonPrompts:
 
 def places(prompts: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
     """Left and right end of each prompt, px."""
-    widths = [button_width(label) + 18 + text_width(text, BODY, "body") for label, text in prompts]
+    size = type_size(prompts, room)
+    widths = [button_width(label) + 18 + text_width(text, size, "body") for label, text in prompts]
     fitting = [gap for gap in GAPS if sum(widths) + gap * (len(widths) - 1) <= room]
     gap = fitting[0] if fitting else GAPS[-1]
     x, ends = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
@@ -93,11 +95,18 @@ def places(prompts: Sequence[tuple[str, str]], room: int) -> list[tuple[float, f
     return ends
 
 
+def type_size(prompts: Sequence[tuple[str, str]], room: int) -> int:
+    """The size of the texts, px: the readable one, if the row has room for it."""
+    size = readable(BODY)
+    wide = sum(button_width(label) + 18 + text_width(text, size, "body") + GAPS[-1] for label, text in prompts)
+    return size if wide <= room else BODY
+
+
 @cached
 def row(prompts: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
     """The rendered row."""
-    ends = places(prompts, room)
+    ends, size = places(prompts, room), type_size(prompts, room)
     layer = Layer(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
     for (label, text), (left, _) in zip(prompts, ends, strict=True):
-        layer.canvas.body(text, left + button(layer.canvas, left, y, label) + 18, y, MIST)
+        layer.canvas.body(text, left + button(layer.canvas, left, y, label) + 18, y, MIST, "l", size)
     return layer.render()

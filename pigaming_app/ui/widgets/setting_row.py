@@ -21,6 +21,7 @@ from pigaming_app.ui.draw import (
     cut_box,
     dim,
     icon,
+    readable,
     text_width,
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
@@ -86,7 +87,7 @@ def step_of(event: InputEvent, focus: Focus, value: SettingValue) -> int:
 
 def label(name: str, focused: bool) -> LitImage:
     """The name of a row, its middle at y = 0."""
-    return text(name, BODY, ICE if focused else MIST, "body", "l", AT - 60)
+    return text(name, readable(BODY), ICE if focused else MIST, "body", "l", AT - 60)
 
 
 @cached
@@ -111,7 +112,7 @@ def value(kind: str, options: tuple[str, ...], chosen: int, focused: bool) -> Li
         for sign, x in (("left", AT + 14), ("right", W - 54)):
             icon(layer.glow, sign, x, 0, 18, FOCUS if focused else MIST, 5)
         option = options[chosen] if chosen < len(options) else ""
-        size = fit_size(option, BODY, ROOM - 120, "body")
+        size = fit_size(option, readable(BODY), ROOM - 120, "body")
         layer.canvas.crisp.text(option, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
     else:
         w = chips(options)[0][1]

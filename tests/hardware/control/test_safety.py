@@ -3,7 +3,7 @@
 import pytest
 
 from pigaming_app.hardware.control.safety import CALM, RULES, Health, Response, Safety
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import LANGUAGES, Words
 
 GOOD = Health(picture_age=0.09, battery=5.0)
 
@@ -119,7 +119,7 @@ def test_nothing_is_asked_of_a_simulated_robot():
     assert safety.judge([None, None], 1.0) == [Response.WARN, Response.WARN]
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_every_fault_has_a_plain_reason(language):
     words = Words(language)
     for name in {rule.name for rule in RULES}:

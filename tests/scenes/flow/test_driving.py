@@ -8,7 +8,7 @@ from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, POINT, 
 from pigaming_app.scenes.flow.driving import PARTY, PICTURES, DrivingStyles
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import ICONS
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.events import Device
 
 PAD, OTHER, KEYS = Device("pad", 4), Device("pad", 5), Device("keys", 1)
@@ -77,7 +77,7 @@ def test_a_replugged_pad_drives_as_before_unless_its_player_has_chosen() -> None
     assert styles.of(OTHER, "race", "standard") == TURN
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_every_style_has_a_picture_and_a_name(language: str) -> None:
     for style in {style for styles in DRIVING.values() for style in styles}:
         assert PICTURES[style] in ICONS

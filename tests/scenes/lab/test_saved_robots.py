@@ -12,6 +12,7 @@ from pigaming_app.scenes.lab.name_page import NamePage, middle
 from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.cases import one_in
@@ -132,7 +133,7 @@ def test_a_mouse_spells_too(arcade: Arcade) -> None:
     ("number", "key"),
     one_in(2, [(errno.ENOSPC, "lab.disk_full"), (errno.EACCES, "lab.no_writing"), (errno.EIO, "lab.no_writing")]),
 )
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_a_full_disk_is_one_sentence_and_the_training_goes_on(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, key: str, language: str
 ) -> None:
@@ -169,7 +170,7 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     assert here.table.training is before
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_a_robot_of_an_older_version_is_opened_and_that_is_said(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
     robots.folder().mkdir(parents=True)

@@ -18,7 +18,7 @@ from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
 from pigaming_app.scenes.lobby.view import card_rect, level_words
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
@@ -234,7 +234,7 @@ def test_where_there_is_a_mat_everyone_chooses_a_real_robot_for_ones_own_seat(ar
     assert page.seats.real() == [1]
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls, home: Path, language: str) -> None:
     arcade = Arcade(controls, language)
     arcade.context.session = EmulatedSession(live=False)

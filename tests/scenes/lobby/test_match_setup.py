@@ -19,7 +19,7 @@ from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.draw.text import SMALLEST, fit_lines
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
@@ -217,7 +217,7 @@ def test_a_click_chooses_the_rounds(arcade: Arcade) -> None:
     assert here.chosen.rounds == 1
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("game", list(games()))
 def test_the_sentence_of_every_rule_set_fits_its_row(arcade: Arcade, game: str, language: str) -> None:
     words = Words(language)

@@ -12,6 +12,7 @@ from pigaming_app.scenes.options.page import CLEAR, OptionsPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
@@ -85,7 +86,7 @@ def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> N
     assert arcade.context.settings.shake is False
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
     page = arcade.shown(OptionsPage)

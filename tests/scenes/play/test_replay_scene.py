@@ -15,6 +15,7 @@ from pigaming_app.scenes.play.replay import IDLE, LINE_LEFT, LINE_RIGHT, LINE_Y,
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.title.attract import PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import Arcade, setup
@@ -174,7 +175,7 @@ def test_a_jump_takes_less_than_50_ms(arcade: Arcade, long: Replay) -> None:
     assert min(durations) < 0.05
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("paused", [False, True])
 def test_the_bar_of_a_replay_stands_beside_the_arena(
     arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str, paused: bool
@@ -199,7 +200,7 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
         assert left is (Button.LEFT if button is Button.RIGHT else button)
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_a_replay_of_another_engine_plays_with_a_notice(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:

@@ -15,6 +15,7 @@ from pigaming_app.scenes.replays.page import CONFIRM_SECONDS, ReplaysPage
 from pigaming_app.scenes.replays.view import ROWS, cross_box, row_box
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import places
@@ -129,7 +130,7 @@ def test_a_damaged_file_is_one_line_and_a_vanished_one_a_sentence(arcade: Arcade
     assert page.message == arcade.context.words("replays.gone")
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_texts_keep_off_each_other(
     arcade: Arcade, replay: Replay, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:

@@ -10,7 +10,7 @@ from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import INPUT_LOCKOUT, STAY, HighScores, conditions
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.draw import text_width
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
@@ -113,7 +113,7 @@ def test_an_arena_that_has_gone_is_not_shown(arcade: Arcade) -> None:
     assert shown(opened(arcade, gone), PAIR)
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_every_heading_fits_and_nothing_runs_over_the_edge(controls: Controls, language: str) -> None:
     words = Words(language)
     tables = [

@@ -18,6 +18,7 @@ from pigaming_app.scenes.results.rematch_vote import PATIENCE
 from pigaming_app.scenes.results.scene import IDLE, Results
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
@@ -65,7 +66,7 @@ def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, t
 LOST = outcome({0: -4, 1: -1, 2: 5}, (2,))
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize(
     ("brains", "scores", "winners", "teams", "finished"),
     [

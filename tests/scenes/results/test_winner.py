@@ -12,6 +12,7 @@ from pigaming_app.scenes.results.celebration import Celebration, confetti
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import LENGTH, SKIP, WinnersMoment, celebrated, title
 from pigaming_app.ui.draw import ICE, PLAYERS
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade, setup
@@ -44,7 +45,7 @@ def with_stars(ended: Outcome, stars: int) -> Outcome:
 WON = outcome({0: 12, 1: -3, 2: 7, 3: 5}, (0,))
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("name", list(ENDINGS))
 def test_every_ending_has_its_moment_within_the_picture(controls: Controls, name: str, language: str) -> None:
     arcade = Arcade(controls, language)

@@ -14,6 +14,7 @@ from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.robots.menu import SHEET, RobotsMenu
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
@@ -51,7 +52,7 @@ def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, ki
     arcade.shown(OptionsPage)
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, tmp_path: Path, language: str) -> None:
     arcade.context.words.switch(language)
     go(arcade, RobotsMenu, "sheet")

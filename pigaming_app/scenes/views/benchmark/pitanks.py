@@ -24,6 +24,7 @@ class AllEffects:
 
     flashes: str = "full"
     shake: bool = True
+    calm: bool = False
 
 
 class BusyPiTanks:

@@ -29,7 +29,7 @@ from pigaming_app.ui.draw.sprites import Batch, put
 
 OPEN_SPEED, FAST_SPEED = 5.0, 14.0  # stages a second of two animations
 NOTICE = 5 * HZ  # ticks for which the next fast machine is shown before its turn
-BLINK = 8  # ticks for which the fast machine is bright, then dark, at the end of its turn
+BLINK = 9  # ticks for which the fast machine is bright, then dark, at its end: less than three blinks a second
 PLATE_X, PLATE_Y = 32.0, -32.0  # px from a crate to the plate with its worth
 
 

@@ -21,7 +21,7 @@ from pigaming_app.ui.draw.sprites import Batch, put
 CLEARING, JAMMING = "clearing", "jamming"  # also the names of their sounds
 SHOWN = {CLEARING: 10, JAMMING: 3}  # s left from which a countdown is shown
 HEARD = {CLEARING: 5, JAMMING: 3}  # s left from which each second is heard, and shown as a number
-BLINK = 5  # ticks for which a jammed machine is bright, then dark
+BLINK = 9  # ticks for which a jammed machine is bright, then dark: less than three blinks a second
 CORNER = 58.0  # px from a machine's centre to its warning sign, across and down
 OUTSIDE = 0.46  # distance from a slot to its number, as a share of the way from the machine to the slot
 

@@ -25,6 +25,7 @@ from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
 
 FLASH = 0.06  # s
+BLINK = 9  # ticks for which an ending shield is away, then there: less than three blinks a second
 ENDING = 2 * HZ  # remaining ticks from which a shield blinks
 BOUNTY = 84  # px from a robot to its bounty
 MUZZLE = 70.0  # px from a robot to the centre of its muzzle flash
@@ -145,7 +146,7 @@ class PiTanksView(MatchView):
                 y,
             )
         left = powers[SHIELD]
-        if left > ENDING or left // 6 % 2:
+        if left > ENDING or left // BLINK % 2:
             put(light, effects.shield(seat, int(self.particles.clock * 24) % 24, self.reach(seat, 72)), x, y)
 
     def _bullets(self, light: Batch, state: PiTanks, blend: float) -> None:

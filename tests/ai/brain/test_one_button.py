@@ -1,0 +1,68 @@
+"""One button: an AI drives, the person's button fires, lifts, boosts or uses what the robot has."""
+
+import pytest
+
+from pigaming_app.ai.brain.kind import OneButtonPlayer
+from pigaming_app.ai.registry import DRIVING, ONE_BUTTON, make_person, new_match
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
+from pigaming_app.ui.input.events import StickState
+
+NOTHING, FIRE, TURBO = StickState(), StickState(fire=True), StickState(turbo=True)
+
+
+def match_of(game: str, press: StickState, every: int = 25) -> Match:
+    """A match of a minute; seat 0 has one button, which goes down once in `every` ticks, and sticks that drift."""
+    rules = games()[game].default
+    one, two, three, four = Seat("human", 0), Seat("idle", 1), Seat("off", 2), Seat("off", 3)
+    match = new_match(
+        Setup(game, "classic" if game != "factory" else "hall", (one, two, three, four), 1.0, 5, rules.name)
+    )
+    drift = StickState(linear=-1.0, angular=1.0)
+    read = lambda: press if match.state.tick % every < every // 2 else drift  # noqa: E731
+    match.sit(0, make_person(game, ONE_BUTTON, read, 7))
+    return match
+
+
+def played(match: Match, seconds: float) -> Match:
+    while match.seconds < seconds and not match.over:
+        match.tick()
+    return match
+
+
+@pytest.mark.parametrize("game", games())
+def test_every_game_offers_it(game: str) -> None:
+    assert ONE_BUTTON in DRIVING[game]
+    assert isinstance(make_person(game, ONE_BUTTON, lambda: NOTHING, 1), OneButtonPlayer)
+
+
+@pytest.mark.parametrize("press", [FIRE, TURBO])
+def test_shots_are_the_persons_and_hit_as_the_robot_aims(press: StickState) -> None:
+    match = played(match_of("pitanks", press), 40.0)
+    assert match.state.robots[0].score > 0
+
+
+def test_without_a_press_nothing_is_fired() -> None:
+    match = match_of("pitanks", NOTHING)
+    fired = 0
+    while match.seconds < 20.0:
+        match.tick()
+        fired += match.state.actions[0].fire
+    start = match.arena.starts[0]
+    robot = match.state.robots[0]
+    assert not fired
+    assert (robot.x, robot.y) != (start.x, start.y), "but it drives"
+    assert match.state.robots[0].score <= 0
+
+
+def test_pallets_are_lifted_and_delivered_by_the_button() -> None:
+    waiting = played(match_of("factory", NOTHING), 20.0)
+    assert waiting.state.loads[0].pallet == 0
+    match = played(match_of("factory", FIRE, 40), 60.0)
+    assert match.state.robots[0].score > 0
+
+
+def test_the_button_is_the_turbo_of_the_race() -> None:
+    slow, fast = played(match_of("race", NOTHING), 15.0), played(match_of("race", FIRE, 60), 15.0)
+    assert fast.state.racers[0].progress > slow.state.racers[0].progress > 0.0
