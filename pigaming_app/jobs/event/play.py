@@ -25,7 +25,9 @@ from pigaming_app.sim.arena import ArenaError
 def options(parser: ArgumentParser) -> None:
     file_option(parser)
     parser.add_argument("--headless", action="store_true", help="no window, no sound")
-    parser.add_argument("--speed", type=_speed, default=inf, help="with --headless: times real time, or max; default max")
+    parser.add_argument(
+        "--speed", type=_speed, default=inf, help="with --headless: times real time, or max; default max"
+    )
     parser.add_argument("--json", action="store_true", help="print the result as one JSON object")
 
 
@@ -72,4 +74,6 @@ def _longest(event: Event, outcomes: list[Outcome]) -> float:
 def _progress(event: Event) -> None:
     if sys.stderr.isatty():
         left = len(event.open)
-        print(end=f"\r\x1b[Kround {event.round}: {len(event.outcomes)} matches, {left} open", file=sys.stderr, flush=True)
+        print(
+            end=f"\r\x1b[Kround {event.round}: {len(event.outcomes)} matches, {left} open", file=sys.stderr, flush=True
+        )
