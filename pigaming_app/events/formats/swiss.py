@@ -34,8 +34,8 @@ def next_round(field: Field) -> Draw | None:
     if len(order) % 2 == 0:
         return Draw(tuple(Match(pair) for pair in pairs(order, score, met)[0]))
     fewest = field.byes()
-    draws = []
-    for bye in sorted(reversed(order), key=lambda name: fewest[name]):
+    draws: list[tuple[int, int, int, Draw]] = []
+    for bye in sorted(order[::-1], key=fewest.__getitem__):
         found, again = pairs([name for name in order if name != bye], score, met)
         draws.append((fewest[bye], again, len(draws), Draw(tuple(Match(pair) for pair in found), (bye,))))
         if not again:
