@@ -12,7 +12,7 @@ from itertools import takewhile
 
 import pygame
 
-from pigaming_app.ai.registry import level_of
+from pigaming_app.ai.registry import find_brain, level_of
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
@@ -348,7 +348,10 @@ class NextMatch:
         """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
         if self._known is None or self._known[0] is not self.running.event:
             try:
-                self._known = self.running.event, setup_of(self.running.event, fixture)
+                setup = setup_of(self.running.event, fixture)
+                for brain in {seat.brain for seat in setup.seats} - {"human", "off"}:
+                    find_brain(fixture.game, brain)
+                self._known = self.running.event, setup
             except ValueError as reason:
                 log.warning("%s", reason)
                 self._known = self.running.event, None
