@@ -9,7 +9,6 @@ from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
-from pigaming_app.ai.experiments.league import MIN_COMPILED_MATCHES
 from pigaming_app.ai.experiments.line_ups import LineUps, longest
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.event import Event
@@ -21,6 +20,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT
 
+WORTH_COMPILING = 600_000  # ticks: half a minute of plain matches, which compiling takes the first time
 BATCH = 32  # matches of one compiled batch: the most that a kill can cost
 
 
@@ -50,7 +50,7 @@ class HeadlessRun:
         if fast is None:
             matches = matches_left(event) // len({*event.spec.games})
             example = replace(event.fixtures[0], game=game, arena=event.spec.arenas.get(game, ""))
-            fast = can_compile() and matches * _ticks(event, example) > MIN_COMPILED_MATCHES
+            fast = can_compile() and matches * _ticks(event, example) > WORTH_COMPILING
         return LineUps(game, brains, fast and not any(find_brain(game, name).plain for name in brains))
 
 
