@@ -19,7 +19,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Recorded, Substituted, Withdrawn
 from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Outcome
 from pigaming_app.storage.file_lock import locked
-from pigaming_app.storage.parsing import parse_json, quote, read_text
+from pigaming_app.storage.parsing import describe_error, parse_json, quote, read_text
 from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
 
 FOLDER = "events"  # below the data folder
@@ -46,8 +46,15 @@ def path_of(title: str, folder: Path) -> Path:
 def load(path: Path) -> tuple[Event | None, list[str]]:
     """The event of a file, and sentences on damage. None without a file, or if neither it nor its backup is usable.
 
-    A damaged file is set aside and replaced by its backup.
+    A damaged event is set aside and replaced by its backup; a file without one, perhaps no event at all, stays.
     """
+    try:
+        return parse(read_text(path, MAX_BYTES)), []
+    except FileNotFoundError:
+        return None, []
+    except (OSError, ValueError) as error:
+        if _readable(path.with_name(f"{path.name}.bak") if path.name else path) is None:
+            return None, [f"{path} cannot be read ({describe_error(error)})."]
     return read_or_restore(path, parse, MAX_BYTES)
 
 

@@ -60,8 +60,7 @@ def standings_csv(event: Event) -> str:
     breaks = list(rows[0].tie_breaks)
     teams = {entrant.name: entrant.team for entrant in event.entrants}
     body = (
-        (row.place, row.entrant, teams[row.entrant], row.points, row.wins, row.played)
-        + tuple(row.tie_breaks[key] for key in breaks)
+        [row.place, row.entrant, teams[row.entrant], row.points, row.wins, row.played, *row.tie_breaks.values()]
         for row in rows
     )
     return _csv(["place", "entrant", "team", "points", "wins", "played", *breaks], body)

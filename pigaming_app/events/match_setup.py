@@ -1,15 +1,13 @@
 """From a fixture to the setup of its match, and from the result of the match to the outcome."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
-from pigaming_app.ai.registry import find_brain, known_brains
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Outcome
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import ALLIES, ALONE, FREE, Row, Setup, Variant
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.games.setup import PEOPLE, ChoiceError, make_setup, require_one_of
 
 
 def setup_of(event: Event, fixture: Fixture, person: str = "human") -> Setup:
@@ -30,12 +28,15 @@ def setup_of(event: Event, fixture: Fixture, person: str = "human") -> Setup:
         fixture.seed,
         variant.name,
         _teams(variant, playing),
-        known_brains(fixture.game, brains),
+        [brain for brain in brains if brain not in PEOPLE],
     )
 
 
-def check_playable(spec: EventSpec) -> None:
-    """Raises ChoiceError or ArenaError, with one line, unless every entrant can play every game of the event."""
+def check_playable(spec: EventSpec, find_brain: Callable[[str, str], object]) -> None:
+    """Raises ChoiceError or ArenaError, with one line, unless every entrant can play every game of the event.
+
+    `find_brain(game, name)` raises ChoiceError for a brain that does not exist.
+    """
     for game in spec.games:
         variant = variant_of(spec, game)
         for brain in dict.fromkeys([*(entrant.brain for entrant in spec.entrants), spec.fill]):
@@ -79,8 +80,8 @@ def _teams(variant: Variant, playing: Sequence[Entrant]) -> tuple[int, ...]:
     if variant.team_mode == ALONE or len(different) < 2 or (variant.team_mode != FREE and not fair):
         return variant.teams
     numbers = [different.index(side) for side in sides]
-    free = [number for number in range(ROBOTS) if number not in numbers] or [0]
-    rest = range(len(numbers), ROBOTS)
+    free = [number for number in range(len(variant.teams)) if number not in numbers] or [0]
+    rest = range(len(numbers), len(variant.teams))
     if variant.team_mode == FREE:
         return (*numbers, *(free[(seat - len(numbers)) % len(free)] for seat in rest))
     for _ in rest:

@@ -139,7 +139,9 @@ class Progress:
         progress = replace(self, outcomes={**self.outcomes, outcome.fixture: corrected})
         if self.spec.format == Format.KNOCKOUT:
             names, advance = self.as_field().entrants, self.spec.advance
-            if knockout.through(fixture, before, names, advance) != knockout.through(fixture, corrected, names, advance):
+            if knockout.through(fixture, before, names, advance) != knockout.through(
+                fixture, corrected, names, advance
+            ):
                 later = [str(one.number) for one in self.fixtures if one.round > fixture.round and self._played(one)]
                 if later:
                     which = f"match {later[0]} has" if len(later) == 1 else f"matches {', '.join(later)} have"

@@ -24,7 +24,7 @@ class Format(StrEnum):
 
 
 class Advance(StrEnum):
-    """Who wins a knock-out match: the better half (of four two, of three two, of two one), or the best quarter (one)."""
+    """Who wins a knock-out match: the better half (of four two, of three two, of two one), or the best quarter: one."""
 
     HALF = "half"
     QUARTER = "quarter"

@@ -111,7 +111,7 @@ def _table(field: Field) -> Table:
                     byes[name] += value
     complete = [drawn for drawn in field.rounds if all(one.number in field.outcomes for one in drawn.fixtures)]
     missed = {name: max(0, len(complete) - met[name]) for name in field.entrants}
-    return Table(points, games, missed, byes)
+    return Table({name: scoring.exact(value) for name, value in points.items()}, games, missed, byes)
 
 
 def _void(field: Field, outcome: Outcome) -> bool:
@@ -166,7 +166,7 @@ def _split(names: Sequence[str], value: Mapping[str, float]) -> list[list[str]]:
     """The names by descending value, equal ones together in their order."""
     groups: dict[float, list[str]] = {}
     for name in names:
-        groups.setdefault(round(value[name], 9), []).append(name)
+        groups.setdefault(scoring.exact(value[name]), []).append(name)
     return [groups[key] for key in sorted(groups, reverse=True)]
 
 

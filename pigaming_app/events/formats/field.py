@@ -11,7 +11,7 @@ Pair = frozenset[str]
 
 @dataclass(frozen=True)
 class Field:
-    """The event so far. `entrants`: all by their seeding, late ones last; `outcomes`: by fixture, walkovers included."""
+    """The event so far. `entrants`: all by their seeding, late ones last; `outcomes`: by fixture, with walkovers."""
 
     spec: EventSpec
     entrants: tuple[str, ...]

@@ -34,7 +34,7 @@ def neighbours(names: Sequence[str], seats: int, met: Mapping[Pair, int]) -> lis
     for size in sizes(len(names), seats):
         group = [left.pop(0)]
         while len(group) < size:
-            best = min(left, key=lambda name: (sum(met.get(frozenset((name, one)), 0) for one in group)))
+            best = min(left, key=lambda name: sum(met.get(frozenset((name, one)), 0) for one in group))
             left.remove(best)
             group.append(best)
         groups.append(group)

@@ -1,7 +1,8 @@
 """Knock-out with a second chance (double elimination): whoever has lost two matches is out.
 
-The unbeaten play in the winners' bracket, those with one defeat in the losers' bracket; the winners' bracket pauses while
-more are left in the other one. The last of either meet in the final; if the unbeaten loses it, a second final decides.
+The unbeaten play in the winners' bracket, those with one defeat in the losers' bracket; the winners' bracket pauses
+while more are left in the other one. The last of either meet in the final; if the unbeaten loses it, a second final
+decides.
 
 Matches of two follow the standard bracket: the two best seeds can meet in its final only, the four best in its
 semi-finals. To the next power of two, byes of the first round go to the best seeds. Losers cross over to the other half

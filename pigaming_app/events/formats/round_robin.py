@@ -1,9 +1,9 @@
 """Round robin: everybody meets everybody.
 
 Matches of two follow the Berger tables (FIDE Handbook C.05, annex 1, "Details of Berger tables"; the same as the circle
-method of R. Schurig, 1886): of an even number n the last stays, all others move on by n/2 places from round to round. Of
-an odd number, whoever would meet the missing last one has a bye. The first of a pair takes the first seat. In a second
-cycle, seats are exchanged.
+method of R. Schurig, 1886): of an even number n the last stays, all others move on by n/2 places from round to round.
+Of an odd number, whoever would meet the missing last one has a bye. The first of a pair takes the first seat. In a
+second cycle, seats are exchanged.
 
 Matches of three or four: in every round all play, in groups that are exchanged until as few as possible meet again, and
 there are rounds until each two have met as often as there are cycles, but at most three times as many as a perfect
@@ -21,7 +21,7 @@ PATIENCE = 3  # times the rounds of a perfect design
 
 
 def rounds(field: Field) -> list[Draw]:
-    """The rounds that are not drawn yet. Late entrants, who have missed the first one, join in from the second one on."""
+    """The rounds that are not drawn yet. Late entrants have missed the first one and play from the second one on."""
     cycles = field.spec.rounds or CYCLES
     first = tuple(name for name in field.entrants if name not in field.late)
     draws = _pairs if field.spec.seats == 2 else _groups

@@ -27,4 +27,9 @@ def scores(field: Field) -> dict[str, float]:
             total[name] += gained
     for name, byes in field.byes().items():
         total[name] += byes * BYE
-    return total
+    return {name: exact(value) for name, value in total.items()}
+
+
+def exact(points: float) -> float:
+    """Points whose sum does not depend on the order of the matches: thirds are rounded."""
+    return round(points, 6)

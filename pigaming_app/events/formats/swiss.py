@@ -33,9 +33,9 @@ def next_round(field: Field) -> Draw | None:
         return Draw(tuple(Match(group) for group in neighbours(order, field.spec.seats, met)))
     if len(order) % 2 == 0:
         return Draw(tuple(Match(pair) for pair in pairs(order, score, met)[0]))
-    fewest = field.byes()
-    draws = []
-    for bye in sorted(reversed(order), key=lambda name: fewest[name]):
+    fewest, upwards = field.byes(), order[::-1]
+    draws: list[tuple[int, int, int, Draw]] = []
+    for bye in sorted(upwards, key=fewest.__getitem__):
         found, again = pairs([name for name in order if name != bye], score, met)
         draws.append((fewest[bye], again, len(draws), Draw(tuple(Match(pair) for pair in found), (bye,))))
         if not again:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from pigaming_app.ai.brain_files import is_path
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words
 from pigaming_app.events.event import Event
@@ -68,7 +69,7 @@ def run(arguments: Namespace) -> int:
         require_for_brains(entrant.brain for entrant in spec.entrants)
         event = Event(spec)
         _ = event.progress  # checks the spec
-        check_playable(spec)
+        check_playable(spec, find_brain)
     event_files.save(arguments.file, event)
     print_event(event, arguments.json)
     return 0

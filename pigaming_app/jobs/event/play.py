@@ -6,16 +6,18 @@ from there after Ctrl-C, a kill or a power cut.
 
 import sys
 from argparse import ArgumentParser, Namespace
+from functools import partial
 from math import inf
 from time import perf_counter, sleep
 
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
-from pigaming_app.events.run_headless import HeadlessRun, seconds_of
 from pigaming_app.events.spec import Outcome
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs.event.files import file_option, loaded
+from pigaming_app.jobs.event.headless import HeadlessRun, seconds_of
 from pigaming_app.jobs.event.show import print_event
 from pigaming_app.jobs.terminal.options import decimal
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
@@ -25,7 +27,9 @@ from pigaming_app.sim.arena import ArenaError
 def options(parser: ArgumentParser) -> None:
     file_option(parser)
     parser.add_argument("--headless", action="store_true", help="no window, no sound")
-    parser.add_argument("--speed", type=_speed, default=inf, help="with --headless: times real time, or max; default max")
+    parser.add_argument(
+        "--speed", type=_speed, default=inf, help="with --headless: times real time, or max; default max"
+    )
     parser.add_argument("--json", action="store_true", help="print the result as one JSON object")
 
 
@@ -37,14 +41,15 @@ def run(arguments: Namespace) -> int:
     require_for_brains(entrant.brain for entrant in event.entrants)
     began, before = perf_counter(), len(event.outcomes)
     with refused(ChoiceError, ArenaError, ValueError):
-        check_playable(event.spec.with_entrants(event.entrants))
+        check_playable(event.spec.with_entrants(event.entrants), find_brain)
         headless = HeadlessRun(event)
         while event.open:
             started = perf_counter()
             outcomes = headless.play(event)
-            event = event_files.update(arguments.file, lambda saved, new=outcomes: _recorded(saved, new), event)
+            event = event_files.update(arguments.file, partial(_recorded, outcomes), event)
             _progress(event)
-            sleep(max(0.0, _longest(event, outcomes) / arguments.speed - (perf_counter() - started)))
+            if arguments.speed < inf:
+                sleep(max(0.0, _longest(event, outcomes) / arguments.speed - (perf_counter() - started)))
     seconds, played = perf_counter() - began, len(event.outcomes) - before
     if sys.stderr.isatty():
         print(end="\r\x1b[K", file=sys.stderr)
@@ -52,7 +57,7 @@ def run(arguments: Namespace) -> int:
     return 0
 
 
-def _recorded(event: Event, outcomes: list[Outcome]) -> Event:
+def _recorded(outcomes: list[Outcome], event: Event) -> Event:
     for outcome in outcomes:
         event = event.record(outcome)
     return event
@@ -65,11 +70,13 @@ def _speed(text: str) -> float:
 
 def _longest(event: Event, outcomes: list[Outcome]) -> float:
     """Length of these matches one after the other, s."""
-    games = {fixture.number: fixture.game for fixture in event.fixtures}
-    return sum(seconds_of(event.spec, games[outcome.fixture]) for outcome in outcomes)
+    numbers = {outcome.fixture for outcome in outcomes}
+    return sum(seconds_of(event, fixture) for fixture in event.fixtures if fixture.number in numbers)
 
 
 def _progress(event: Event) -> None:
     if sys.stderr.isatty():
         left = len(event.open)
-        print(end=f"\r\x1b[Kround {event.round}: {len(event.outcomes)} matches, {left} open", file=sys.stderr, flush=True)
+        print(
+            end=f"\r\x1b[Kround {event.round}: {len(event.outcomes)} matches, {left} open", file=sys.stderr, flush=True
+        )

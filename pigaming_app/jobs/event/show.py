@@ -34,7 +34,8 @@ def print_event(event: Event, as_json: bool, **more: float) -> None:
 def lines(event: Event) -> Iterator[str]:
     """The tables of entrants and teams, then the next matches."""
     spec, played = event.spec, len(event.outcomes)
-    yield f"{spec.title}: {spec.format}, {', '.join(spec.games)}; {played} of {len(event.fixtures)} known matches played"
+    yield f"{spec.title}: {spec.format}, {', '.join(spec.games)}"
+    yield f"{played} matches played, {len(event.open)} open"
     yield ""
     yield from _table(event.standings)
     if event.team_standings:

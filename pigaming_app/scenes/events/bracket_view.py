@@ -126,7 +126,7 @@ def way(w: int, rise: int) -> LitImage:
     h = abs(rise)
     layer = Layer(0, 0, w, h)
     start, end = (0, h) if rise < 0 else (0, 0), (w, 0) if rise < 0 else (w, h)
-    layer.glow.line([start, (w / 2, start[1]), (w / 2, end[1]), end], STEEL, THIN)
+    layer.glow.line([start, (w / 2, start[1]), (w / 2, end[1]), end], dim(MIST, 0.7), THIN)
     return layer.render()
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pygame
 
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
@@ -97,7 +98,7 @@ class EventsPage:
         event = Event(draft.spec(title, secrets.randbelow(SEEDS) + 1))
         try:
             _ = event.progress
-            check_playable(event.spec)
+            check_playable(event.spec, find_brain)
             folder.mkdir(parents=True, exist_ok=True)
             running = RunningEvent(Path(event_files.path_of(title, folder)), event)
             event_files.save(running.path, event)

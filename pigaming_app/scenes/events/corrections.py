@@ -19,7 +19,7 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, frame, heading
+from pigaming_app.ui.widgets.labels import black_out, frame, glow_bar, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 IDLE = 60.0  # s without input before the return to the table
@@ -176,7 +176,7 @@ class Correction:
         screen.blit(backdrop(), (0, 0))
         heading(words("events.correct"), stage_name(words, self.fixture.stage, self.fixture.round)).draw(screen)
         black_out(screen, setting_row.PANEL)
-        setting_row.glow_bar(screen, self.focus.box)
+        glow_bar(screen, self.focus.box)
         for spot in self.focus.spots:
             value, box, hot = self._value(spot.name), spot.rect, spot.name == self.focus.name
             said = spot.name if spot.name in self.names else words(f"events.{spot.name.strip()}")

@@ -12,7 +12,7 @@ from itertools import takewhile
 
 import pygame
 
-from pigaming_app.ai.registry import level_of
+from pigaming_app.ai.registry import find_brain, level_of
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
@@ -32,7 +32,7 @@ from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.robots.start_match import match_of
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
 from pigaming_app.ui.draw.text import text
@@ -171,8 +171,9 @@ class NextMatch:
         line = progress_line(words, event)
         text(line, BODY, MIST, "body", "r").draw(screen, RIGHT, view.THEN_Y)
         if then:
-            said = words("events.then", names=view.following(then, 1050))
-            text(said, LABEL, MIST, "head", "l", 1250).draw(screen, LEFT, view.THEN_Y)
+            room = RIGHT - LEFT - 48 - text_width(line, BODY, "body")
+            said = view.following(lambda names: words("events.then", names=names), then, room)
+            text(said, LABEL, MIST, "head", "l", round(room)).draw(screen, LEFT, view.THEN_Y)
         self.prompts.draw(screen)
 
     @property
@@ -347,7 +348,10 @@ class NextMatch:
         """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
         if self._known is None or self._known[0] is not self.running.event:
             try:
-                self._known = self.running.event, setup_of(self.running.event, fixture)
+                setup = setup_of(self.running.event, fixture)
+                for brain in {seat.brain for seat in setup.seats} - {"human", "off"}:
+                    find_brain(fixture.game, brain)
+                self._known = self.running.event, setup
             except ValueError as reason:
                 log.warning("%s", reason)
                 self._known = self.running.event, None
@@ -396,7 +400,7 @@ class NextMatch:
         x, y = view.card_rect(seat, count).topleft
         taken = seat in self.claims
         state = view.AI if brain else view.TAKEN if taken else view.WANTED
-        view.frame(seat, name, self._driver(seat, brain), state).draw(screen, x, y)
+        view.frame(seat, name, *self._driver(seat, brain), state).draw(screen, x, y)
         view.draw_robot(screen, seat, x, self.clock, taken)
         if brain:
             fixture = self.fixture
@@ -408,17 +412,15 @@ class NextMatch:
             label = words.key_name(self.context.controls.label(self._suggested(seat), Button.FIRE))
             ask_bar(label, words("events.press"), pulse(self.clock, 5)).draw(screen, x, y)
 
-    def _driver(self, seat: int, brain: str) -> str:
-        """Who or what drives: a numbered pad, a part of the keyboard, an AI."""
+    def _driver(self, seat: int, brain: str) -> tuple[str, str]:
+        """Icon and name of who or what drives: a numbered pad, a part of the keyboard, an AI."""
         words, controls = self.context.words, self.context.controls
         if brain:
-            return words("lobby.ai") if level_of(brain) else words("events.robot")
-        device = self.claims.get(seat) or self._suggested(seat)
-        if device is None:
-            return ""
-        if device.kind == "pad":
-            return words("events.pad", number=1 + controls.pads().index(device) if device in controls.pads() else 1)
-        return controls.moves(device) or words("devices.Keyboard")
+            return "ai", words("events.ai" if level_of(brain) else "events.robot")
+        device, pads = self.claims.get(seat) or self._suggested(seat), controls.pads()
+        if device and device.kind == "pad":
+            return "pad", words("events.pad", number=1 + pads.index(device) if device in pads else 1)
+        return "keys", "".join(controls.moves(device).split()) if device else ""
 
     def _draw_message(self, screen: pygame.Surface, fixture: Fixture) -> None:
         words = self.context.words
@@ -444,7 +446,7 @@ class NextMatch:
             return
         for seat, name in enumerate(fixture.entrants):
             brain = self.running.brain(name)
-            yield partial(view.frame, seat, name, self._driver(seat, brain), view.AI if brain else view.WANTED)
+            yield partial(view.frame, seat, name, *self._driver(seat, brain), view.AI if brain else view.WANTED)
 
 
 def after_match(running: RunningEvent, fixture: Fixture, scene: MatchScene) -> AfterMatch:

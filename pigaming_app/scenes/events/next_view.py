@@ -1,11 +1,13 @@
 """Cards of the next match: seat, name, robot, and who drives it. Top left of a card at (0, 0); see `player_card`."""
 
 import math
+from collections.abc import Callable, Sequence
 
 import pygame
 
 from pigaming_app.scenes.lobby import seat_card
 from pigaming_app.ui.draw import (
+    ARROWS,
     BODY,
     ICE,
     LABEL,
@@ -42,17 +44,20 @@ def card_rect(index: int, count: int) -> pygame.Rect:
 
 @cached
 @resumable
-def frame(seat: int, name: str, driver: str, state: str) -> Steps[LitImage]:
-    """A card with its seat, the name of the entrant, and which device is theirs."""
+def frame(seat: int, name: str, sign: str, driver: str, state: str) -> Steps[LitImage]:
+    """A card with its seat, the name of the entrant, and icon and name of their device; keys with arrows are drawn."""
     layer, color = Layer(0, 0, W, H), PLAYERS[seat]
     if state == WANTED:
         layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.8), THIN, 22, 16)
     else:
         panel(layer.glow, 0, 0, W, H, color, LINE if state == TAKEN else THIN)
     badge(layer.glow, seat, 68, 70, 34)
-    sign = "ai" if state == AI else "pad"
     icon(layer.glow, sign, 154, 70, 30, MIST, 4)
-    layer.canvas.body(driver, 206, 70, MIST, "l", fit_size(driver, BODY, W - 230, "body"))
+    if driver and all(mark in ARROWS for mark in driver):
+        for i, mark in enumerate(driver):
+            icon(layer.glow, ARROWS[mark], 224 + 44 * i, 70, 15, MIST, 5)
+    else:
+        layer.canvas.body(driver, 206, 70, MIST, "l", fit_size(driver, BODY, W - 230, "body"))
     layer.canvas.text(name, fit_size(name, TITLE, W - 56, "hero"), MIDDLE, NAME_Y, ICE, "hero", "c")
     yield
     return (yield from layer.render_steps())
@@ -75,10 +80,7 @@ def draw_robot(screen: pygame.Surface, seat: int, x: int, clock: float, taken: b
     blit_sprite(screen, sprite, x + MIDDLE, TOP + ROBOT_Y - hop)
 
 
-def following(names: list[str], room: float) -> str:
-    """Names in one line of `room` px at LABEL size, cut with an ellipsis if needed."""
-    line = "  –  ".join(names)
-    while len(names) > 1 and text_width(line, LABEL) > room:
-        names = names[:-1]
-        line = "  –  ".join(names) + " …"
-    return line
+def following(sentence: Callable[[str], str], matches: Sequence[str], room: float) -> str:
+    """As many of the next matches in one line as fit into `room` px at LABEL size. `sentence`: the text round them."""
+    lines = [sentence("  –  ".join(matches[:count])) for count in range(len(matches), 0, -1)]
+    return next((line for line in lines if text_width(line, LABEL) <= room), lines[-1])

@@ -12,16 +12,18 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand
-from pigaming_app.ui.draw import FOCUS, ICE, PLAYERS, SUB, TITLE
+from pigaming_app.ui.draw import FOCUS, ICE, MIST, PLAYERS, SUB, TITLE
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
-from pigaming_app.ui.draw.layers import backdrop
-from pigaming_app.ui.draw.text import fit_size, word
+from pigaming_app.ui.draw.layers import RIGHT, backdrop
+from pigaming_app.ui.draw.text import fit_size, text, word
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 
 SKIP = 1.5  # s during which input is ignored
 VOLLEYS = (FIRST + 0.2, FIRST + 1.3, FIRST + 2.6, FIRST + 4.4)  # s, of confetti
 FOOT, NAME_Y = 800, 872  # px: foot of the podium, middle of the names
+REST, REST_X, REST_Y, REST_PITCH = 6, 1330, 290, 104  # places beside the podium; px
+FEWEST_BESIDE = 3
 NAME_ROOM = STEP_W + APART - 20  # px
 
 
@@ -32,7 +34,9 @@ class PodiumPage:
         self.context, self.running = context, running
         self.best = podium_rows(running)
         steps = [Stand(row.place, (i,)) for i, row in enumerate(self.best)]
-        self.podium = Podium(960, FOOT, steps)
+        self.rest = places_below(running)
+        self.x = 600 if self.rest else 960
+        self.podium = Podium(self.x, FOOT, steps)
         seats = list(range(len(self.best)))
         self.celebration = Celebration("pitanks", seats, [PLAYERS[seat] for seat in seats])
         self.volleys = [*VOLLEYS]
@@ -85,8 +89,13 @@ class PodiumPage:
         for i, row in enumerate(self.best):
             if self.age >= REVEALS[i] + RISE:
                 size = fit_size(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
-                x = 960 + (STEP_W + APART) * (ORDER.index(i) - 1)
+                x = self.x + (STEP_W + APART) * (ORDER.index(i) - 1)
                 word(row.entrant, size, FOCUS if i == 0 else ICE).draw(screen, x, NAME_Y)
+        if self.age >= FIRST + RISE:
+            for i, row in enumerate(self.rest):
+                y = REST_Y + REST_PITCH * i
+                text(str(row.place), SUB, MIST, "head", "r").draw(screen, REST_X, y)
+                text(row.entrant, SUB, ICE, "hero", "l", RIGHT - REST_X - 40).draw(screen, REST_X + 40, y)
         if self.age >= SKIP:
             self.prompts.draw(screen)
 
@@ -104,3 +113,10 @@ def podium_rows(running: RunningEvent) -> list[Standing]:
     """The first three of the table; of teams, if there are any."""
     event = running.event
     return list((event.team_standings or event.standings)[: len(HEIGHTS)])
+
+
+def places_below(running: RunningEvent) -> list[Standing]:
+    """The next of the table after those on the podium, unless they are only one or two."""
+    event = running.event
+    rows = (event.team_standings or event.standings)[len(HEIGHTS) :][:REST]
+    return list(rows) if len(rows) >= FEWEST_BESIDE else []

@@ -88,13 +88,17 @@ def can_pdf() -> bool:
 def save(pages: Sequence[pygame.Surface], png: Path, pdf: Path) -> list[Path]:
     """Save the pages: a PNG file each, and all in one PDF file. Returns the files. Raises NotSaved."""
     files = [png if i == 0 else png.with_stem(f"{png.stem}-{i + 1}") for i in range(len(pages))]
-    for path, page in zip(files, pages, strict=True):
-        write_atomic(path, png_of(page))
     if not can_pdf():
+        for path, page in zip(files, pages, strict=True):
+            write_atomic(path, png_of(page))
         return files
     from PIL import Image
 
     images = [Image.frombytes("RGB", page.get_size(), pygame.image.tobytes(page, "RGB")) for page in pages]
+    for path, image in zip(files, images, strict=True):  # Pillow, unlike pygame, lets other threads run meanwhile
+        packed = BytesIO()
+        image.save(packed, "PNG")
+        write_atomic(path, packed.getvalue())
     packed = BytesIO()
     images[0].save(packed, "PDF", resolution=DPI, save_all=True, append_images=images[1:], quality=92)
     write_atomic(pdf, packed.getvalue())
@@ -112,10 +116,14 @@ def draw_pages(event: Event, words: Words, pages: list[pygame.Surface]) -> Itera
         yield
     yield from _table(page, event, words)
     if event.spec.format is Format.KNOCKOUT:
-        pages.append(page := _paper())
-        yield
-        _head(page, event, words)
-        yield from _bracket(page, event, words)
+        losers = [fixture for fixture in event.fixtures if fixture.stage == knockout.LOSERS]
+        winners = [fixture for fixture in event.fixtures if fixture.stage != knockout.LOSERS]
+        for fixtures, title in ((winners, ""), (losers, words("events.second_chance"))):
+            if fixtures:
+                pages.append(page := _paper())
+                yield
+                _head(page, event, words, title)
+                yield from _bracket(page, event, words, fixtures)
 
 
 def _paper() -> pygame.Surface:
@@ -135,10 +143,12 @@ def _write(
     page.blit(image, (round(x), round(at[1] - middle)))
 
 
-def _head(page: pygame.Surface, event: Event, words: Words) -> None:
+def _head(page: pygame.Surface, event: Event, words: Words, part: str = "") -> None:
+    """Title, format, games and date. `part`: name of the part of the event on this page, if it is not all of it."""
     spec = event.spec
     _write(page, spec.title, 190, (MARGIN, 260), INK, room=W - 2 * MARGIN)
-    line = "  ·  ".join((words(f"events.{spec.format.value}"), *(words(f"games.{game}") for game in spec.games)))
+    form = words(f"events.{spec.format.value}")
+    line = "  ·  ".join((form, *([part] if part else []), *(words(f"games.{game}") for game in spec.games)))
     _write(page, line, 64, (MARGIN, 430), SOFT, room=W - 2 * MARGIN - 420)
     _write(page, f"{date.today():%Y-%m-%d}", 64, (W - MARGIN, 430), SOFT, "r")
     pygame.draw.line(page, INK, (MARGIN, 500), (W - MARGIN, 500), 8)
@@ -178,15 +188,15 @@ def _table(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
         yield
 
 
-def _bracket(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
-    """Every match, a column for each round."""
-    rounds = [list(found) for _, found in groupby(event.fixtures, key=lambda one: (one.stage, one.round))]
+def _bracket(page: pygame.Surface, event: Event, words: Words, matches: Sequence[Fixture]) -> Iterator[None]:
+    """A column for each round of these matches, the final last."""
+    rounds = [list(found) for _, found in groupby(matches, key=lambda one: (one.stage, one.round))]
     wide = (W - 2 * MARGIN) / max(1, len(rounds))
     top, names = 660, tuple(entrant.name for entrant in event.entrants)
     for i, fixtures in enumerate(rounds):
         x = MARGIN + wide * i
-        head = stage_name(words, fixtures[0].stage, fixtures[0].round)
-        _write(page, head, 44, (x, 580), SOFT, room=wide - 20)
+        stage = fixtures[0].stage if fixtures[0].stage == knockout.FINAL else ""
+        _write(page, stage_name(words, stage, fixtures[0].round), 44, (x, 580), SOFT, room=wide - 20)
         pitch = (FOOT - top) / len(fixtures)
         for k, fixture in enumerate(fixtures):
             _match(

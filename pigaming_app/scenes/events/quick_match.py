@@ -31,6 +31,7 @@ class QuickMatches:
 
     def __init__(self, event: "Event", fixtures: "Sequence[Fixture]") -> None:
         self.left = len(fixtures)
+        self._ended = False  # by hand
         self._outcomes: SimpleQueue[Outcome] = SimpleQueue()
         self._process: Popen[bytes] = launch(COMMAND, answers=True)
         self._thread = Thread(target=self._talk, args=(pickle.dumps((event, tuple(fixtures))),), daemon=True)
@@ -52,6 +53,7 @@ class QuickMatches:
 
     def end(self) -> None:
         """Kill the process."""
+        self._ended = True
         self._process.kill()
         self._thread.join()
 
@@ -65,7 +67,8 @@ class QuickMatches:
             for _ in range(self.left):
                 self._outcomes.put(pickle.load(process.stdout))
         except (OSError, EOFError, pickle.UnpicklingError) as error:
-            log.warning("matches in the background: %s", error or "their process has ended")
+            if not self._ended:
+                log.warning("matches in the background: %s", error)
         finally:
             process.kill()
             process.communicate()
@@ -73,14 +76,22 @@ class QuickMatches:
 
 def serve() -> None:
     """Play what standard input orders."""
-    from pigaming_app.events.run_headless import HeadlessRun
-
     event, fixtures = pickle.load(sys.stdin.buffer)
     exit_with_parent()
-    run = HeadlessRun(event, fast=False)
     for fixture in fixtures:
-        pickle.dump(run.play_these(event, [fixture])[0], sys.stdout.buffer)
+        pickle.dump(play(event, fixture), sys.stdout.buffer)
         sys.stdout.buffer.flush()
+
+
+def play(event: "Event", fixture: "Fixture") -> "Outcome":
+    """Play a match of AIs to its end. Raises ValueError if a brain or an arena is missing."""
+    from pigaming_app.ai.registry import new_match
+    from pigaming_app.events.match_setup import outcome_of, setup_of
+
+    match = new_match(setup_of(event, fixture))
+    while not match.over:
+        match.tick()
+    return outcome_of(fixture, match.outcome().rows)
 
 
 if __name__ == "__main__":

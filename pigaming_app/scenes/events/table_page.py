@@ -94,8 +94,8 @@ class TablePage:
         heading(event.spec.title, line).draw(screen)
         if kind == BRACKET:
             columns = self.bracket[number]
-            heads = [stage_name(words, column.stage, column.round) for column in columns]
-            bracket_view.draw_bracket(screen, columns, heads)
+            stages = [stage_name(words, column.stage, column.round) for column in columns]
+            bracket_view.draw_bracket(screen, columns, stages)
         else:
             rows, heads = (self.rows, self.heads) if kind == TABLE else (self.teams, self.heads[:2])
             table_view.draw_table(screen, rows, heads, number, self.age)
@@ -163,7 +163,11 @@ def through(running: RunningEvent, fixture: Fixture, outcome: Outcome) -> tuple[
 
 def rows_of(words: Words, standings: tuple[Standing, ...], ais: set[str]) -> tuple[TableRow, ...]:
     """The rows of a table: points, wins, matches, and the first tie-break."""
-    return tuple(TableRow(row.place, row.entrant, figures_of(words, row), row.entrant in ais) for row in standings)
+    first = [row.entrant for row in standings if row.place == 1]
+    return tuple(
+        TableRow(row.place, row.entrant, figures_of(words, row), row.entrant in ais, first == [row.entrant])
+        for row in standings
+    )
 
 
 def figures_of(words: Words, row: Standing) -> tuple[str, ...]:

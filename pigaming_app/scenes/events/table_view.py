@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, MIST, STEEL, SUB, THIN, cut_box, icon, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, MIST, STEEL, THIN, TITLE, cut_box, icon, text_width
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -14,20 +14,20 @@ from pigaming_app.ui.draw.text import fit_size, text
 HEADS_Y, TOP, BOTTOM = 222, 254, 930  # px
 GAP = 24  # px between two columns
 WIPE, APART = 0.25, 0.03  # s: of one row, from row to row
-CELL = {1: 200, 2: 130, 3: 120}  # px, width of a value, by number of columns
+CELL = {1: 200, 2: 156, 3: 130}  # px, width of a value, by number of columns
 FIGURES = {1: 4, 2: 2, 3: 1}  # values shown, by number of columns
 PLACE_W = 96  # px
 
 
 @dataclass(frozen=True)
 class TableRow:
-    """One entrant. `figures`: points first, then the less important values; `mark`: an AI; `hot`: highlighted."""
+    """One entrant. `figures`: points first, then the less important values; `mark`: an AI; `leads`: alone first."""
 
     place: int
     name: str
     figures: tuple[str, ...]
     mark: bool = False
-    hot: bool = False
+    leads: bool = False
 
 
 @dataclass(frozen=True)
@@ -44,14 +44,8 @@ class Grid:
 
 
 def grid_of(count: int) -> Grid:
-    """The grid for so many entrants: the larger the fewer."""
-    if count <= 8:
-        return Grid(1, 8)
-    if count <= 16:
-        return Grid(2, 8)
-    if count <= 20:
-        return Grid(2, 10)
-    return Grid(3, 8 if count <= 24 else 11 if count <= 33 else 8 if count <= 48 else 11)
+    """The grid for so many entrants: the fewer, the larger; more than 24 take several pages."""
+    return Grid(1, max(5, count)) if count <= 8 else Grid(2 if count <= 16 else 3, 8)
 
 
 def pages_of(count: int) -> int:
@@ -87,10 +81,10 @@ def _heads(screen: pygame.Surface, heads: Sequence[str], x: int, w: int, columns
 def table_row(row: TableRow, w: int, h: int, columns: int) -> Steps[LitImage]:
     """A row; top left at (0, 0)."""
     layer = Layer(0, 0, w, h)
-    best = row.place == 1
-    layer.glow.line(cut_box(0, 0, w, h, 14), FOCUS if row.hot else STEEL, LINE if row.hot else THIN, True)
-    size, middle = min(SUB, round(h * 0.78)), h / 2
-    color = FOCUS if row.hot or best else ICE
+    best = row.leads
+    layer.glow.line(cut_box(0, 0, w, h, 14), FOCUS if best else STEEL, LINE if best else THIN, True)
+    size, middle = min(TITLE, round(h * 0.8)), h / 2
+    color = FOCUS if best else ICE
     layer.canvas.text(str(row.place), fit_size(str(row.place), size, PLACE_W - 12), PLACE_W, middle, MIST, "head", "r")
     cell, shown = CELL[columns], row.figures[: FIGURES[columns]]
     x, room = PLACE_W + 32, w - PLACE_W - 32 - 40 - cell * len(shown)

@@ -39,6 +39,7 @@ from pigaming_app.ui.widgets.labels import (
 )
 
 PROMPT_Y, FOOT_Y = 906, 990
+MENU_GAP, LANGUAGES_W = 16, 340  # px: between two chips; of the languages and the button that changes them
 LOGO = (LEFT + 16, 84, 30)
 
 
@@ -166,11 +167,13 @@ class Title:
 
     def _spots(self) -> list[FocusSpot]:
         spots = [FocusSpot(game, tile_rect(i)) for i, game in enumerate(games())]
-        x = LEFT
-        for name in self._menu():
-            w = chip_width(self.context.words(f"title.{name}"))
+        widths = [chip_width(self.context.words(f"title.{name}")) for name in self._menu()]
+        room = RIGHT - LEFT - LANGUAGES_W - MENU_GAP * len(widths)
+        x, share = LEFT, min(1.0, room / sum(widths))
+        for name, width in zip(self._menu(), widths, strict=True):
+            w = int(width * share)
             spots.append(FocusSpot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
-            x += w + 24
+            x += w + MENU_GAP
         w = chip_width(self._item_name("language"))
         return [*spots, FocusSpot("language", pygame.Rect(RIGHT - w, FOOT_Y - 32, w, 64))]
 

@@ -28,7 +28,7 @@ def an_event(
     entrants = tuple(Entrant(name, brains) for name in names(count))
     games = ("pitanks", "factory", "race") if form is Format.GRAND_PRIX else ("pitanks",)
     fill = "level3" if form is Format.GRAND_PRIX else ""
-    rounds = 0 if form is Format.KNOCKOUT else rounds
+    rounds = 0 if form is Format.KNOCKOUT else min(rounds, count - 1)
     return Event(EventSpec(title, form, games, entrants, rounds, seats, minutes={"pitanks": 1.0}, fill=fill))
 
 

@@ -66,7 +66,7 @@ def test_pages_turn_by_themselves(arcade: Arcade) -> None:
     assert page.page == 1
 
 
-@pytest.mark.parametrize(("form", "count", "pages"), [(Format.SWISS, 16, 1), (Format.KNOCKOUT, 8, 2)])
+@pytest.mark.parametrize(("form", "count", "pages"), [(Format.SWISS, 16, 1), (Format.KNOCKOUT, 8, 3)])
 def test_a_poster_is_a_picture_and_a_pdf(arcade: Arcade, form: Format, count: int, pages: int) -> None:
     pytest.importorskip("PIL")
     run = running(played(an_event(form, count)))
@@ -78,7 +78,7 @@ def test_a_poster_is_a_picture_and_a_pdf(arcade: Arcade, form: Format, count: in
     pdf = run.path.with_suffix(".pdf").read_bytes()
     assert pdf.startswith(b"%PDF")
     assert pdf.count(b"/Type /Page\n") == pages or f"/Count {pages}".encode() in pdf
-    assert (run.path.with_name("event-2.png").exists()) == (pages == 2)
+    assert (run.path.with_name("event-2.png").exists()) == (pages == 3)
 
 
 def test_without_pillow_a_poster_is_a_picture_only(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:

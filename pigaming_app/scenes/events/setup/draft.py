@@ -102,13 +102,15 @@ class Draft:
 
     def spec(self, title: str, seed: int) -> EventSpec:
         """The event as it was chosen."""
-        prix = self.format is Format.GRAND_PRIX
+        prix, rounds = self.format is Format.GRAND_PRIX, self.rounds
+        if self.format is Format.SWISS and self.seats == 2:
+            rounds = min(rounds, len(self.entrants) - 1)  # nobody meets anybody again
         return EventSpec(
             title=title,
             format=self.format,
             games=self.games,
             entrants=tuple(self.entrants),
-            rounds=0 if self.format is Format.KNOCKOUT else self.rounds,
+            rounds=0 if self.format is Format.KNOCKOUT else rounds,
             seats=self.seats,
             arenas={self.games[0]: self.arena} if len(self.games) == 1 else {},
             minutes={game: minutes for game in self.games if (minutes := self.minutes(game))},

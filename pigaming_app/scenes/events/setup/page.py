@@ -109,7 +109,7 @@ class SetupPage:
         if row == "game":
             return words("events.turns" if option == BY_TURNS else f"games.{option}")
         if row == "order" and isinstance(option, tuple):
-            return "  ".join(f"{i}. {words(f'events.short_{game}')}" for i, game in enumerate(option, 1))
+            return "  ·  ".join(words(f"events.short_{game}") for game in option)
         if row == "arena":
             return arena_title(load_cached(self.draft.games[0], str(option)), words.language)
         if row == "length":

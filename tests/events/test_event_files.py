@@ -1,0 +1,148 @@
+"""Events survive on disk: every kind of damage is one sentence, and no kill loses a result."""
+
+import json
+import os
+import random
+import signal
+import time
+
+import pytest
+
+from pigaming_app.events.event import Event
+from pigaming_app.events.event_files import load, parse, path_of, save, saved_events, to_text, update
+from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Outcome
+from tests.events.examples import best_seed_wins, new_event, played
+
+KILLS = 200
+
+
+def test_an_event_is_read_as_it_was_written(tmp_path):
+    entrants = (Entrant("Ana", "level1", "Red"), Entrant("Zoë"), Entrant("C", "/a b/mine.npz"))
+    spec = EventSpec(
+        "Open – day", Format.KNOCKOUT, ("pitanks", "race"), entrants, 3, 4, {"race": "kidney"}, {"pitanks": 1.5},
+        {"pitanks": "party"}, 9, Advance.QUARTER,
+    )  # fmt: skip
+    event = played(Event(spec), lambda one: Outcome(one.number, (one.entrants,), {one.entrants[0]: 2.5}, "short"), 1)
+    save(tmp_path / "a.json", event)
+    assert load(tmp_path / "a.json") == (event, [])
+    assert saved_events(tmp_path)[0].event == event
+
+
+def test_the_backup_replaces_a_damaged_file(tmp_path):
+    file = tmp_path / "a.json"
+    event = new_event(Format.SWISS, 4)
+    save(file, event)
+    update(file, lambda event: event.record(best_seed_wins(event.open[0])))
+    file.write_text("{")
+    restored, problems = load(file)
+    assert restored == event
+    assert "the previous version was restored" in problems[0]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda plain: plain | {"format": 2},
+        lambda plain: plain | {"journal": [7]},
+        lambda plain: plain | {"journal": [{"entry": "result", "match": 1, "places": [["P1"]], "scores": {}}]},
+        lambda plain: plain | {"journal": [{"entry": "result", "match": True, "places": 1, "scores": {}}]},
+        lambda plain: plain | {"journal": [{"entry": "result", "match": 1, "places": [7], "scores": {}}]},
+        lambda plain: plain | {"journal": [{"entry": "postponement", "match": 1e300}]},
+        lambda plain: plain | {"journal": [{"entry": "late", "name": "A\n"}]},
+        lambda plain: plain | {"spec": {}},
+        lambda plain: plain | {"spec": plain["spec"] | {"format": "duel"}},
+        lambda plain: plain | {"spec": plain["spec"] | {"rounds": "3"}},
+        lambda plain: plain | {"spec": plain["spec"] | {"rounds": 1e30}},
+        lambda plain: plain | {"spec": plain["spec"] | {"minutes": [1]}},
+        lambda plain: plain | {"spec": plain["spec"] | {"minutes": {"pitanks": "x"}}},
+        lambda plain: plain | {"spec": plain["spec"] | {"entrants": [1, 2, 3]}},
+        lambda plain: plain | {"spec": plain["spec"] | {"games": []}},
+        lambda plain: [],
+    ],
+)
+def test_what_is_no_event_is_refused_with_one_line(change):
+    plain = json.loads(to_text(new_event(Format.SWISS, 4)))
+    with pytest.raises(ValueError, match=r"\w") as refused:
+        parse(json.dumps(change(plain)))
+    assert "\n" not in str(refused.value)
+
+
+def test_a_change_is_made_to_what_is_in_the_file(tmp_path):
+    file = tmp_path / "a.json"
+    event = new_event(Format.ROUND_ROBIN, 4)
+    save(file, event)
+    one, two, *_ = event.open
+    first = update(file, lambda saved: saved.record(best_seed_wins(one)), event)
+    second = update(file, lambda saved: saved.record(best_seed_wins(two)), event)  # another process has read less
+    assert (len(first.outcomes), len(second.outcomes)) == (1, 2)
+    with pytest.raises(ValueError, match=r"^match 1 has been played$"):
+        update(file, lambda saved: saved.record(best_seed_wins(one)))
+    with pytest.raises(ValueError, match="no such event"):
+        update(tmp_path / "b.json", lambda saved: saved)
+
+
+def test_a_new_event_never_has_the_name_of_another(tmp_path):
+    assert path_of("Open Day!", tmp_path).name == "open-day.json"
+    save(path_of("Open Day!", tmp_path), new_event(Format.SWISS, 4))
+    assert path_of("Open day", tmp_path).name == "open-day-2.json"
+    assert path_of("日本", tmp_path).name == "event.json"
+
+
+def test_a_folder_lists_unreadable_files_too(tmp_path):
+    (tmp_path / "b.json").write_text("{")
+    save(tmp_path / "a.json", new_event(Format.SWISS, 4))
+    assert {listed.path.name: listed.event is not None for listed in saved_events(tmp_path)} == {
+        "a.json": True, "b.json": False
+    }  # fmt: skip
+    assert (tmp_path / "b.json").read_text() == "{"
+
+
+@pytest.mark.long
+@pytest.mark.skipif(os.name != "posix", reason="needs fork and SIGKILL")
+def test_a_kill_at_any_moment_loses_no_acknowledged_result(tmp_path):
+    """A process records one result after the other and names each in a pipe as soon as `update` returns."""
+    file = tmp_path / "a.json"
+    chance = random.Random(1)
+    save(file, new_event(Format.ROUND_ROBIN, 24))
+    acknowledged: list[tuple[int, ...]] = []
+    killed = 0
+    while killed < KILLS:
+        reading, writing = os.pipe()
+        child = os.fork()
+        if not child:
+            os.close(reading)
+            _record_forever(file, writing)
+        os.close(writing)
+        time.sleep(chance.uniform(0.0, 0.04))
+        os.kill(child, signal.SIGKILL)
+        _, status = os.waitpid(child, 0)
+        killed += os.WIFSIGNALED(status)
+        with open(reading, "rb") as pipe:
+            acknowledged += [tuple(map(int, line.split())) for line in pipe.read().splitlines(keepends=False)]
+        event, problems = load(file)
+        assert event is not None
+        assert not problems
+        recorded = [(one.outcome.fixture, int(one.outcome.places[0][0][1:])) for one in event.journal]
+        assert len(recorded) == len({number for number, _ in recorded})
+        unacknowledged = [one for one in recorded if one not in acknowledged]
+        assert len(unacknowledged) <= 1  # the one whose acknowledgement the kill cut off
+        assert [one for one in recorded if one in acknowledged] == acknowledged
+        acknowledged = recorded
+        if event.over:
+            save(file, new_event(Format.ROUND_ROBIN, 24))
+            acknowledged = []
+    assert {path.name for path in tmp_path.iterdir()} >= {"a.json", "a.json.bak"}
+    assert not [path for path in tmp_path.iterdir() if "broken" in path.name]
+
+
+def _record_forever(file, writing):
+    """The child: never returns."""
+    try:
+        event, _ = load(file)
+        while event.open:
+            outcome = best_seed_wins(event.open[0])
+            event = update(file, lambda saved, new=outcome: saved.record(new), event)
+            os.write(writing, b"%d %s\n" % (outcome.fixture, outcome.places[0][0][1:].encode()))
+    finally:
+        time.sleep(10)
+        os._exit(0)

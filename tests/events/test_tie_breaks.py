@@ -1,0 +1,97 @@
+"""Tie-breaks worked by hand."""
+
+import pytest
+
+from pigaming_app.events.spec import Entrant, Format, Outcome
+from tests.events.examples import best_seed_wins, new_event, played, ranked
+
+# Round robin of four, worked by hand. P1 beats P2 and P3, loses to P4; P2 beats P3 and P4; P3 beats P4.
+RESULTS = {
+    frozenset(("P1", "P2")): "P1",
+    frozenset(("P1", "P3")): "P1",
+    frozenset(("P1", "P4")): "P4",
+    frozenset(("P2", "P3")): "P2",
+    frozenset(("P2", "P4")): "P2",
+    frozenset(("P3", "P4")): "P3",
+}
+
+
+def by_results(fixture):
+    winner = RESULTS[frozenset(fixture.entrants)]
+    return ranked(fixture, winner, *(name for name in fixture.entrants if name != winner))
+
+
+def test_head_to_head_decides_between_two_of_equal_points():
+    """P1 and P2 have 2 points; P1 has beaten P2. P3 and P4 have 1; P3 has beaten P4."""
+    event = played(new_event(Format.ROUND_ROBIN, 4), by_results)
+    assert [(row.place, row.entrant, row.points) for row in event.standings] == [
+        (1, "P1", 2.0), (2, "P2", 2.0), (3, "P3", 1.0), (4, "P4", 1.0)
+    ]  # fmt: skip
+    assert event.standings[0].tie_breaks == {"head_to_head": 1.0, "wins": 2.0, "sonneborn_berger": 3.0}
+    assert event.standings[1].tie_breaks == {"head_to_head": 0.0, "wins": 2.0, "sonneborn_berger": 2.0}
+
+
+def test_in_a_circle_of_three_equal_ones_share_the_place():
+    event = new_event(Format.ROUND_ROBIN, 3)
+    beats = {"P1": "P2", "P2": "P3", "P3": "P1"}
+    while event.open:
+        fixture = event.open[0]
+        one, two = fixture.entrants
+        event = event.record(ranked(fixture, *((one, two) if beats[one] == two else (two, one))))
+    assert [(row.place, row.points) for row in event.standings] == [(1, 1.0)] * 3
+
+
+def test_buchholz_adds_the_points_of_the_opponents():
+    """Eight, the better seed always wins. 1 met 5 (1 point), 3 (2) and 2 (2); 2 met 6, 4 and 1 (3);
+    3 met 7 (1), 1 and 5; 4 met 8 (0), 2 and 6 (1).
+    """
+    event = played(new_event(Format.SWISS, 8))
+    table = {row.entrant: row for row in event.standings}
+    assert [table[f"P{seed}"].points for seed in range(1, 9)] == [3, 2, 2, 2, 1, 1, 1, 0]
+    assert [table[f"P{seed}"].tie_breaks["buchholz"] for seed in (1, 2, 3, 4)] == [5.0, 6.0, 5.0, 3.0]
+    assert [row.entrant for row in event.standings[:4]] == ["P1", "P2", "P3", "P4"]
+
+
+def test_a_bye_counts_as_an_opponent_of_equal_points():
+    """Three entrants, two rounds: P3 has a bye, then meets P1, who has beaten P2. Worked by hand."""
+    event = played(new_event(Format.SWISS, 3))
+    assert event.byes == {1: ("P3",), 2: ("P2",)}
+    table = {row.entrant: row for row in event.standings}
+    assert [table[name].points for name in ("P1", "P2", "P3")] == [2.0, 1.0, 1.0]
+    assert table["P3"].tie_breaks["buchholz"] == 1.0 + 2.0
+    assert table["P2"].tie_breaks["buchholz"] == 2.0 + 1.0
+
+
+def test_sonneborn_berger_counts_the_points_of_beaten_opponents_and_half_of_ties():
+    """P1 beats P2, ties with P3; P2 beats P3: 1.5, 1 and 0.5 points. P1: 1 + 0.5 / 2; P2: 0.5; P3: 1.5 / 2."""
+    event = new_event(Format.ROUND_ROBIN, 3)
+    while event.open:
+        fixture = event.open[0]
+        tied = {*fixture.entrants} == {"P1", "P3"}
+        event = event.record(Outcome(fixture.number, (fixture.entrants,)) if tied else best_seed_wins(fixture))
+    values = {row.entrant: row.tie_breaks["sonneborn_berger"] for row in event.standings}
+    assert values == {"P1": 1.25, "P2": 0.5, "P3": 0.75}
+
+
+def test_who_leaves_a_round_robin_early_does_not_count():
+    """P6 plays one of five matches: its opponent has no point for that, nor for those that were to come."""
+    event = played(new_event(Format.ROUND_ROBIN, 6), rounds=1).withdraw("P6")
+    event = played(event)
+    assert [(row.entrant, row.points) for row in event.standings] == [
+        ("P1", 4.0), ("P2", 3.0), ("P3", 2.0), ("P4", 1.0), ("P5", 0.0), ("P6", 0.0)
+    ]  # fmt: skip
+
+
+def test_who_leaves_a_round_robin_late_loses_the_rest():
+    event = played(played(new_event(Format.ROUND_ROBIN, 4), rounds=2).withdraw("P1"))
+    assert {row.entrant: row.points for row in event.standings} == {"P1": 2.0, "P2": 2.0, "P3": 2.0, "P4": 0.0}
+
+
+@pytest.mark.parametrize("form", [Format.SWISS, Format.ROUND_ROBIN])
+def test_matches_of_four_count_by_the_share_of_beaten_opponents(form):
+    event = new_event(form, 4, seats=4, rounds=1)
+    event = event.record(Outcome(1, (("P2",), ("P1", "P4"), ("P3",))))
+    assert {row.entrant: round(row.points, 6) for row in event.standings} == {
+        "P2": 1.0, "P1": 0.5, "P4": 0.5, "P3": 0.0
+    }  # fmt: skip
+    assert Entrant("P1") in event.entrants

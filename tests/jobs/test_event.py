@@ -1,0 +1,193 @@
+"""The job `event`: from a list of entrants to the table."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.cli import main
+from pigaming_app.events.event_files import load
+
+ROOT = Path(__file__).resolve().parents[2]
+SHORT = ["--minutes", "0.05"]
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path, monkeypatch):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+    monkeypatch.chdir(tmp_path)
+
+
+def new(*words: str, form: str = "roundrobin", entrants: str = "AAA=level1,BBB=idle,CCC") -> int:
+    return main(["event", "new", "cup.json", "--format", form, "--entrants", entrants, *SHORT, *words])
+
+
+def standings(capsys) -> list[dict]:
+    return json.loads(capsys.readouterr().out)["standings"]
+
+
+@pytest.mark.parametrize("form", ["knockout", "roundrobin", "swiss", "grandprix"])
+def test_an_event_from_its_beginning_to_the_table(form, capsys):
+    rounds = "2" if form == "swiss" else "3"
+    assert new("--game", "pitanks", "--rounds", rounds, form=form) == 0
+    capsys.readouterr()
+    assert main(["event", "run", "cup.json", "--headless", "--speed", "max", "--json"]) == 0
+    told = capsys.readouterr()
+    result = json.loads(told.out)
+    assert told.err == ""
+    assert sorted(row["entrant"] for row in result["standings"]) == ["AAA", "BBB", "CCC"]
+    points = [row["points"] for row in result["standings"]]
+    assert points == sorted(points, reverse=True)
+    assert all(row["wins"] <= row["played"] for row in result["standings"])
+    assert result["over"]
+    assert main(["event", "show", "cup.json", "--json"]) == 0
+    assert standings(capsys) == result["standings"]
+
+
+def test_games_take_turns_each_with_its_own_length_arena_and_rules(capsys):
+    words = ["--game", "pitanks,race", "--arena", "race=kidney", "--rules", "party", "--json", "--seats", "2"]
+    assert new(*words, "--minutes", "race=0.1,pitanks=0.05", entrants="AAA=random,BBB=idle,CCC=random") == 0
+    capsys.readouterr()
+    event, _ = load(Path("cup.json"))
+    assert [one.game for one in event.fixtures] == ["pitanks", "race", "pitanks"]
+    assert event.spec.minutes == {"race": 0.1, "pitanks": 0.05}
+    assert event.spec.arenas == {"race": "kidney"}
+    assert event.spec.variants == {"pitanks": "party", "race": "party"}
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    assert "AAA" in capsys.readouterr().out
+
+
+def test_entrants_from_a_file(tmp_path, capsys):
+    (tmp_path / "list.csv").write_text("name;ai;team\nAna;level1;Red\nBia;;Blue\nCarla;idle;Red\n", encoding="utf-8")
+    assert new(entrants="@list.csv") == 0
+    assert "Carla" in capsys.readouterr().out
+    event, _ = load(Path("cup.json"))
+    assert [entrant.team for entrant in event.entrants] == ["Red", "Blue", "Red"]
+
+
+def test_exports(capsys):
+    assert new() == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    capsys.readouterr()
+    assert main(["event", "export", "cup.json", "--csv", "a.csv", "--matches", "b.csv", "--json", "a.json"]) == 0
+    assert capsys.readouterr().out == ""
+    whole = json.loads(Path("a.json").read_text(encoding="utf-8"))
+    with open("a.csv", newline="", encoding="utf-8") as file:
+        table = [*csv.DictReader(file)]
+    assert [row["entrant"] for row in table] == [row["entrant"] for row in whole["standings"]]
+    assert [float(row["points"]) for row in table] == [row["points"] for row in whole["standings"]]
+    with open("b.csv", newline="", encoding="utf-8") as file:
+        matches = [*csv.DictReader(file)]
+    assert [(int(row["match"]), row["entrant"]) for row in matches] == [
+        (match["match"], name) for match in whole["matches"] for name in match["entrants"]
+    ]
+
+
+def test_a_cell_is_never_a_formula(capsys):
+    assert new(entrants="=1+2,+1,CCC") == 2
+    assert new(entrants="@x,-1,CCC") == 2
+    assert capsys.readouterr().err.count("\n") == 2
+    Path("list.txt").write_text("-1\n+2\n@x\n")
+    assert new(entrants="@list.txt") == 0
+    assert main(["event", "export", "cup.json", "--csv", "a.csv"]) == 0
+    assert "'@x" in Path("a.csv").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["--game", "chess"], "no game 'chess'"),
+        (["--format", "duel"], "no format 'duel'; there are knockout, roundrobin, swiss, grandprix"),
+        (["--entrants", "A,B"], "an event has 3 to 64 entrants, not 2"),
+        (["--entrants", "A,B,A"], "A is entered twice"),
+        (["--entrants", "A=nobody,B,C"], "no brain 'nobody'"),
+        (["--entrants", "A=no.npz,B,C"], "no.npz"),
+        (["--entrants", "@nowhere.txt"], "cannot be read"),
+        (["--entrants", "A" * 13 + ",B,C"], "1 to 12 printable characters"),
+        (["--arena", "nowhere"], "nowhere: no such arena"),
+        (["--rules", "nothing"], "no variant 'nothing'"),
+        (["--minutes", "x"], "'x' is not a number"),
+        (["--minutes", "race=1"], "GAME=VALUE is needed, with one of pitanks"),
+        (["--minutes", "200"], "200 minutes"),
+        (["--seats", "5"], "5"),
+        (["--advance", "all"], "no choice for --advance: 'all'"),
+        (["--fill", "level1"], "AIs fill the seats of a Grand Prix only"),
+        (["--fill", "nobody", "--format", "grandprix"], "no brain 'nobody'"),
+        (["--game", "factory", "--rules", "together"], "nobody wins"),
+        (["--title", "x" * 61], "a title has 1 to 60 printable characters"),
+    ],
+)
+def test_a_wrong_option_is_one_line(words, reason, capsys):
+    assert new(*words) == 2
+    told = capsys.readouterr()
+    assert told.err.startswith("PiGaming: ")
+    assert told.err.count("\n") == 1
+    assert reason in told.err
+    assert not Path("cup.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["run", "no.json", "--headless"], "no.json: no such event"),
+        (["run", "broken.json", "--headless"], "cannot be read"),
+        (["run", "cup.json"], "add --headless"),
+        (["run", "cup.json", "--headless", "--speed", "fast"], "'fast' is not a number"),
+        (["show", "."], "cannot be read"),
+        (["export", "cup.json"], "--csv, --matches or --json"),
+        (["export", "cup.json", "--csv", "cup.json"], "a name of its own"),
+        (["export", "cup.json", "--csv", "a", "--json", "./a"], "a name of its own"),
+        (["export", "cup.json", "--csv", "."], "it is a folder"),
+        (["draw"], "invalid choice"),
+    ],
+)
+def test_a_wrong_file_is_one_line(words, reason, capsys):
+    assert new() == 0
+    Path("broken.json").write_text("[]")
+    capsys.readouterr()
+    assert main(["event", *words]) == 2
+    told = capsys.readouterr()
+    assert reason in told.err
+    assert told.err.count("\n") == 1
+
+
+def test_an_event_is_not_overwritten(capsys):
+    assert new() == 0
+    before = Path("cup.json").read_bytes()
+    assert new(form="swiss") == 2
+    assert "exists already" in capsys.readouterr().err
+    assert Path("cup.json").read_bytes() == before
+
+
+@pytest.mark.long
+@pytest.mark.skipif(os.name != "posix", reason="needs SIGKILL")
+def test_a_killed_run_goes_on_where_it_stopped(capsys):
+    assert new("--rounds", "8", entrants="A=random,B=idle,C=random,D=idle") == 0
+    command = [sys.executable, "-X", "pigaming", str(ROOT / "main.py"), "event", "run", "cup.json", "--headless"]
+    done = 0
+    for _ in range(3):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        while process.poll() is None and len(load(Path("cup.json"))[0].outcomes) < done + 3:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        event, problems = load(Path("cup.json"))
+        assert not problems
+        assert len(event.outcomes) >= done + 3 or event.over
+        done = len(event.outcomes)
+    capsys.readouterr()
+    assert main(["event", "run", "cup.json", "--headless", "--json"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert len(result["matches"]) == 48
+    assert all(match["played"] for match in result["matches"])
+    straight = load(Path("cup.json"))[0]
+    Path("cup.json").unlink()
+    assert new("--rounds", "8", entrants="A=random,B=idle,C=random,D=idle") == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    assert load(Path("cup.json"))[0] == straight
