@@ -27,7 +27,12 @@ def main() -> int:
     folder = os.path.dirname(os.path.abspath(__file__))
     if folder not in sys.path:
         sys.path.insert(0, folder)
-    if "pigaming" not in sys._xoptions:  # set by boot for the Python that it has chosen
+    if getattr(sys, "frozen", False):  # a bundle needs no environment
+        from pigaming_app.boot.bundled import run_module
+
+        if run_module(sys.argv[1:]):
+            return 0
+    elif "pigaming" not in sys._xoptions:  # set by boot for the Python that it has chosen
         from pigaming_app.boot.start import start
 
         code = start(sys.argv[1:])

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from importlib import import_module
 from typing import NoReturn
 
-from pigaming_app import INSTALLED
+from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.jobs import files
 from pigaming_app.jobs.terminal import console
 from pigaming_app.jobs.terminal.refusal import Refusal
 
-PROGRAM = "pigaming" if INSTALLED else "main.py"
+PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
 JOBS = {  # modules of `jobs`
     "arcade": "the arcade; also without a job",
     "play": "one match, with or without a window",
@@ -26,6 +26,8 @@ JOBS = {  # modules of `jobs`
     "robots": "status of robots, radios and cameras; pairing, latency",
     "ros": "robots on the mat in a ROS network",
     "fidelity": "measure real robots for the simulator",
+    "autostart": "start of a kiosk with the session: on, off, show",
+    "bundle": "the program as a folder, for machines without Python",
     "doctor": "check of the installation, with advice",
     "test": "linter, types and tests",
 }
@@ -92,6 +94,7 @@ def _run(name: str, words: list[str]) -> int:
         arguments.for_pytest = unknown
     elif unknown:
         raise Refusal(f"unrecognized arguments: {' '.join(unknown)}")
+    arguments.words = [name, *words]  # for a job that starts this program again
     if name != "doctor":  # it changes no files
         files.sweep()
     return int(job.run(arguments))

@@ -130,7 +130,7 @@ def test_the_wheel_of_the_sdist_is_that_of_the_tree(sdist, wheel, tmp_path):
 def test_the_wheel_declares_version_extras_and_program(environment):
     (installed,) = metadata.distributions(name="pigaming-app", path=[str(site_packages(environment))])
     assert installed.version == pigaming_app.__version__
-    extras = {"train", "bench", "hardware", "gym", "onnx", "ray", "plots", "sounds", "pictures", "test"}
+    extras = {"train", "bench", "hardware", "gym", "onnx", "ray", "plots", "sounds", "pictures", "test", "bundle"}
     assert set(installed.metadata.get_all("Provides-Extra")) == extras
     (program,) = installed.entry_points
     assert (program.name, program.value) == ("pigaming", "pigaming_app.cli:main")

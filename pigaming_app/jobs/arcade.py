@@ -2,8 +2,11 @@
 
 import argparse
 from argparse import ArgumentParser, Namespace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pigaming_app.jobs.kiosk import child
+from pigaming_app.jobs.terminal.command import own_command
 from pigaming_app.jobs.terminal.options import decimal, display, integer, mat_options, mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 
@@ -21,6 +24,8 @@ def options(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Open the arcade on its title. Raises Refusal."""
+    if needs_supervisor(arguments):
+        return supervised(arguments)
     from pigaming_app.scenes.app import Options
 
     if arguments.emulate is not None:
@@ -36,6 +41,18 @@ def run(arguments: Namespace) -> int:
             changed_settings=mat_settings(arguments),
         )
     )
+
+
+def needs_supervisor(arguments: Namespace) -> bool:
+    """True in a kiosk, except in the process that its supervisor has started."""
+    return bool(arguments.kiosk) and not child.is_supervised()
+
+
+def supervised(arguments: Namespace) -> int:
+    """Run this same job under a supervisor; returns its exit code. Raises OSError."""
+    from pigaming_app.jobs.kiosk.start import supervise
+
+    return supervise(own_command(arguments.words))
 
 
 def ros_options(parser: ArgumentParser) -> None:
@@ -66,4 +83,4 @@ def show(options: "Options") -> int:
     from pigaming_app.ui.window import NoDisplay
 
     with refused(NoDisplay):
-        return run(options)
+        return run(replace(options, heartbeat=child.heartbeat()))

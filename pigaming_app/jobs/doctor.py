@@ -15,19 +15,20 @@ from dataclasses import asdict, dataclass
 from importlib import metadata
 from pathlib import Path
 
-from pigaming_app import ASSETS, INSTALLED, ROOT
+from pigaming_app import ASSETS, FROZEN, INSTALLED, ROOT
 from pigaming_app.boot.interpreter import ARCADE, StartError, has_both_pygames, is_missing, packages
 from pigaming_app.boot.interpreter import requirements as listed
 from pigaming_app.jobs.terminal.options import shared
 from pigaming_app.jobs.terminal.refusal import remedy
 from pigaming_app.storage.parsing import one_line, parse_json
+from pigaming_app.storage.restarts import restarts
 from pigaming_app.storage.scores import migrations
 from pigaming_app.storage.settings import folders
 
 MIN_FREE = 100_000_000  # bytes of free disk space, below which the report has a note
 TIMEOUT = 15.0  # s for the drivers to answer
 REINSTALL = "install the package again" if INSTALLED else "get the whole folder of the program again"
-RESTART = REINSTALL if INSTALLED else "start main.py again"
+RESTART = REINSTALL if INSTALLED or FROZEN else "start main.py again"
 EXTRAS = {
     "train": "bench, duel, league and train are slow without it; the arcade does not need it",
     "hardware": "only real robots need it",
@@ -35,7 +36,7 @@ EXTRAS = {
     "onnx": "only ONNX models as players need it",
 }
 DEVICES = {  # state and advice where it is missing
-    "pygame": ("problem", REINSTALL if INSTALLED else "delete the folder .venv and start main.py again"),
+    "pygame": ("problem", REINSTALL if INSTALLED or FROZEN else "delete the folder .venv and start main.py again"),
     "displays": ("note", "connect one to play; play --headless, duel and bench go without"),
     "sound": ("note", "the arcade is silent, and works"),
     "pads": ("note", "it works as a plain joystick; a mapping in SDL_GAMECONTROLLERCONFIG names its buttons"),
@@ -73,7 +74,7 @@ def run(arguments: Namespace) -> int:
 
 def report() -> list[Line]:
     """All findings. It never raises: a failed check becomes a line."""
-    return [*_system(), *_packages(), *_folders(), *_older_scores(), *_assets(), *_devices(), _engine()]
+    return [*_system(), *_packages(), *_folders(), *_restarts(), *_older_scores(), *_assets(), *_devices(), _engine()]
 
 
 def _system() -> Iterator[Line]:
@@ -84,7 +85,7 @@ def _system() -> Iterator[Line]:
 
 
 def _packages() -> Iterator[Line]:
-    installed = packages([Path(folder) for folder in sys.path if folder.endswith("-packages")])
+    installed = packages([ROOT] if FROZEN else [Path(folder) for folder in sys.path if folder.endswith("-packages")])
     for group in (ARCADE, *EXTRAS):
         try:
             wanted = requirements(group)
@@ -118,7 +119,7 @@ def requirements(group: str) -> list[str]:
 
 
 def _advice(extra: str) -> str:
-    return EXTRAS[extra] + (f": {remedy(extra)}" if INSTALLED else "; main.py fetches it for the jobs that use it")
+    return EXTRAS[extra] + (f": {remedy(extra)}" if INSTALLED or FROZEN else "; main.py fetches it for the jobs that use it")
 
 
 def _folders() -> Iterator[Line]:
@@ -133,6 +134,15 @@ def _folders() -> Iterator[Line]:
         free = shutil.disk_usage(existing).free
         full = f"only {free // 1_000_000} MB are free: make room, or nothing will be kept" if free < MIN_FREE else ""
         yield Line(what, "note" if full else "ok", str(folder), full)
+
+
+def _restarts() -> Iterator[Line]:
+    """Restarts of a kiosk after a crash or a hang."""
+    data = folders().data
+    if found := restarts(data):
+        last = found[-1]
+        text = f"{len(found)}, the last one at {one_line(last.time, 40)} ({one_line(f'{last.reason}: {last.detail}', 80)})"
+        yield Line("kiosk restarts", "note", text, f"the reports in {data / 'crashes'} give the reasons")
 
 
 def _older_scores() -> Iterator[Line]:

@@ -1,6 +1,6 @@
 """The user's files before and after a job."""
 
-FOLDERS = ("ghosts", "pictures", "replays", "robots")  # below the data folder
+FOLDERS = ("crashes", "ghosts", "pictures", "replays", "robots")  # below the data folder
 
 
 def sweep() -> None:

@@ -18,7 +18,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import BEST_OF, ROUND_MINUTES, Rounds
 from pigaming_app.games.setup import ChoiceError, make_setup
-from pigaming_app.jobs.arcade import ros_options, ros_width, show
+from pigaming_app.jobs.arcade import needs_supervisor, ros_options, ros_width, show, supervised
 from pigaming_app.jobs.terminal.options import (
     DEFAULT_GAME,
     MATCH,
@@ -74,6 +74,8 @@ def options(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """Play the match; the exit code. Raises Refusal or NotSaved."""
+    if needs_supervisor(arguments) and not arguments.headless and not arguments.screenshot:
+        return supervised(arguments)
     with refused(ChoiceError, ArenaError):
         return _play(arguments)
 

@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
-from pigaming_app import INSTALLED, ROOT
+from pigaming_app import FROZEN, INSTALLED, ROOT
 from pigaming_app.jobs.terminal.refusal import Refusal
 
 RUFF: dict[str, tuple[str, ...]] = {
@@ -54,8 +54,8 @@ def run(arguments: Namespace) -> int:
 
     The summary of pytest comes last on standard output; the other tools report after it on standard error.
     """
-    if INSTALLED:
-        raise Refusal("an installed package has no tests: run main.py test in a clone")
+    if INSTALLED or FROZEN:
+        raise Refusal("an installed program has no tests: run main.py test in a clone")
     tools = {} if arguments.long else RUFF if arguments.quick else RUFF | MYPY
     marked = ("-m", "long" if arguments.long else "not long")
     for_pytest = arguments.for_pytest

@@ -26,7 +26,8 @@ from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.preloaded import MODULES
-from pigaming_app.storage.log import log_file, require_file
+from pigaming_app.storage.heartbeat import Heartbeat
+from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores
@@ -37,6 +38,7 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import Words, english
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, StickState
+from pigaming_app.ui.pulse import Pulse
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.notices import FrameMeter, Notices
 from pigaming_app.ui.window import Canvas
@@ -62,6 +64,7 @@ class Options:
     first_scene: Callable[[Context], Scene] | None = None  # scene pushed on top of the title
     without_title: bool = False  # show only that scene; close when it is popped
     kiosk: bool = False
+    heartbeat: Heartbeat | None = None  # for a supervisor, beaten once a frame
     display: int | None = None
     headless: bool = False
     frames: int | None = None
@@ -133,6 +136,7 @@ class App:
     def __init__(self, options: Options, context: Context, troubles: list[str]) -> None:
         self.options, self.context = options, context
         self.notices, self.meter = Notices(), FrameMeter()
+        self.pulse = Pulse(options.heartbeat) if options.heartbeat else None
         session = context.session
         self.window = _camera_window(session)
         for line in troubles:
@@ -159,6 +163,8 @@ class App:
             last = now
             if self._frame_failed(seconds) and not self._recover():
                 return 1
+            if self.pulse:
+                self.pulse.beat(self.context.canvas.screen)
             self.frames += 1
             self.seconds += seconds
             if self.frames == 1 and not self.options.headless:
@@ -448,12 +454,14 @@ def _open_log(data: Path) -> "IO[Any] | None":
     try:
         log.handlers[:] = [log_file(data)]
         log.propagate = False
-        require_file(data / "crash.log")
-        crash_file = (data / "crash.log").open("a", encoding="utf-8")
+        require_file(data / CRASH_FILE)
+        crash_file = (data / CRASH_FILE).open("a", encoding="utf-8")
     except OSError as trouble:
         print(f"PiGaming: {data} cannot be written: {describe_error(trouble)}. There is no log.", file=sys.stderr)
         return None
     faulthandler.enable(crash_file)
+    if hasattr(signal, "SIGUSR1"):  # not on Windows
+        faulthandler.register(signal.SIGUSR1, crash_file)  # the supervisor asks where a hung arcade is
     return crash_file
 
 
@@ -464,4 +472,6 @@ def _close_log(crash_file: "IO[Any] | None") -> None:
     log.propagate = True
     if crash_file:
         faulthandler.disable()
+        if hasattr(signal, "SIGUSR1"):
+            faulthandler.unregister(signal.SIGUSR1)
         crash_file.close()

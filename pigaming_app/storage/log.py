@@ -9,6 +9,7 @@ from logging.handlers import RotatingFileHandler
 from pathlib import Path
 
 FILE = "pigaming.log"
+CRASH_FILE = "crash.log"  # stacks of a crashed interpreter
 MAX_LINE = 65_536  # bytes at the end of the log that are searched for an incomplete line
 
 

@@ -10,3 +10,8 @@ def png_of(surface: pygame.Surface) -> bytes:
     packed = BytesIO()
     pygame.image.save(surface, packed, "picture.png")
     return packed.getvalue()
+
+
+def png_of_rgb(size: tuple[int, int], rgb: bytes) -> bytes:
+    """A picture of `size` px, 3 bytes a pixel, row by row, encoded as a PNG file."""
+    return png_of(pygame.image.frombytes(rgb, size, "RGB"))

@@ -8,7 +8,6 @@ that it does not end during the measurement.
 import os
 import platform
 import subprocess
-import sys
 from concurrent.futures import ProcessPoolExecutor
 from itertools import count
 from multiprocessing import get_context
@@ -16,7 +15,7 @@ from statistics import median
 from time import perf_counter, process_time, time
 from typing import Any
 
-from pigaming_app import INSTALLED, ROOT
+from pigaming_app import ROOT
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
@@ -25,6 +24,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import environments, networks, yardsticks
 from pigaming_app.jobs.bench.memory import measure as measure_memory
 from pigaming_app.jobs.bench.walk import measure as measure_screens
+from pigaming_app.jobs.terminal.command import own_command
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
@@ -106,8 +106,7 @@ def start() -> float:
     """Seconds from the command that starts the arcade to the end of its first frame (and of the program)."""
     environment = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     began = perf_counter()
-    command = ["-m", "pigaming_app"] if INSTALLED else [str(ROOT / "main.py")]
-    subprocess.run([sys.executable, *command, "--frames", "1"], cwd=ROOT, env=environment, check=True)
+    subprocess.run(own_command(["--frames", "1"], prepared=False), cwd=ROOT, env=environment, check=True)
     return perf_counter() - began
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 
-from pigaming_app import INSTALLED
+from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.ui.i18n import english
 
@@ -14,8 +14,10 @@ EXTRAS = {  # a module, and the package's name
     "plots": ("matplotlib", "matplotlib"),
     "ray": ("ray", "Ray"),
     "train": ("numba", "numba"),
+    "bundle": ("PyInstaller", "PyInstaller"),
     "bench": ("pymunk", "pymunk"),
 }
+NOT_BUNDLED = "this bundle was built without it; a clone of the project fetches it"
 FETCHED = "connect this machine to the internet and start main.py again, which installs it"
 
 
@@ -56,5 +58,7 @@ def require_for_brains(names: Iterable[str]) -> None:
 
 
 def remedy(extra: str) -> str:
-    """How to install an extra: `main.py` does it in a clone, pip in an installed package."""
+    """How to install an extra: `main.py` does it in a clone, pip in an installed package; a bundle stays as it is."""
+    if FROZEN:
+        return NOT_BUNDLED
     return f"pip install 'pigaming-app[{extra}]'" if INSTALLED else FETCHED

@@ -1,0 +1,41 @@
+"""What a bundle contains beside the libraries that PyInstaller finds by itself."""
+
+
+import re
+import sys
+from pathlib import Path
+
+from pigaming_app import ASSETS, ROOT
+from pigaming_app.boot.interpreter import ARCADE, packages, requirements
+from pigaming_app.boot.start import OPTIONAL
+
+EXCLUDED = (  # large libraries that no job of a bundle needs, but an installed package could import
+    "IPython", "PIL", "PyInstaller", "_pytest", "hatchling", "hypothesis", "gymnasium", "matplotlib", "mypy",
+    "onnxruntime", "pandas", "pettingzoo", "pymunk", "pytest", "ray", "scipy", "setuptools", "soundfile", "tkinter",
+    "torch",
+)  # fmt: skip
+PACKAGE = ROOT / "pigaming_app"
+ASSET_FOLDERS = ("arenas", "brains", "fonts", "sounds", "text")
+SHARED = "micropython"  # folders with programs of another interpreter
+
+
+def modules() -> list[str]:
+    """All modules of this package: jobs are imported by name."""
+    found = (path.relative_to(ROOT).with_suffix("") for path in PACKAGE.rglob("*.py") if SHARED not in path.parts)
+    return sorted(".".join(path.parts).removesuffix(".__init__") for path in found)
+
+
+def files() -> list[tuple[str, str]]:
+    """Files to copy, each with its folder in the bundle; modules are not among them."""
+    chosen = [path for folder in ASSET_FOLDERS for path in (ASSETS / folder).rglob("*") if path.suffix != ".py"]
+    chosen += [path for path in PACKAGE.rglob("*") if path.suffix != ".py" or SHARED in path.parts]
+    chosen += [ASSETS / "rude.toml", ROOT / "pyproject.toml", ROOT / "LICENSE"]
+    kept = (path for path in sorted(chosen) if path.is_file() and "__pycache__" not in path.parts)
+    return [(str(path), str(path.parent.relative_to(ROOT))) for path in kept]
+
+
+def distributions() -> list[str]:
+    """The installed packages whose versions the doctor reports. Raises StartError."""
+    installed = packages(Path(folder) for folder in sys.path if folder.endswith("-packages"))
+    wanted = (re.split("[<>]", requirement)[0] for requirement in requirements({ARCADE} | OPTIONAL["bundle"]))
+    return [name for name in wanted if name in installed]

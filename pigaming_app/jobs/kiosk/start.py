@@ -1,0 +1,35 @@
+"""Start of an arcade under a supervisor."""
+
+import signal
+from collections.abc import Sequence
+from datetime import datetime
+
+from pigaming_app.jobs.kiosk.crash_reports import Evidence, crash_log_size, keep_report
+from pigaming_app.jobs.kiosk.process import ArcadeProcess
+from pigaming_app.jobs.kiosk.supervisor import Child, Ending, Limits, Supervisor
+from pigaming_app.storage.settings import folders
+
+
+def supervise(command: Sequence[str], limits: Limits | None = None) -> int:
+    """Keep an arcade running until the operator closes it. Returns the exit code. Raises OSError.
+
+    `command` starts the arcade, which gets its heartbeat by `child.heartbeat`. SIGTERM ends both, like Ctrl+C.
+    """
+    data = folders().data
+    stacks_from = 0
+
+    def start() -> Child:
+        nonlocal stacks_from
+        stacks_from = crash_log_size(data)
+        return ArcadeProcess(command)
+
+    def report(child: Child, ending: Ending) -> None:
+        assert isinstance(child, ArcadeProcess)
+        keep_report(data, ending, Evidence(tuple(child.errors), child.picture, stacks_from), datetime.now())
+
+    before = [(number, signal.signal(number, signal.default_int_handler)) for number in (signal.SIGTERM, signal.SIGINT)]
+    try:
+        return Supervisor(start, report, limits or Limits()).run()
+    finally:
+        for number, handler in before:
+            signal.signal(number, handler)

@@ -1,0 +1,164 @@
+"""Real arcades under supervision: killed, stopped, caught in an endless loop, crashing twenty times; and no orphans."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.jobs.kiosk.start import supervise
+from pigaming_app.jobs.kiosk.supervisor import Limits
+from pigaming_app.storage.restarts import Restart, restarts
+
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="signals of POSIX, processes of /proc"),
+]
+
+ROOT = Path(__file__).resolve().parents[3]
+QUICK = Limits(poll=0.02, start=30.0, hang=1.0, delays=(0.0, 0.01))
+ARCADE = """
+import os, signal, sys, time
+from pathlib import Path
+
+starts = Path(sys.argv[1])
+with starts.open("a") as file:
+    file.write(f"{os.getpid()}\\n")
+plan = sys.argv[2:]
+what = plan[min(len(starts.read_text().split()), len(plan)) - 1]
+if what == "early":
+    sys.exit("it crashed before the first frame")
+
+from pigaming_app.jobs.kiosk import child
+from pigaming_app.scenes.app import Options, run
+from pigaming_app.scenes.flow.stack import Quit
+from pigaming_app.ui import pulse
+
+pulse.INTERVAL = 0.05
+
+class Scene:
+    def __init__(self, context):
+        self.until = time.monotonic() + 0.2
+
+    def handle(self, press):
+        return None
+
+    def update(self, seconds):
+        if time.monotonic() < self.until:
+            return None
+        if what == "kill":
+            os.kill(os.getpid(), signal.SIGKILL)
+        if what == "stop":
+            os.kill(os.getpid(), signal.SIGSTOP)
+        while what == "loop":
+            pass
+        if what == "abort":
+            os.abort()
+        return Quit() if what == "quit" else None
+
+    def draw(self, screen):
+        screen.fill("red")
+
+sys.exit(run(Options(headless=True, kiosk=True, first_scene=Scene, without_title=True, heartbeat=child.heartbeat())))
+"""
+SUPERVISOR = """
+import sys
+from pigaming_app.jobs.kiosk.start import supervise
+sys.exit(supervise(sys.argv[1:]))
+"""
+
+
+@pytest.fixture
+def data(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    return tmp_path / "data"
+
+
+def arcade(folder: Path, *plan: str) -> list[str]:
+    """The command of an arcade that does one thing after each start, and the last one again and again."""
+    return [sys.executable, "-c", ARCADE, str(folder / "starts"), *plan]
+
+
+def pids(folder: Path) -> list[int]:
+    return [int(pid) for pid in (folder / "starts").read_text().split()] if (folder / "starts").exists() else []
+
+
+def runs(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def wait(condition, seconds: float = 20.0) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def test_it_comes_back_after_a_kill_a_stop_an_endless_loop_and_an_abort(tmp_path: Path, data: Path) -> None:
+    assert supervise(arcade(tmp_path, "kill", "stop", "loop", "abort", "quit"), QUICK) == 0
+    found = restarts(data)
+    hang = ("hang", "no frame for 1 s")
+    assert [(one.reason, one.detail) for one in found] == [
+        ("crash", "ended by SIGKILL"), hang, hang, ("crash", "ended by SIGABRT"),
+    ]  # fmt: skip
+    assert not any(map(runs, pids(tmp_path)))
+    reports = [(data / one.report).read_text() for one in found]
+    assert all((data / one.report).with_suffix(".png").is_file() for one in found)
+    assert 'in update' in reports[2].partition("== stacks")[2]  # the endless loop
+    assert 'in update' in reports[3].partition("== stacks")[2]
+    assert 'in update' not in reports[0]
+    assert not list(Path(os.environ.get("TMPDIR", "/tmp")).glob(f"pigaming-*{os.getpid()}*"))
+
+
+def test_twenty_crashes_before_the_first_frame_and_it_still_comes_back(tmp_path: Path, data: Path) -> None:
+    assert supervise(arcade(tmp_path, *["early"] * 20, "quit"), QUICK) == 0
+    found = restarts(data)
+    assert [(one.reason, one.detail) for one in found] == [("crash", "exit code 1")] * 20
+    assert "it crashed before the first frame" in (data / found[-1].report).read_text()
+    assert len(pids(tmp_path)) == 21
+
+
+@pytest.mark.parametrize(("ending", "what"), [("SIGKILL", "run"), ("SIGKILL", "loop"), ("SIGTERM", "run"), ("SIGINT", "run")])
+def test_the_arcade_ends_with_its_supervisor(tmp_path: Path, data: Path, ending: str, what: str) -> None:
+    supervisor = subprocess.Popen([sys.executable, "-c", SUPERVISOR, *arcade(tmp_path, what)])
+    wait(lambda: pids(tmp_path))
+    (pid,) = pids(tmp_path)
+    wait(lambda: (data / "pigaming.log").exists())
+    time.sleep(0.5)  # into the loop
+    supervisor.send_signal(getattr(signal, ending))
+    code = supervisor.wait(20)
+    wait(lambda: not runs(pid))
+    assert code == (-signal.SIGKILL if ending == "SIGKILL" else 0)
+    assert restarts(data) == []
+    assert (data.parent / "config" / "settings.toml").exists() == (what == "run")  # it closed by itself
+
+
+def test_the_option_kiosk_starts_the_arcade_under_a_supervisor(tmp_path: Path, data: Path) -> None:
+    main = [sys.executable, "-X", "pigaming", str(ROOT / "main.py"), "--kiosk"]
+    assert subprocess.run([*main, "--frames", "20"], timeout=60).returncode == 0
+    kiosk = subprocess.Popen(main)
+    children = Path(f"/proc/{kiosk.pid}/task/{kiosk.pid}/children")
+    wait(lambda: children.read_text())
+    first = int(children.read_text())
+    time.sleep(3.0)
+    os.kill(first, signal.SIGKILL)
+    wait(lambda: children.read_text() and int(children.read_text()) != first)
+    kiosk.terminate()
+    assert kiosk.wait(20) == 0
+    assert [Restart(**json.loads(line)).detail for line in (data / "restarts.jsonl").read_text().splitlines()] == [
+        "ended by SIGKILL"
+    ]
+
+
+def test_what_cannot_start_is_one_line(data: Path) -> None:
+    main = [sys.executable, "-X", "pigaming", str(ROOT / "main.py"), "--kiosk", "--display", "60"]
+    ended = subprocess.run([*main, "--emulate", "--plant", "ros"], capture_output=True, text=True, timeout=60)
+    assert (ended.returncode, ended.stdout, ended.stderr.count("\n")) == (2, "", 1)
