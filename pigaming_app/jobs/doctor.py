@@ -119,7 +119,9 @@ def requirements(group: str) -> list[str]:
 
 
 def _advice(extra: str) -> str:
-    return EXTRAS[extra] + (f": {remedy(extra)}" if INSTALLED or FROZEN else "; main.py fetches it for the jobs that use it")
+    return EXTRAS[extra] + (
+        f": {remedy(extra)}" if INSTALLED or FROZEN else "; main.py fetches it for the jobs that use it"
+    )
 
 
 def _folders() -> Iterator[Line]:
@@ -141,7 +143,9 @@ def _restarts() -> Iterator[Line]:
     data = folders().data
     if found := restarts(data):
         last = found[-1]
-        text = f"{len(found)}, the last one at {one_line(last.time, 40)} ({one_line(f'{last.reason}: {last.detail}', 80)})"
+        text = (
+            f"{len(found)}, the last one at {one_line(last.time, 40)} ({one_line(f'{last.reason}: {last.detail}', 80)})"
+        )
         yield Line("kiosk restarts", "note", text, f"the reports in {data / 'crashes'} give the reasons")
 
 

@@ -34,7 +34,7 @@ def run(arguments: Namespace) -> int:
     if words and arguments.what != "on":
         raise Refusal(f"autostart {arguments.what}: options of the arcade go with `on`")
     _check(words)
-    python = sys.executable if INSTALLED else sys._base_executable or sys.executable
+    python = sys.executable if INSTALLED else getattr(sys, "_base_executable", sys.executable)  # not .venv's
     try:
         entry = start_entry(
             sys.platform, Path.home(), os.environ, own_command(["--kiosk", *words], python, prepared=False)

@@ -16,6 +16,7 @@ from pigaming_app.storage.parsing import describe_error, one_line
 
 SPEC = Path(__file__).with_name("pigaming.spec")
 NAME = "pigaming"
+STRIPPED = ("libpython3*.so*", "llvmlite/binding/*.so")  # the libraries of NumPy and OpenCV do not survive it
 APP = "PiGaming.app"  # on macOS, beside the folder
 # %k is the path of the file itself, so that the folder can lie anywhere.
 DESKTOP = f"""[Desktop Entry]
@@ -58,6 +59,7 @@ def build(out: Path) -> Built:
             entry = folder / "pigaming.desktop"
             entry.write_text(DESKTOP, encoding="utf-8")
             entry.chmod(0o755)  # file managers ask less
+            _strip(folder / "_internal")
         size = sum(path.lstat().st_size for path in folder.rglob("*") if not path.is_dir())
         for name in (NAME, APP):
             if (made / name).exists():
@@ -100,6 +102,13 @@ def _run_pyinstaller(scratch: Path) -> None:
     if done.returncode:
         lines = (done.stderr or done.stdout).strip().splitlines() or ["no reason given"]
         raise BuildFailed(one_line(f"PyInstaller failed: {lines[-1]}"))
+
+
+def _strip(libraries: Path) -> None:
+    """Remove the symbols that only linkers and debuggers read, where that saves megabytes and the tool is there."""
+    if tool := shutil.which("strip"):
+        for path in (found for pattern in STRIPPED for found in libraries.glob(pattern)):
+            subprocess.run([tool, "--strip-unneeded", path], capture_output=True, check=False)
 
 
 def _replace(made: Path, target: Path, aside: Path) -> None:

@@ -1,6 +1,5 @@
 """What a bundle contains beside the libraries that PyInstaller finds by itself."""
 
-
 import re
 import sys
 from pathlib import Path

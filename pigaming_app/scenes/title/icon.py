@@ -9,7 +9,7 @@ from pigaming_app.ui.draw.theme import cut_box
 SIZE = 1024  # px
 GROUND = (14, 18, 30)
 UNIT = 92  # px, a sixth of the height of the letters
-LEFT, TOP = 262, 236  # px, upper left of the P
+LEFT, TOP = 244, 236  # px, upper left of the P
 MARGIN, CORNER = 36, 150  # px
 
 

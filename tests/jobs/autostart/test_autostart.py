@@ -15,7 +15,7 @@ from pigaming_app.cli import main
 from pigaming_app.jobs.autostart import entries
 from pigaming_app.jobs.terminal import command
 
-COMMAND = ["/opt/my 100%/py", "/home/a b/$HOME/`x`/q\"uote\\/main.py", "--kiosk"]
+COMMAND = ["/opt/my 100%/py", '/home/a b/$HOME/`x`/q"uote\\/main.py', "--kiosk"]
 
 
 def exec_words(text: str) -> list[str]:

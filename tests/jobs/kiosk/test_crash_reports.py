@@ -11,8 +11,8 @@ from pigaming_app import __version__
 from pigaming_app.jobs.kiosk.crash_reports import FOLDER, KEPT, Evidence, crash_log_size, keep_report
 from pigaming_app.jobs.kiosk.supervisor import Ending
 from pigaming_app.storage.log import CRASH_FILE, FILE
-from pigaming_app.storage.restarts import MAX_BYTES, Restart, append_restart, restarts
 from pigaming_app.storage.restarts import FILE as RESTARTS
+from pigaming_app.storage.restarts import MAX_BYTES, Restart, append_restart, restarts
 
 KILLED = Ending(-signal.SIGKILL, 61.25, 3600)
 NOW = datetime(2026, 5, 9, 14, 30)
@@ -28,7 +28,15 @@ def test_a_report_holds_versions_the_last_lines_the_new_stacks_and_the_screen(tm
     keep_report(tmp_path, KILLED, Evidence(["Traceback\n"], red, before), NOW)
     (text,), (picture,) = (list((tmp_path / FOLDER).glob(f"*.{kind}")) for kind in ("txt", "png"))
     report = text.read_text()
-    for part in (f"PiGaming {__version__}", "ended by SIGKILL", "61.2 s", "3600 frames", "numpy", "Traceback", "newest"):
+    for part in (
+        f"PiGaming {__version__}",
+        "ended by SIGKILL",
+        "61.2 s",
+        "3600 frames",
+        "numpy",
+        "Traceback",
+        "newest",
+    ):
         assert part in report
     assert "stacks of today" in report
     assert "stacks of yesterday" not in report

@@ -29,7 +29,10 @@ starts = Path(sys.argv[1])
 with starts.open("a") as file:
     file.write(f"{os.getpid()}\\n")
 plan = sys.argv[2:]
-what = plan[min(len(starts.read_text().split()), len(plan)) - 1]
+number = len(starts.read_text().split())
+if number > 30:
+    sys.exit()  # the test has failed
+what = plan[min(number, len(plan)) - 1]
 if what == "early":
     sys.exit("it crashed before the first frame")
 
@@ -43,6 +46,12 @@ pulse.INTERVAL = 0.05
 class Scene:
     def __init__(self, context):
         self.until = time.monotonic() + 0.2
+
+    def on_enter(self):
+        pass
+
+    def on_leave(self):
+        pass
 
     def handle(self, press):
         return None
@@ -112,9 +121,9 @@ def test_it_comes_back_after_a_kill_a_stop_an_endless_loop_and_an_abort(tmp_path
     assert not any(map(runs, pids(tmp_path)))
     reports = [(data / one.report).read_text() for one in found]
     assert all((data / one.report).with_suffix(".png").is_file() for one in found)
-    assert 'in update' in reports[2].partition("== stacks")[2]  # the endless loop
-    assert 'in update' in reports[3].partition("== stacks")[2]
-    assert 'in update' not in reports[0]
+    assert "in update" in reports[2].partition("== stacks")[2]  # the endless loop
+    assert "in update" in reports[3].partition("== stacks")[2]
+    assert "in update" not in reports[0]
     assert not list(Path(os.environ.get("TMPDIR", "/tmp")).glob(f"pigaming-*{os.getpid()}*"))
 
 
@@ -126,7 +135,9 @@ def test_twenty_crashes_before_the_first_frame_and_it_still_comes_back(tmp_path:
     assert len(pids(tmp_path)) == 21
 
 
-@pytest.mark.parametrize(("ending", "what"), [("SIGKILL", "run"), ("SIGKILL", "loop"), ("SIGTERM", "run"), ("SIGINT", "run")])
+@pytest.mark.parametrize(
+    ("ending", "what"), [("SIGKILL", "run"), ("SIGKILL", "loop"), ("SIGTERM", "run"), ("SIGINT", "run")]
+)
 def test_the_arcade_ends_with_its_supervisor(tmp_path: Path, data: Path, ending: str, what: str) -> None:
     supervisor = subprocess.Popen([sys.executable, "-c", SUPERVISOR, *arcade(tmp_path, what)])
     wait(lambda: pids(tmp_path))
@@ -138,7 +149,7 @@ def test_the_arcade_ends_with_its_supervisor(tmp_path: Path, data: Path, ending:
     wait(lambda: not runs(pid))
     assert code == (-signal.SIGKILL if ending == "SIGKILL" else 0)
     assert restarts(data) == []
-    assert (data.parent / "config" / "settings.toml").exists() == (what == "run")  # it closed by itself
+    assert (data.parent / "config" / "settings.toml").exists()  # it closed by itself
 
 
 def test_the_option_kiosk_starts_the_arcade_under_a_supervisor(tmp_path: Path, data: Path) -> None:
