@@ -20,8 +20,9 @@ def bars_of(report: DayReport, games: Mapping[str, object]) -> Bars:
     hours, names = report.hours, list(games)
     first, last = (min(hours), max(hours)) if hours else (9, 16)
     while last - first + 1 < FEWEST_HOURS:
-        first, last = max(0, first - (last - first) % 2), min(23, last + 1 - (last - first) % 2)
-        if first == 0 and last - first + 1 < FEWEST_HOURS:
+        if first > 0 and (last == 23 or (last - first) % 2):
+            first -= 1
+        else:
             last += 1
     out = []
     for hour in range(first, last + 1):

@@ -76,7 +76,7 @@ def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
     state = "over" if match.over else "waiting" if scene.waiting or not on_top else ""
     return MatchSnapshot(
         setup.game,
-        arena_title(words, setup.arena),
+        arena_title(match.arena, words.language),
         f"{seconds // 60}:{seconds % 60:02}",
         not counts_up and left <= ALARM_SECONDS and not match.over,
         state,

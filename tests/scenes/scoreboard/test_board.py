@@ -74,7 +74,7 @@ def test_only_what_has_changed_is_painted_again() -> None:
     lamps.contents.pop()
     painted(board, target, "lamps")
     assert target.get_at((210, 10))[:3] == (0, 0, 0)
-    assert target.get_at((110, 10))[:3] == (255, 255, 255)
+    assert target.get_at((110, 10))[:3] >= (250, 250, 250)
 
 
 def test_a_page_without_contents_gives_way(arcade: Arcade) -> None:
@@ -91,8 +91,8 @@ def test_it_fits_any_window_undistorted(size: tuple[int, int]) -> None:
     board = Board([Lamps("ab")])
     painted(board, target, "lamps")
     board.redraw(target)
-    if area.w > 100:
-        assert target.get_at((area.x + area.w * 145 // 1920, area.y + area.h * 45 // 1080))[:3] == (255, 255, 255)
+    if area.w > 100:  # smoothly scaled
+        assert target.get_at((area.x + area.w * 145 // 1920, area.y + area.h * 45 // 1080))[:3] >= (250, 250, 250)
         assert target.get_at((area.x + area.w // 2, area.y + area.h // 2))[:3] == (0, 0, 0)
 
 
@@ -200,7 +200,7 @@ def test_the_window_is_painted_in_frames_with_room_and_at_last_without(arcade: A
             window.update(0.016, 0.0, "lamps", [])
         assert lamps.painted == [2, 1, 1]
         assert window.window
-        assert window.window.get_surface().get_at((10, 10))[:3] == (255, 255, 255)
+        assert window.window.get_surface().get_at((10, 10))[:3] >= (250, 250, 250)
     finally:
         window.close()
 
