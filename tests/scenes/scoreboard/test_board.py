@@ -128,7 +128,7 @@ def test_the_clock_counts_down_and_a_page_above_is_noted(arcade: Arcade) -> None
     assert (snapshot(scene, words, True).clock, snapshot(scene, words, True).state) == ("2:00", "waiting")
     arcade.until(lambda: scene.match.seconds >= 1.0)
     assert (snapshot(scene, words, True).clock, snapshot(scene, words, True).state) == ("1:59", "")
-    assert snapshot(scene, words, False).state == "waiting"
+    assert snapshot(scene, words, False).state == "paused"
 
 
 def test_the_result_stays_until_the_next_match_but_not_that_of_a_match_left(arcade: Arcade) -> None:
@@ -277,7 +277,7 @@ def test_other_pages_stand_between_scores_and_camera(arcade: Arcade) -> None:
     assert [page.name for page in arcade.context.board_pages] == ["standby", "scores", "lamps", "camera"]
 
 
-def test_a_paused_match_is_shown_as_waiting(arcade: Arcade) -> None:
+def test_a_paused_match_is_shown_as_such(arcade: Arcade) -> None:
     page = ScorePage(arcade.context)
     scene = MatchScene(arcade.context, setup("human easy off off"), [KEYS[0]])
     arcade.open(scene)
@@ -285,4 +285,4 @@ def test_a_paused_match_is_shown_as_waiting(arcade: Arcade) -> None:
     arcade.open(Pause(scene, KEYS[0]))
     page.parts(arcade.stack.scenes)
     assert page.last
-    assert page.last.state == "waiting"
+    assert page.last.state == "paused"
