@@ -1,6 +1,7 @@
 """The chart of a day: matches per hour as bars, stacked by game."""
 
 from collections.abc import Mapping
+from itertools import cycle
 
 from pigaming_app.events.day_report import DayReport
 from pigaming_app.ui.draw import BODY, FOCUS, HAIR, ICE, LABEL, MIST, STEEL, Color, cut_box, dim, text_width
@@ -20,8 +21,9 @@ def bars_of(report: DayReport, games: Mapping[str, object]) -> Bars:
     hours, names = report.hours, list(games)
     first, last = (min(hours), max(hours)) if hours else (9, 16)
     while last - first + 1 < FEWEST_HOURS:
-        first, last = max(0, first - (last - first) % 2), min(23, last + 1 - (last - first) % 2)
-        if first == 0 and last - first + 1 < FEWEST_HOURS:
+        if first > 0 and (last == 23 or (last - first) % 2):
+            first -= 1
+        else:
             last += 1
     out = []
     for hour in range(first, last + 1):
@@ -34,7 +36,10 @@ def bars_of(report: DayReport, games: Mapping[str, object]) -> Bars:
 
 def step_of(most: int) -> int:
     """The step between lines of the chart, so that there are at most five."""
-    return next(step for k in range(9) for step in (10**k, 2 * 10**k, 5 * 10**k) if step * 5 >= most)
+    step, factors = 1, cycle((2, 2.5, 2))
+    while step * 5 < most:
+        step = round(step * next(factors))
+    return step
 
 
 @cached

@@ -27,7 +27,7 @@ from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, hea
 FOLDER = "reports"  # of exports, in the data folder
 PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 700)
 IDLE, SENTENCE_SECONDS = 90.0, 5.0  # s
-PITCH = 72  # px from line to line
+PITCH = 66  # px from line to line
 log = logging.getLogger("pigaming")
 
 
@@ -85,7 +85,7 @@ class FiguresPage:
         if not report.matches:
             text(words("operator.no_matches"), LABEL, MIST, "head", "c", 900).draw(screen, 675, 520)
         for i, (name, value, color) in enumerate(lines(words, report, self.trouble)):
-            y = PANEL.y + 62 + PITCH * i
+            y = PANEL.y + 53 + PITCH * i
             text(name, BODY, MIST, "body", "l", 360).draw(screen, PANEL.x + 36, y)
             text(value, LABEL, color, "head", "r", 230).draw(screen, PANEL.right - 36, y)
         if self.navigation.sentence:
@@ -96,7 +96,7 @@ class FiguresPage:
     def arrows(self) -> dict[Button, tuple[int, int]]:
         """The arrows beside the date, where there are other days."""
         at = self.days.index(self.report.day)
-        left = {Button.LEFT: (RIGHT - 480, 112)} if at > 0 else {}
+        left = {Button.LEFT: (RIGHT - 410, 112)} if at > 0 else {}
         return {**left, **({Button.RIGHT: (RIGHT - 20, 112)} if at < len(self.days) - 1 else {})}
 
     def _show(self, day: date) -> None:
@@ -137,4 +137,4 @@ def lines(words: Words, report: DayReport, trouble: bool) -> list[tuple[str, str
     volts = [
         (words("operator.battery", robot=robot), words("fleet.volts", volts=f"{v:.1f}"), ICE) for robot, v in batteries
     ]
-    return [*named, *volts][:9]
+    return [*named, *volts]

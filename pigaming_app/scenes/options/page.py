@@ -53,7 +53,7 @@ ROWS = (
 FOR_CHILDREN = ("language", "flashes", "shake", "rumble", "ease", "padtest")
 EASE, EASE_FOR_CHILDREN = ("calm", "large", "remap"), ("calm", "large")
 OPENING = ("padtest", "phones", "robots", "day", "ease", "remap")  # rows that open a page
-TOP, BOTTOM, HIGH = 240, 908, 64
+TOP, BOTTOM, HIGH = 226, 930, 64
 log = logging.getLogger("pigaming")
 
 

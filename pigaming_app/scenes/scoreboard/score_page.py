@@ -13,7 +13,7 @@ from pigaming_app.scenes.scoreboard.snapshot import MatchSnapshot, Side, match_o
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, PLAYERS, STEEL, SUB, Color
 
 CLOCK_SIZE, TOP, BOTTOM, LEFT, W = 190, 300, 1050, 60, 1800
-ROW_MAX = 236  # px
+ROW_MAX = 372  # px
 HEAD: Box = (LEFT, 40, 620, 220)
 CLOCK: Box = (690, 40, 540, 220)
 STATE: Box = (1240, 40, 620, 220)
@@ -65,22 +65,22 @@ def paint_side(side: Side, place: int, surface: pygame.Surface) -> None:
     w, h = surface.get_size()
     color, middle = color_of(side), h / 2
     surface.blit(text.outline(w, h, color if side.leads else STEEL), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
-    r = min(56, round(0.3 * h))
+    r, size = min(84, round(0.3 * h)), min(112, max(SUB, round(0.36 * h)))
     x = 40 + 1.5 * r
     for seat in side.seats:
         text.put(surface, text.player_badge(seat, r), x, middle)
         x += 2.7 * r
     x += -0.9 * r
     if side.sign:
-        text.put(surface, text.symbol(side.sign, 34, MIST), x + 34, middle)
-        x += 96
-    end = w - 420
+        text.put(surface, text.symbol(side.sign, size // 2, MIST), x + size // 2, middle)
+        x += 1.4 * size
+    end = w - 60 - 3 * min(240, round(0.86 * h)) * 0.7
     if side.leads:
         text.put(surface, text.symbol("crown", 46, FOCUS), end - 60, middle)
         end -= 130
     if side.driver:
-        text.write(surface, side.driver, SUB, x, middle, ICE, "head", "l", round(end - x - 30))
-    text.write_number(surface, side.score, min(170, round(0.86 * h)), w - 48, middle, color, "r")
+        text.write(surface, side.driver, size, x, middle, ICE, "head", "l", round(end - x - 30))
+    text.write_number(surface, side.score, min(240, round(0.86 * h)), w - 48, middle, color, "r")
 
 
 def _head(game: str, arena: str, surface: pygame.Surface) -> None:

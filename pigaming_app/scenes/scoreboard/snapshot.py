@@ -33,7 +33,7 @@ class ShownMatch(Protocol):
 
     @property
     def waiting(self) -> bool:
-        """True before the match and while it is interrupted."""
+        """True until the robots may drive."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Side:
 
 @dataclass(frozen=True)
 class MatchSnapshot:
-    """A match now. `sides`: best first; `alarm`: the time is running out; `state`: "", "waiting" or "over"."""
+    """A match now. `sides`: best first; `alarm`: the time is running out; `state`: "", "waiting", "paused" or "over"."""
 
     game: str
     arena: str
@@ -73,10 +73,10 @@ def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
     left = math.ceil(match.seconds_left)
     counts_up = setup.game == "race"
     seconds = int(match.seconds) if counts_up else left
-    state = "over" if match.over else "waiting" if scene.waiting or not on_top else ""
+    state = "over" if match.over else "paused" if not on_top else "waiting" if scene.waiting else ""
     return MatchSnapshot(
         setup.game,
-        arena_title(words, setup.arena),
+        arena_title(match.arena, words.language),
         f"{seconds // 60}:{seconds % 60:02}",
         not counts_up and left <= ALARM_SECONDS and not match.over,
         state,

@@ -9,7 +9,7 @@ from pigaming_app.ui.draw.text import fit_size
 
 CACHE = SurfaceCache(24 << 20)  # bytes
 EDGE = 28  # px of glow
-NUMBER_ADVANCE = 0.66  # em
+NUMBER_ADVANCE = 0.6  # em
 
 
 @CACHE.cached

@@ -42,6 +42,7 @@ CENTRE = (PANEL.centerx, PANEL.y + 190)  # of the picture
 RING_R, RING_STEPS = 150, 24  # px, and images of the ring round it
 
 
+APART = 8  # px between rows that have a line between them
 TOP, PITCH, HIGH = 246, 88, 64  # px: the middle of the first row, from row to row, height of a row
 
 
@@ -67,7 +68,7 @@ def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values:
         box, content, focused = spot.rect, values[spot.name], spot.name == focus.name
         label(words(f"{table}.{spot.name}"), focused).draw(screen, box.x + 40, box.centery)
         value(content.kind, content.options, content.chosen, focused).draw(screen, box.x, box.centery)
-        if i and box.y > (above := focus.spots[i - 1].rect.bottom):
+        if i and box.y >= (above := focus.spots[i - 1].rect.bottom) + APART:
             separator(box.w).draw(screen, box.x, (box.y + above) // 2)
     focus.draw(screen)
 

@@ -74,7 +74,7 @@ def test_only_what_has_changed_is_painted_again() -> None:
     lamps.contents.pop()
     painted(board, target, "lamps")
     assert target.get_at((210, 10))[:3] == (0, 0, 0)
-    assert target.get_at((110, 10))[:3] == (255, 255, 255)
+    assert target.get_at((110, 10))[:3] >= (250, 250, 250)
 
 
 def test_a_page_without_contents_gives_way(arcade: Arcade) -> None:
@@ -91,8 +91,8 @@ def test_it_fits_any_window_undistorted(size: tuple[int, int]) -> None:
     board = Board([Lamps("ab")])
     painted(board, target, "lamps")
     board.redraw(target)
-    if area.w > 100:
-        assert target.get_at((area.x + area.w * 145 // 1920, area.y + area.h * 45 // 1080))[:3] == (255, 255, 255)
+    if area.w > 100:  # smoothly scaled
+        assert target.get_at((area.x + area.w * 145 // 1920, area.y + area.h * 45 // 1080))[:3] >= (250, 250, 250)
         assert target.get_at((area.x + area.w // 2, area.y + area.h // 2))[:3] == (0, 0, 0)
 
 
@@ -128,7 +128,7 @@ def test_the_clock_counts_down_and_a_page_above_is_noted(arcade: Arcade) -> None
     assert (snapshot(scene, words, True).clock, snapshot(scene, words, True).state) == ("2:00", "waiting")
     arcade.until(lambda: scene.match.seconds >= 1.0)
     assert (snapshot(scene, words, True).clock, snapshot(scene, words, True).state) == ("1:59", "")
-    assert snapshot(scene, words, False).state == "waiting"
+    assert snapshot(scene, words, False).state == "paused"
 
 
 def test_the_result_stays_until_the_next_match_but_not_that_of_a_match_left(arcade: Arcade) -> None:
@@ -200,7 +200,7 @@ def test_the_window_is_painted_in_frames_with_room_and_at_last_without(arcade: A
             window.update(0.016, 0.0, "lamps", [])
         assert lamps.painted == [2, 1, 1]
         assert window.window
-        assert window.window.get_surface().get_at((10, 10))[:3] == (255, 255, 255)
+        assert window.window.get_surface().get_at((10, 10))[:3] >= (250, 250, 250)
     finally:
         window.close()
 
@@ -277,7 +277,7 @@ def test_other_pages_stand_between_scores_and_camera(arcade: Arcade) -> None:
     assert [page.name for page in arcade.context.board_pages] == ["standby", "scores", "lamps", "camera"]
 
 
-def test_a_paused_match_is_shown_as_waiting(arcade: Arcade) -> None:
+def test_a_paused_match_is_shown_as_such(arcade: Arcade) -> None:
     page = ScorePage(arcade.context)
     scene = MatchScene(arcade.context, setup("human easy off off"), [KEYS[0]])
     arcade.open(scene)
@@ -285,4 +285,4 @@ def test_a_paused_match_is_shown_as_waiting(arcade: Arcade) -> None:
     arcade.open(Pause(scene, KEYS[0]))
     page.parts(arcade.stack.scenes)
     assert page.last
-    assert page.last.state == "waiting"
+    assert page.last.state == "paused"
