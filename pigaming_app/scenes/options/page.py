@@ -48,7 +48,7 @@ ROWS = (
     "reset",
 )
 FOR_CHILDREN = ("language", "flashes", "shake", "rumble", "padtest")
-TOP, BOTTOM, HIGH = 240, 908, 64
+TOP, BOTTOM, HIGH = 240, 936, 64
 log = logging.getLogger("pigaming")
 
 
