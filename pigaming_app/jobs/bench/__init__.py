@@ -29,7 +29,7 @@ def run(arguments: Namespace) -> int:
         print(json.dumps(figures))
     else:
         _print(figures)
-        if lacks := missing("bench"):
+        if arguments.game != PHONES and (lacks := missing("bench")):
             print(lacks)
     return 0
 

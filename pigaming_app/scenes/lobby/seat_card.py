@@ -87,9 +87,9 @@ def by_phone(player: int, text: str, call: str, others: str) -> Steps[LitImage]:
     """Card of an empty seat with room for a QR code: how to join by phone, and that others may join, too."""
     layer, color = Layer(0, 0, W, H), PLAYERS[player]
     layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
-    badge(layer.glow, player, 72, 66, 36, dim(color, 0.75))
-    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 66, MIST)
-    layer.canvas.text(call, fit_size(call, LABEL, W - 60), MIDDLE, ASKS_Y + 130, FOCUS, "head", "c")
+    badge(layer.glow, player, 72, 76, 36, dim(color, 0.75))
+    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, MIST)
+    layer.canvas.text(call, fit_size(call, LABEL, W - 60), MIDDLE, ASKS_Y + 132, FOCUS, "head", "c")
     layer.canvas.body(others, MIDDLE, ASKS_Y + 176, MIST, "c", fit_size(others, 32, W - 60, "body"))
     yield
     return (yield from layer.render_steps())

@@ -26,7 +26,7 @@ from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_actio
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, ask_bar, ready_bar
 
 TOP, MESSAGE_Y, LINE_Y = 216, 884, 932
-CODE, CODE_BOX = "code", pygame.Rect(24, 124, W - 48, W - 48)  # px on a card: the QR code for phones
+CODE, CODE_BOX = "code", pygame.Rect(24, 130, W - 48, W - 48)  # px on a card: the QR code for phones
 ROLL_IN = 0.35  # s, a robot's drive onto its turntable
 
 

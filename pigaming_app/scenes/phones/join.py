@@ -41,7 +41,7 @@ PATIENCE = 20.0  # s without a visitor, after which network and firewall are nam
 CODE = pygame.Rect(LEFT, 206, 726, 726)
 TEXT_X = CODE.right + 72
 ROOM = RIGHT - TEXT_X
-STEPS_Y, STEP, ADDRESS_Y, SEATS_Y, HELP_Y = 262, 106, 640, 776, 886
+STEPS_Y, STEP, ADDRESS_Y, SEATS_Y, HELP_Y = 250, 98, 600, 716, 848
 SEAT_W = 152
 Devices = Sequence[Device | None]
 

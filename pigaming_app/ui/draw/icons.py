@@ -85,11 +85,9 @@ def _pad(pen: Pen) -> None:
 
 
 def _phone(pen: Pen) -> None:
-    """A phone with a stick and a button on its screen."""
-    pen.line((-0.5, -0.95), (0.5, -0.95), (0.5, 0.95), (-0.5, 0.95), closed=True)
-    pen.line((-0.14, 0.7), (0.14, 0.7))
-    pen.dot(0, -0.4, 0.2)
-    pen.dot(0, 0.2, 0.12)
+    pen.line(*cut_box(-0.56, -0.96, 1.12, 1.92, 0.16), closed=True)
+    pen.line((-0.16, -0.7), (0.16, -0.7))
+    pen.dot(0, 0.68, 0.11)
 
 
 def _keys(pen: Pen) -> None:

@@ -38,11 +38,11 @@ class Browser:
     async def ask(self, method: str, session: str | None = None, **parameters: Any) -> Any:
         """The result of a command."""
         number = next(self._numbers)
-        self._answers[number] = asyncio.get_running_loop().create_future()
+        self._answers[number] = answer = asyncio.get_running_loop().create_future()
         message: dict[str, Any] = {"id": number, "method": method, "params": parameters}
         await self._socket.send_json(message | ({"sessionId": session} if session else {}))
         async with asyncio.timeout(20.0):
-            return await self._answers.pop(number)
+            return await answer
 
     async def listen(self) -> None:
         """Receive answers and events until the socket is closed."""
@@ -50,11 +50,11 @@ class Browser:
             if message.type is not WSMsgType.TEXT:
                 return
             content = message.json()
-            if (number := content.get("id")) in self._answers:
+            if answer := self._answers.pop(content.get("id"), None):
                 if "error" in content:
-                    self._answers[number].set_exception(RuntimeError(str(content["error"])))
+                    answer.set_exception(RuntimeError(str(content["error"])))
                 else:
-                    self._answers[number].set_result(content["result"])
+                    answer.set_result(content["result"])
             elif content.get("method") in ("Runtime.exceptionThrown", "Log.entryAdded"):
                 self.errors.append(str(content["params"]))
 
@@ -94,7 +94,8 @@ class Page:
         return answer["result"].get("value")
 
     async def until(self, expression: str, seconds: float = 10.0) -> None:
-        """Wait until an expression is true in the page."""
+        """Wait until an expression is true in the page, which may still be loading."""
+        expression = f"(() => {{ try {{ return {expression}; }} catch (error) {{ return false; }} }})()"
         async with asyncio.timeout(seconds):
             while not await self.value(expression):
                 await asyncio.sleep(0.03)
@@ -111,11 +112,10 @@ class Page:
         """Put a finger down, or move it."""
         kind = "touchMove" if finger in self._fingers else "touchStart"
         self._fingers[finger] = (x, y)
-        await self._dispatch(kind)
+        await self._dispatch(kind, self._fingers)
 
     async def lift(self, finger: int) -> None:
-        del self._fingers[finger]
-        await self._dispatch("touchEnd")
+        await self._dispatch("touchEnd", {finger: self._fingers.pop(finger)})
 
     async def tap(self, name: str) -> None:
         """Touch an element for a moment."""
@@ -123,8 +123,13 @@ class Page:
         await asyncio.sleep(0.05)
         await self.lift(9)
 
-    async def _dispatch(self, kind: str) -> None:
-        points = [{"x": x, "y": y, "id": finger} for finger, (x, y) in self._fingers.items()]
+    async def lock(self, locked: bool) -> None:
+        """Lock or unlock the phone: as far as the page knows, it is hidden."""
+        hidden = f"Object.defineProperty(document, 'hidden', {{value: {str(locked).lower()}, configurable: true}})"
+        await self.value(f"{hidden}; document.dispatchEvent(new Event('visibilitychange')); 1")
+
+    async def _dispatch(self, kind: str, fingers: dict[int, tuple[float, float]]) -> None:
+        points = [{"x": x, "y": y, "id": finger} for finger, (x, y) in fingers.items()]
         await self.ask("Input.dispatchTouchEvent", type=kind, touchPoints=points)
 
 

@@ -154,13 +154,12 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
             arcade.context.controls.rumble(hit, 0.9, 0.6, 0.28)
         await pages[0].until("window.shaken.includes(280)")
         await pages[2].until("document.getElementById('flash').classList.contains('lit')", 2.0)
-        await pages[1].ask("Page.setWebLifecycleState", state="frozen")  # a locked phone
+        await pages[1].lock(True)
         await day.top(Reconnect)
-        await pages[1].ask("Page.setWebLifecycleState", state="active")
+        await pages[1].lock(False)
         async with asyncio.timeout(10.0):
             while device.number not in arcade.context.controls.phones.plugged:
                 await asyncio.sleep(0.02)
-        pages[1]._fingers.clear()
         await pages[1].until(OPEN)
         await pages[1].tap("fire")
         await day.top(MatchScene)

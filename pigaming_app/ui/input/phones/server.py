@@ -146,7 +146,7 @@ class PhoneServer:
 
     def _headers(self) -> dict[str, str]:
         here = f"ws://{self.address}:{self.port}"
-        policy = f"default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; connect-src 'self' {here}"
+        policy = f"default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src data:; connect-src 'self' {here}"
         return {
             "Server": "PiGaming",
             "Cache-Control": "no-store",
