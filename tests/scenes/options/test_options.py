@@ -9,9 +9,11 @@ import pytest
 
 from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import CLEAR, OptionsPage
+from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw import BODY, readable
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
@@ -198,3 +200,26 @@ def test_rumbling_can_be_switched_off_and_on_again_with_a_sample(arcade: Arcade,
         arcade.frame()
         assert kept(tmp_path)["rumble"] is True
         assert max(pad.rumbles[0]) > 0
+
+
+def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, tmp_path: Path) -> None:
+    go(arcade, "ease")
+    arcade.press(Button.FIRE)
+    page = arcade.shown(OptionsPage)
+    assert [*page.rows] == ["calm", "large", "remap"]
+    go(arcade, "calm")
+    arcade.press(Button.RIGHT)
+    go(arcade, "large")
+    arcade.press(Button.RIGHT)
+    assert (kept(tmp_path)["calm"], kept(tmp_path)["large_text"]) == (True, True)
+    arcade.press(Button.LEFT)
+    assert readable(BODY) == BODY
+    go(arcade, "remap")
+    arcade.press(Button.FIRE)
+    arcade.shown(RemapPage)
+
+
+@pytest.mark.parametrize("operator", [False, True])
+def test_in_a_kiosk_only_the_operator_changes_the_controls(arcade: Arcade, operator: bool) -> None:
+    arcade.context.kiosk = True
+    assert ("remap" in OptionsPage(arcade.context, operator, ease=True).rows) == operator
