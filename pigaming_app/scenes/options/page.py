@@ -38,8 +38,6 @@ ROWS = (
     "language",
     "music",
     "sounds",
-    "flashes",
-    "shake",
     "rumble",
     "ease",
     "display",
@@ -48,8 +46,9 @@ ROWS = (
     "robots",
     "reset",
 )
-FOR_CHILDREN = ("language", "flashes", "shake", "rumble", "ease", "padtest")
-EASE, EASE_FOR_CHILDREN = ("calm", "large", "remap"), ("calm", "large")
+FOR_CHILDREN = ("language", "rumble", "ease", "padtest")
+EASE_FOR_CHILDREN = ("calm", "flashes", "shake", "large")
+EASE = (*EASE_FOR_CHILDREN, "remap")
 OPENING = ("padtest", "robots", "ease", "remap")  # rows that open a page
 TOP, BOTTOM, HIGH = 240, 908, 64
 log = logging.getLogger("pigaming")
