@@ -125,7 +125,9 @@ class ChangedControls:
 
     def error(self, value: object) -> str | None:
         tables = list(value.values()) if isinstance(value, dict) and len(value) <= MAX_DEVICES else [None]
-        codes = [code for table in tables if isinstance(table, dict) and len(table) <= MAX_DEVICES for code in table.values()]
+        codes = [
+            code for table in tables if isinstance(table, dict) and len(table) <= MAX_DEVICES for code in table.values()
+        ]
         valid = all(isinstance(table, dict) and table for table in tables) and all(
             type(code) is int and 0 <= code < 1024 for code in codes
         )

@@ -40,6 +40,7 @@ from pigaming_app.scenes.operator.figures_page import FiguresPage
 from pigaming_app.scenes.operator.page import OperatorPage
 from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
@@ -299,6 +300,8 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
     "operator day": lambda arcade: OperatorPage(arcade.context),
     "operator figures": figures,
+    "options easier": lambda arcade: OptionsPage(arcade.context, ease=True),
+    "remap": lambda arcade: RemapPage(arcade.context),
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
     "pad test": lambda arcade: ControlsTest(arcade.context),
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),

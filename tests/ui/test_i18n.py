@@ -67,7 +67,7 @@ def test_the_first_language_is_that_of_the_system(monkeypatch: pytest.MonkeyPatc
 
 
 def test_what_is_printed_is_in_english_too() -> None:
-    assert with_english("de", "keys.SPACE", "options.off") == ["LEERTASTE", "Aus", "SPACE", "Off"]
+    assert with_english("de", "keys.SPACE", "options.off") == ["LEER", "Aus", "SPACE", "Off"]
     assert with_english("en", "keys.SPACE") == ["SPACE"]
 
 

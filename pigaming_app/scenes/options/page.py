@@ -38,8 +38,6 @@ ROWS = (
     "language",
     "music",
     "sounds",
-    "flashes",
-    "shake",
     "rumble",
     "ease",
     "display",
@@ -50,8 +48,9 @@ ROWS = (
     "day",
     "reset",
 )
-FOR_CHILDREN = ("language", "flashes", "shake", "rumble", "ease", "padtest")
-EASE, EASE_FOR_CHILDREN = ("calm", "large", "remap"), ("calm", "large")
+FOR_CHILDREN = ("language", "rumble", "ease", "padtest")
+EASE_FOR_CHILDREN = ("calm", "flashes", "shake", "large")
+EASE = (*EASE_FOR_CHILDREN, "remap")
 OPENING = ("padtest", "phones", "robots", "day", "ease", "remap")  # rows that open a page
 TOP, BOTTOM, HIGH = 226, 930, 64
 log = logging.getLogger("pigaming")

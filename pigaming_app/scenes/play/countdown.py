@@ -7,7 +7,7 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.ui.draw import ALARM, BLACK, BOLD, FOCUS, ICE, Color, GlowCanvas, font
+from pigaming_app.ui.draw import ALARM, BLACK, BOLD, FOCUS, ICE, Color, GlowCanvas, baseline, font
 from pigaming_app.ui.draw.frame_budget import Job, Steps, resumable
 from pigaming_app.ui.draw.sprites import Sprite, faded, trim
 from pigaming_app.ui.draw.surface_cache import cached
@@ -97,7 +97,7 @@ def _word(text: str, color: Color) -> Steps[Sprite]:
     edge = font("hero", HUGE).render(text, True, BLACK)
     w, h = edge.get_width() + 128, HUGE + 128
     out = pygame.Surface((w, h), pygame.SRCALPHA)
-    top = h / 2 - font("hero", HUGE).get_ascent() + CAPITALS * HUGE / 2
+    top = h / 2 - baseline(text, "hero", HUGE) + CAPITALS * HUGE / 2
     for i in range(24):
         angle = i * math.tau / 24
         out.blit(edge, (64 + OUTLINE * math.cos(angle), top + OUTLINE * math.sin(angle)))

@@ -174,7 +174,12 @@ class Title:
             w = int(width * share)
             spots.append(FocusSpot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
             x += w + MENU_GAP
-        w = chip_width(self._item_name("language"))
+        words, button = self.context.words, self.context.controls.label(None, Button.Y)
+        beside = button_width(button) + 28 if button else 0
+        self.language_word = NAMES[words.language]
+        if RIGHT - chip_width(self.language_word) - beside < x:  # no room: its code
+            self.language_word = words.language.upper()
+        w = chip_width(self.language_word)
         return [*spots, FocusSpot("language", pygame.Rect(RIGHT - w, FOOT_Y - 32, w, 64))]
 
     def _menu(self) -> tuple[str, ...]:
@@ -203,8 +208,7 @@ class Title:
 
     def _item_name(self, name: str) -> str:
         """The word on a menu item; the language is called by its own name."""
-        words = self.context.words
-        return NAMES[words.language] if name == "language" else words(f"title.{name}")
+        return self.language_word if name == "language" else self.context.words(f"title.{name}")
 
     def _foot(self, screen: pygame.Surface) -> None:
         for name in (*self._menu(), "language"):

@@ -105,7 +105,7 @@ def options(walker: TourWalker) -> None:
     choose(walker, "options")
     walker.wait(0.5)
     for name in [*walker.top.rows]:
-        if name in ("padtest", "robots"):
+        if name in ("padtest", "robots", "ease"):
             walker.set_screen(f"options: {name}")
             walker.press("space", pause=1.0)
             if name == "robots":

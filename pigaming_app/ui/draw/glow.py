@@ -21,7 +21,7 @@ from pigaming_app.ui.draw.theme import (
     WHITE,
     Color,
     Points,
-    font,
+    baseline,
     line_image,
     mix,
     regular_polygon,
@@ -156,11 +156,10 @@ class GlowCanvas:
         self, text: str, size: int, x: float, y: float, color: Color = ICE, face: str = "head", align: str = "l"
     ) -> Self:
         """One upright line of text; y is the middle of its capitals; `align` is "l", "c" or "r" relative to x."""
-        f = font(face, round(size * self.k))
         image = line_image(text, face, round(size * self.k), color)
         px, py = self._at((x, y))
         px -= {"l": 0.0, "c": 0.5, "r": 1.0}[align] * image.get_width()
-        at = round(px), round(py + CAPITALS * size * self.k / 2 - f.get_ascent())
+        at = round(px), round(py + CAPITALS * size * self.k / 2 - baseline(text, face, round(size * self.k)))
         box = self.sheet.blit(image, at)
         self._mark(box.left, box.top, box.right, box.bottom)
         if color == BLACK:  # keep black lettering black under neighbouring glow

@@ -92,16 +92,25 @@ def line_width(text: str, face: str, size: int) -> int:
     )
 
 
+def baseline(text: str, face: str, size: int) -> int:
+    """The baseline of a line as `line_image` renders it, px from its top: accents above capitals push it down."""
+    letters = font(face, size)
+    tops = [metrics[3] for metrics in letters.metrics("".join(set(text) - set(STARS))) or () if metrics]
+    return max(letters.get_ascent(), *tops) if tops else letters.get_ascent()
+
+
 def line_image(text: str, face: str, size: int, color: Color) -> pygame.Surface:
     """A rendered line with per-pixel alpha. The fonts lack stars, so these are drawn: ★ filled, ☆ as an outline."""
     letters = font(face, size)
     if not any(star in text for star in STARS):
         return letters.render(text, True, color)
-    out = pygame.Surface((line_width(text, face, size), letters.get_linesize()), pygame.SRCALPHA)
-    middle, advance, x = letters.get_ascent() - (CAPITALS / 2 - STAR_DROP) * size, round(STAR_ADVANCE * size), 0
+    base = baseline(text, face, size)
+    higher = base - letters.get_ascent()
+    out = pygame.Surface((line_width(text, face, size), letters.get_linesize() + higher), pygame.SRCALPHA)
+    middle, advance, x = base - (CAPITALS / 2 - STAR_DROP) * size, round(STAR_ADVANCE * size), 0
     for part in _runs(text):
         if part[0] not in STARS:
-            out.blit(image := letters.render(part, True, color), (x, 0))
+            out.blit(image := letters.render(part, True, color), (x, base - baseline(part, face, size)))
             x += image.get_width()
             continue
         for star in part:

@@ -111,7 +111,9 @@ DEFAULTS = {
     for number, cluster in enumerate(CLUSTERS, start=1)
 }  # the first key of each function
 _PRINTED = {
-    code: cluster.key_name[button] for cluster in CLUSTERS for name, button in FUNCTIONS.items()
+    code: cluster.key_name[button]
+    for cluster in CLUSTERS
+    for name, button in FUNCTIONS.items()
     for code in getattr(cluster, name)[:1]
 }  # on the keys of the clusters
 _SCANCODE = 1 << 30  # marks a keycode that is a scancode, see SDL_Keycode
@@ -200,7 +202,6 @@ class Keyboard:
             any(key in down for key in cluster.fire),
             any(key in down for key in cluster.turbo),
         )
-
 
     def label(self, number: int, button: Button) -> str:
         """The label of a cluster's key for a button; empty if there is none."""

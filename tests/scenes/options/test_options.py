@@ -8,10 +8,12 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.options.controls_test import ControlsTest
-from pigaming_app.scenes.options.page import CLEAR, OptionsPage
+from pigaming_app.scenes.options.page import CLEAR, EASE, OptionsPage
+from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw import BODY, readable
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
@@ -34,8 +36,12 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def go(arcade: Arcade, name: str) -> OptionsPage:
-    """Focus a row."""
+    """Focus a row, of the page for easier use if it is there."""
     page = arcade.shown(OptionsPage)
+    if name in EASE and name not in page.rows:
+        go(arcade, "ease")
+        arcade.press(Button.FIRE)
+        page = arcade.shown(OptionsPage)
     while page.focus.name != name:
         arcade.press(Button.DOWN)
     return page
@@ -76,12 +82,13 @@ def test_fire_cycles_through_the_values(arcade: Arcade) -> None:
 
 def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> None:
     page = arcade.shown(OptionsPage)
-    music, shake = page.focus.rect("music"), page.focus.rect("shake")
+    music = page.focus.rect("music")
     arcade.click(music.x + dials.AT + 3 * dials.CELL - 10, music.centery)
     assert arcade.context.settings.music == 3
     arcade.click(music.x + 60, music.centery)
     assert arcade.context.settings.music == 3
     off = dials.chips((arcade.context.words("options.off"), arcade.context.words("options.on")))[0]
+    shake = go(arcade, "shake").focus.rect("shake")
     arcade.click(shake.x + off[0] + 10, shake.centery)
     assert arcade.context.settings.shake is False
 
@@ -90,7 +97,7 @@ def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> N
 def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
     page = arcade.shown(OptionsPage)
-    for name in page.rows:
+    for name in (*page.rows, *EASE):
         value = page._value(name)
         if value.kind in ("toggle", "deed"):
             x, w = dials.chips(value.options)[-1]
@@ -198,3 +205,26 @@ def test_rumbling_can_be_switched_off_and_on_again_with_a_sample(arcade: Arcade,
         arcade.frame()
         assert kept(tmp_path)["rumble"] is True
         assert max(pad.rumbles[0]) > 0
+
+
+def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, tmp_path: Path) -> None:
+    go(arcade, "ease")
+    arcade.press(Button.FIRE)
+    page = arcade.shown(OptionsPage)
+    assert [*page.rows] == ["calm", "flashes", "shake", "large", "remap"]
+    go(arcade, "calm")
+    arcade.press(Button.RIGHT)
+    go(arcade, "large")
+    arcade.press(Button.RIGHT)
+    assert (kept(tmp_path)["calm"], kept(tmp_path)["large_text"]) == (True, True)
+    arcade.press(Button.LEFT)
+    assert readable(BODY) == BODY
+    go(arcade, "remap")
+    arcade.press(Button.FIRE)
+    arcade.shown(RemapPage)
+
+
+@pytest.mark.parametrize("operator", [False, True])
+def test_in_a_kiosk_only_the_operator_changes_the_controls(arcade: Arcade, operator: bool) -> None:
+    arcade.context.kiosk = True
+    assert ("remap" in OptionsPage(arcade.context, operator, ease=True).rows) == operator

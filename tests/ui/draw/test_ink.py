@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+import pygame
 import pytest
 
 from pigaming_app.ui.draw import (
@@ -95,3 +96,15 @@ def test_hints_stand_in_the_middle():
     lit = [x for x in range(0, 1920, 2) if any(row.get_at((x, y)).g > 90 for y in range(0, 80, 4))]
 
     assert abs((lit[0] + lit[-1]) / 2 - 960) < 8
+
+
+@pytest.mark.parametrize("face", ["head", "hero", "body"])
+@pytest.mark.parametrize("word", ["ÉE", "ÖE", "ÇE", "★ÉE"])
+def test_accents_do_not_move_a_line(face: str, word: str) -> None:
+    """Capitals stand on the same line with and without accents."""
+    feet = []
+    for text in ("E", word):
+        canvas = GlowCanvas(300, 200).text(text, 80, 280, 100, WHITE, face, "r")
+        rows = pygame.surfarray.array3d(canvas.sheet)[520:560].max(axis=(0, 2))  # of the E at the end
+        feet.append(int(rows.nonzero()[0][-1]))
+    assert feet[0] == pytest.approx(feet[1], abs=2)

@@ -4,7 +4,7 @@ import math
 
 import pygame
 
-from pigaming_app.ui.draw import BLACK, Color, GlowCanvas, font
+from pigaming_app.ui.draw import BLACK, Color, GlowCanvas, baseline, font
 from pigaming_app.ui.draw.sprites import Sprite, trim
 
 
@@ -15,7 +15,7 @@ def edged(text: str, size: int, color: Color) -> Sprite:
     w, h = edge.get_width() // 2 + 64, size + 64
     ink = GlowCanvas(w, h).text(text, size, w / 2, h / 2, color, "hero", "c")
     dark = pygame.Surface(ink.sheet.get_size(), pygame.SRCALPHA)
-    x, y = w - edge.get_width() / 2, h - face.get_ascent() + 0.7 * size
+    x, y = w - edge.get_width() / 2, h - baseline(text, "hero", 2 * size) + 0.7 * size
     for i in range(12):
         dark.blit(edge, (x + 10 * math.cos(i * math.tau / 12), y + 10 * math.sin(i * math.tau / 12)))
     out = pygame.transform.smoothscale(dark, (w, h))
