@@ -8,7 +8,6 @@ import os
 import shutil
 import subprocess
 import sys
-import time
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -125,11 +124,16 @@ def test_learning_is_compiled_in_it(inside: list[str]) -> None:
     assert "numba" not in ended.stderr
 
 
-def test_the_emulated_arena_and_the_title_open(inside: list[str]) -> None:
-    assert run(inside, "--frames", "30", "--emulate").returncode == 0
-    began = time.monotonic()
-    assert run(inside, "--kiosk", "--frames", "1").returncode == 0
-    assert time.monotonic() - began < 10.0
+def test_emulated_robots_drive_under_the_emulated_camera(inside: list[str]) -> None:
+    seats = ("--seats", "level3,level3", "--real", "1,2", "--minutes", "0.05")
+    ended = run(inside, "play", "pitanks", "--emulate", "--headless", *seats)
+    assert ended.returncode == 0, ended.stderr
+    assert len(ended.stdout.splitlines()) == 2
+
+
+def test_the_title_opens_also_in_a_kiosk(inside: list[str]) -> None:
+    assert run(inside, "--frames", "1").returncode == 0
+    assert run(inside, "--kiosk", "--frames", "5").returncode == 0
 
 
 @pytest.mark.parametrize("words", [["test"], ["bundle"], ["train", "qlearning", "--out", "a.npz", "--curve", "a.png"]])
