@@ -46,6 +46,7 @@ def main() -> int:
 if __name__ == "__main__":
     code = main()
     opened_by_double_click = sys.platform == "win32" and len(sys.argv) == 1 and "PROMPT" not in os.environ
+    opened_by_double_click &= not getattr(sys, "frozen", False)  # a bundle hides its console then
     if code and opened_by_double_click and sys.stdin and sys.stdin.isatty():
         input("Press Enter to close this window.")
     sys.exit(code)

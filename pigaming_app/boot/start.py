@@ -26,8 +26,8 @@ from pigaming_app.boot.interpreter import (
 
 NEEDED = {"test": {"test"}, "bundle": {"bundle"}}
 OPTIONAL = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # extras that a job also runs without
-TESTED = {"train", "hardware", "plots", "gym", "onnx", "phones", "bundle"}
-OPTIONAL |= {"test": TESTED, "bench": {"train", "gym", "bench"}, "bundle": {"train", "hardware", "phones"}}
+OPTIONAL |= {"test": {"train", "hardware", "plots", "gym", "onnx", "phones"}, "bench": {"train", "gym", "bench"}}
+OPTIONAL |= {"bundle": {"train", "hardware", "phones"}}
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),

@@ -10,6 +10,7 @@ import pytest
 from pigaming_app.boot.interpreter import StartError
 from pigaming_app.cli import main
 from pigaming_app.jobs import doctor
+from pigaming_app.storage.restarts import Restart, append_restart
 from pigaming_app.storage.scores import Scores
 
 WELL = [
@@ -34,6 +35,18 @@ def answer(monkeypatch, *lines):
 def line(what):
     (found,) = (one for one in doctor.report() if one.what == what)
     return found
+
+
+def test_restarts_of_a_kiosk_are_a_note(home):
+    assert "kiosk restarts" not in [one.what for one in doctor.report()]
+    for detail in ("exit code 1", "ended by SIGSEGV"):
+        append_restart(home / "data", Restart("2026-05-09T14:30:00+01:00", "crash", detail, 12.5, "crashes/a.txt"))
+    found = line("kiosk restarts")
+    assert (found.state, found.found) == (
+        "note",
+        "2, the last one at 2026-05-09T14:30:00+01:00 (crash: ended by SIGSEGV)",
+    )
+    assert "crashes" in found.advice
 
 
 def test_where_all_is_well_the_exit_code_is_zero(capsys):
