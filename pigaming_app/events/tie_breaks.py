@@ -20,12 +20,12 @@ class Game:
 
 @dataclass(frozen=True)
 class Table:
-    """All matches that count, and the sum of the points of everybody, with those of byes."""
+    """All matches that count, and the sum of the points of everybody, with those of byes and walkovers."""
 
     points: Mapping[str, float]
     games: Sequence[Game]
-    missed: Mapping[str, int]  # rounds without an opponent: byes and missed ones
-    byes: Mapping[str, float]  # points of byes
+    missed: Mapping[str, int]  # rounds without an opponent: byes, walkovers and missed ones
+    unplayed: Mapping[str, float]  # points of byes and walkovers
 
 
 def head_to_head(table: Table, level: Sequence[str]) -> Values:
@@ -62,7 +62,7 @@ def sonneborn_berger(table: Table, level: Sequence[str]) -> Values:
     """Sum of the opponents' points, each times the own points against it (article 9.1)."""
     return {
         name: sum(game.points[name] * _opponents(table, game, name) for game in table.games if name in game.points)
-        + table.byes[name] * table.points[name]
+        + table.unplayed[name] * table.points[name]
         for name in level
     }
 

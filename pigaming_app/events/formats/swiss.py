@@ -18,8 +18,8 @@ from pigaming_app.events.formats.field import Draw, Field, Match, Pair
 from pigaming_app.events.formats.grouping import neighbours
 from pigaming_app.events.formats.scoring import scores
 
-TRIES = 20_000  # steps of the search for one order
-ORDERS = 20  # other orders that are tried
+TRIES = 5_000  # steps of the search for one order
+ORDERS = 10  # other orders that are tried
 
 
 def next_round(field: Field) -> Draw | None:
