@@ -85,7 +85,7 @@ def team_standings(progress: Progress) -> tuple[Standing, ...]:
 
 
 def _table(field: Field) -> Table:
-    """The matches as the format counts them. In a round robin a walkover counts as played (C.07, article 16.1)."""
+    """The matches as the format counts them. In a round robin a walkover counts as played."""
     form = field.spec.format
     points, unplayed = dict.fromkeys(field.entrants, 0.0), dict.fromkeys(field.entrants, 0.0)
     games, met = [], dict.fromkeys(field.entrants, 0)

@@ -1,7 +1,7 @@
 """Grand Prix: everybody plays in every round, each round is of the next game, and places bring points.
 
 Heats are of equal strength by the seeding (serpentine), then of entrants who have met least. Entrants of the same place
-add up the points of their places and share them, as in a dead heat (FIA Formula One Sporting Regulations, article 7).
+add up the points of their places and share them, as in a dead heat (FIA Formula One Sporting Regulations).
 In heats of two, an odd one out has a bye, in turn from the last seed up, with the points of a tie.
 """
 
