@@ -13,7 +13,7 @@ from pigaming_app.events import event_files
 from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
-from pigaming_app.events.spec import FEWEST, MAX_ROUNDS, MOST, SEATS, Advance, Entrant, EventSpec, Format
+from pigaming_app.events.spec import FEWEST, MAX_ROUNDS, MAX_TITLE, MOST, SEATS, Advance, Entrant, EventSpec, Format
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.event.files import file_option
@@ -83,7 +83,7 @@ def _spec(arguments: Namespace) -> EventSpec:
     require_one_of("choice for --advance:", arguments.advance, list(Advance))
     form = Format(arguments.format)
     return EventSpec(
-        title=arguments.title or arguments.file.stem,
+        title=arguments.title or arguments.file.stem[:MAX_TITLE],
         format=form,
         games=played,
         entrants=tuple(_with_whole_path(entrant) for entrant in _entrants(arguments.entrants)),

@@ -45,8 +45,10 @@ def run(arguments: Namespace) -> int:
         headless = HeadlessRun(event)
         while event.open:
             started = perf_counter()
-            outcomes = headless.play(event)
+            outcomes, entrants = headless.play(event), event.entrants
             event = event_files.update(arguments.file, partial(_recorded, outcomes), event)
+            if event.entrants != entrants:  # changed by another process
+                headless = HeadlessRun(event)
             _progress(event)
             if arguments.speed < inf:
                 sleep(max(0.0, _longest(event, outcomes) / arguments.speed - (perf_counter() - started)))
@@ -58,8 +60,10 @@ def run(arguments: Namespace) -> int:
 
 
 def _recorded(outcomes: list[Outcome], event: Event) -> Event:
+    """The event with these outcomes, as far as another process has not been faster. Raises ValueError."""
     for outcome in outcomes:
-        event = event.record(outcome)
+        if outcome.fixture not in event.outcomes:
+            event = event.record(outcome)
     return event
 
 
