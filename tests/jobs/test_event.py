@@ -174,6 +174,9 @@ def test_every_value_is_used_or_refused_in_one_line(tmp_path, monkeypatch, seed)
     cases = [[*basic, option, value] for option in OPTIONS for value in ANY]
     cases += [["event", *words, value] for words in (["show"], ["run", "--headless"], [], ["export"]) for value in ANY]
     cases += [["event", "new", value, *basic[3:]] for value in ANY]
+    assert main(["event", "new", "kept.json", *basic[3:]]) == 0
+    targets = ("--csv", "--matches", "--json")
+    cases += [["event", "export", "kept.json", option, value] for option in targets for value in ANY]
     faults = {}
     for case in random.Random(seed).sample(cases, 120):
         Path("cup.json").unlink(missing_ok=True)
