@@ -214,6 +214,7 @@ def test_a_killed_run_goes_on_where_it_stopped(capsys):
     result = json.loads(capsys.readouterr().out)
     assert len(result["matches"]) == 48
     assert all(match["played"] for match in result["matches"])
+    assert not [*Path().glob(".pigaming-*")]
     straight = load(Path("cup.json"))[0]
     Path("cup.json").unlink()
     assert new("--rounds", "8", entrants="A=random,B=idle,C=random,D=idle") == 0

@@ -22,6 +22,7 @@ from pigaming_app.jobs.event.show import print_event
 from pigaming_app.jobs.terminal.options import decimal
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.storage.safe_files import require_writable
 
 
 def options(parser: ArgumentParser) -> None:
@@ -38,6 +39,7 @@ def run(arguments: Namespace) -> int:
     event = loaded(arguments.file)
     if not arguments.headless:
         raise Refusal("event run: add --headless; events in a window are started from the arcade")
+    require_writable(arguments.file)
     require_for_brains(entrant.brain for entrant in event.entrants)
     began, before = perf_counter(), len(event.outcomes)
     with refused(ChoiceError, ArenaError, ValueError):
