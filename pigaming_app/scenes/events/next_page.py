@@ -339,10 +339,7 @@ class NextMatch:
         devices = [self.claims.get(seat) for seat in range(4)]
         real = [seat - 1 for seat in self.context.settings.real] if self.context.robots else []
         after = partial(after_match, self.running, fixture)
-        scene = match_of(self.context, setup, devices, real, after=after)
-        if isinstance(scene, MatchScene):
-            scene.names = fixture.entrants
-        return Swap(scene)
+        return Swap(match_of(self.context, setup, devices, real, after=after))
 
     def _setup_of(self, fixture: Fixture) -> Setup | None:
         """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
@@ -453,6 +450,7 @@ def after_match(running: RunningEvent, fixture: Fixture, scene: MatchScene) -> A
     """The next page after a match, whose result is on the disk by then. One that was ended by hand is still open."""
     if not scene.match.over:
         return NextMatch(scene.context, running, "events.unplayed")
+    scene.names = fixture.entrants
     outcome = outcome_of(fixture, scene.match.outcome().rows)
     saved = running.change(running.event.record(outcome))
     return NextMatch(scene.context, running, "" if saved else "app.unsaved", show=not scene.humans)

@@ -94,7 +94,7 @@ class MatchScene:
         self.began, self.noted = now(), False  # for the day log
         self.ai_assisted: set[int] = set()
         self.join_allowed = self.restart_allowed = after is None
-        self.names: Sequence[str] = ()  # of the first seats, in an event
+        self.names: Sequence[str] = ()  # of the first seats, in an event: set by `after`
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans and arena is None:
@@ -441,8 +441,8 @@ class MatchScene:
             results = self._results()
             return results.ended, results
         absent = [seat for seat in self.humans if self.devices[seat] is None]
-        ended = EndedMatch(self.setup, self.match.outcome(), self.humans, absent, self.devices, self.names)
-        return ended, self.after(self)
+        following = self.after(self)
+        return EndedMatch(self.setup, self.match.outcome(), self.humans, absent, self.devices, self.names), following
 
     def _results(self) -> Results:
         rounds = self.rounds if self.rounds and self.rounds.outcomes else None

@@ -1,17 +1,21 @@
 """Events on the screen: set-up by pad and list, seats, results on disk, absent and late people, corrections, podium."""
 
 from pathlib import Path
+from time import sleep
 
 import pytest
 
+from pigaming_app.ai.registry import new_match
 from pigaming_app.events import event_files
 from pigaming_app.events.journal import Corrected
+from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.scenes.events import choice, next_page
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.corrections import Correction, ResultsList
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
@@ -164,6 +168,7 @@ def test_people_take_the_seats_of_their_names_and_the_result_is_on_disk_at_once(
     assert [seat.brain for seat in scene.setup.seats] == ["human", "human", "off", "off"]
     finish(arcade, (5, 1))
     assert saved(run).outcomes[fixture.number].places == ((fixture.entrants[0],), (fixture.entrants[1],))
+    assert arcade.shown(WinnersMoment).name == f"{fixture.entrants[0]} wins!"
     arcade.wait(1.2)
     arcade.press(Button.FIRE)
     assert arcade.shown(NextMatch).fixture != fixture
@@ -376,3 +381,31 @@ def test_every_page_survives_every_press(arcade: Arcade) -> None:
                 at = (960.0, 240.0) if device.kind == "mouse" else None
                 scene.handle(InputEvent(button, device, at=at))
                 scene.update(0.1)
+
+
+@pytest.mark.long
+def test_a_match_in_the_background_ends_as_the_show_does(arcade: Arcade) -> None:
+    event = an_event(brains="level2")
+    quick = QuickMatches(event, event.open[:1])
+    while (outcome := quick.next_outcome()) is None and not quick.over:
+        sleep(0.01)
+    shown = new_match(setup_of(event, event.open[0]))
+    while not shown.over:
+        shown.tick()
+    assert outcome == outcome_of(event.open[0], shown.outcome().rows)
+    assert quick.left == 0
+
+
+def test_matches_in_the_background_end_with_the_page(arcade: Arcade) -> None:
+    page = at_next(arcade, running(an_event(brains="level1")))
+    arcade.press(Button.Y)
+    quick = page.quick
+    assert quick
+    arcade.press(Button.BACK)
+    assert (page.quick, quick.left) == (None, 2)
+    arcade.press(Button.Y)
+    quick = page.quick
+    assert quick
+    arcade.press(Button.START)
+    arcade.stack.clear()
+    assert quick.over
