@@ -9,12 +9,13 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes.app import App, Options, run
+from pigaming_app.scenes.app import App, Options, opened, run
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, StackOperation
 from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage.settings import Settings
 from tests.scenes.arcade import Floor, setup
 
 pytestmark = pytest.mark.usefixtures("_cache_of_its_own")
@@ -130,6 +131,19 @@ def test_unreadable_settings_are_reported_on_the_screen_and_in_detail_on_stderr(
     run(Options(headless=True, frames=1, step=STEP))
     assert said == ["Não foi possível ler algumas opções. Usam-se as iniciais."]
     assert "music = 99 is not between 0 and 10" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("stored", "language"), [(None, "fr"), ('language = "de"\n', "de"), ("music = 3\n", "en")])
+def test_only_the_very_first_start_takes_the_language_of_the_system(
+    home: Path, monkeypatch: pytest.MonkeyPatch, stored: str | None, language: str
+) -> None:
+    monkeypatch.setenv("LANG", "fr_FR.UTF-8")
+    if stored:
+        (home / "config").mkdir()
+        (home / "config" / "settings.toml").write_text(stored)
+    with opened(Options(headless=True)) as app:
+        assert app.context.words.language == app.context.settings.language == language
+    assert Settings.load(home / "config")[0].language == language
 
 
 @pytest.mark.parametrize(("kiosk", "frames"), [(False, 1), (True, 10)])

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, POINT, TURN
+from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN
 from pigaming_app.scenes.flow.driving import PARTY, PICTURES, DrivingStyles
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import ICONS
@@ -24,7 +24,7 @@ def test_a_new_pad_points_in_party_rules_and_everything_else_turns_and_drives() 
 def test_a_choice_holds_for_the_device_in_every_game_and_for_new_devices_of_its_kind(tmp_path: Path) -> None:
     settings = Settings()
     styles = DrivingStyles(settings)
-    styles.change(PAD, "pitanks", PARTY, 1)
+    styles.change(PAD, "pitanks", PARTY, -1)
     assert styles.of(PAD, "factory", PARTY) == TURN
     styles.change(OTHER, "pitanks", PARTY, 1)
     assert (styles.of(PAD, "pitanks", PARTY), styles.of(OTHER, "pitanks", PARTY)) == (TURN, POINT)
@@ -75,6 +75,17 @@ def test_a_replugged_pad_drives_as_before_unless_its_player_has_chosen() -> None
     styles.change(OTHER, "race", "standard", -1)
     styles.inherit(OTHER, PAD)
     assert styles.of(OTHER, "race", "standard") == TURN
+
+
+def test_one_button_is_for_one_device_and_not_remembered() -> None:
+    styles = DrivingStyles(Settings())
+    styles.change(PAD, "pitanks", "plain", -1)
+    assert styles.of(PAD, "race", "standard") == ONE_BUTTON
+    assert styles.settings.pad_driving == ""
+    assert styles.of(OTHER, "pitanks", "plain") == TURN
+    styles.change(KEYS, "pitanks", "plain", 1)
+    styles.forget_one_button()
+    assert (styles.of(PAD, "pitanks", "plain"), styles.of(KEYS, "pitanks", "plain")) == (TURN, POINT)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import LEVELS, POINT, RIVALS, TURN
+from pigaming_app.ai.registry import LEVELS, ONE_BUTTON, POINT, RIVALS, TURN
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.flow import match_choice
@@ -245,7 +245,7 @@ def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls,
     arcade.press(Button.RIGHT)
     page = arcade.shown(Lobby)
     assert page.seats.real() == []
-    assert "deadman" in page.now.message
+    assert "deadman" in page.now.message.lower()
 
 
 def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:
@@ -275,6 +275,8 @@ def test_everyone_chooses_a_driving_style_on_the_own_card_with_pad_keys_or_mouse
         arcade.frame()
         assert styles() == [POINT, POINT]
         arcade.click(card_rect(1).centerx, card_rect(1).top + DRIVE_Y)
+        assert styles() == [POINT, ONE_BUTTON]
+        arcade.click(card_rect(1).centerx, card_rect(1).top + DRIVE_Y)
         assert styles() == [POINT, TURN]
         arcade.press(Button.X)
         arcade.press(Button.LEFT)
@@ -282,6 +284,15 @@ def test_everyone_chooses_a_driving_style_on_the_own_card_with_pad_keys_or_mouse
         arcade.press(Button.DOWN)
         arcade.press(Button.LEFT)
         assert styles() == [TURN, TURN]
+
+
+def test_in_a_kiosk_one_button_ends_on_the_title(arcade: Arcade) -> None:
+    driving, device = arcade.context.driving, KEYS[0]
+    for kiosk in (False, True):
+        driving.chosen[device] = ONE_BUTTON
+        arcade.context.kiosk = kiosk
+        Title(arcade.context).on_enter()
+        assert (device in driving.chosen) == (not kiosk)
 
 
 def test_a_kiosk_offers_party_rules_until_visitors_choose_others_and_again_after_the_title(

@@ -7,8 +7,8 @@ from contextlib import ExitStack
 import pygame
 import pytest
 
-from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
-from pigaming_app.ai.registry import TURN
+from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer, OneButtonPlayer
+from pigaming_app.ai.registry import ONE_BUTTON, TURN
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.play.countdown import CENTRE, clear_of
 from pigaming_app.scenes.play.device_table import DeviceTable
@@ -239,6 +239,22 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     assert match.devices[1] == device
     assert isinstance(match.match.brains[1], HumanPlayer)
     assert match.runner.view.players[:2] == ["human", "human"], "and the mark goes"
+
+
+def test_with_one_button_the_robot_drives_by_itself_and_sets_no_record(arcade: Arcade, pads: ExitStack) -> None:
+    pad, device = plug(arcade, pads)
+    arcade.context.driving.chosen[device] = ONE_BUTTON
+    match = MatchScene(arcade.context, setup("human human off off", 1.0), [device, KEYS[0]])
+    arcade.open(match)
+    assert isinstance(match.match.brains[0], OneButtonPlayer)
+    assert isinstance(match.match.brains[1], HumanPlayer)
+    assert (match.humans, match.ai_assisted) == ([0, 1], {0})
+    assert match.runner.view.players[:2] == ["human", "human"]
+    arcade.wait(COUNTDOWN + 2.0)
+    assert match.match.state.tanks[0].shots == 0
+    pad.tap("a")
+    arcade.wait(0.5)
+    assert match.match.state.tanks[0].shots == 1
 
 
 def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade, pads: ExitStack) -> None:
