@@ -146,13 +146,15 @@ class PhoneServer:
 
     def _headers(self) -> dict[str, str]:
         sockets = f"connect-src 'self' ws://{self.address}:{self.port}"
-        policy = f"default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src data:"
+        policy = (
+            "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src data:; base-uri 'none'"
+        )
         return {
             "Server": "PiGaming",
             "Cache-Control": "no-store",
             "Referrer-Policy": "no-referrer",
             "X-Content-Type-Options": "nosniff",
-            "Content-Security-Policy": f"{policy}; {sockets}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+            "Content-Security-Policy": f"{policy}; {sockets}; form-action 'none'; frame-ancestors 'none'",
         }
 
     def _refused(self, kind: str, request: web.Request) -> web.StreamResponse:
