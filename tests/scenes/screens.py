@@ -3,6 +3,9 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from functools import partial
+from types import SimpleNamespace
+from typing import Any
 
 from pigaming_app.ai.registry import POINT, RIVALS
 from pigaming_app.events.day_log import Battery, PlayedMatch, ProgramEvent, Record
@@ -41,6 +44,8 @@ from pigaming_app.scenes.operator.page import OperatorPage
 from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.options.remap_page import RemapPage
+from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
+from pigaming_app.scenes.phones.settings_page import PhonesPage
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
@@ -53,6 +58,7 @@ from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events import drawn
 
@@ -270,6 +276,41 @@ def figures(arcade: Arcade) -> FiguresPage:
     return page
 
 
+PHONES = [Device("phone", number) for number in range(4)]
+URL = "http://192.168.100.200:65535/mmmmmmmmmm"  # the widest one
+
+
+def with_phones(arcade: Arcade, trouble: str = "") -> Arcade:
+    """Phones are on, without a server: at the widest address, or with the trouble of this key."""
+    host = arcade.context.phone_host
+    host._asked = ("", 65535)
+    if trouble:
+        host.trouble = PhonesUnavailable(trouble, port=65535, name="Intel(R) Wi-Fi 6E AX210 160MHz")
+    else:
+        server: Any = SimpleNamespace(url=URL, port=65535, visited=False, stop=lambda: None)
+        host.server = server
+    return arcade
+
+
+def join_by_phone(arcade: Arcade, trouble: str = "") -> Scene:
+    page = JoinByPhone(with_phones(arcade, trouble).context, lambda: PHONES)
+    page.clock = PATIENCE + 1.0
+    return page
+
+
+def phones_page(arcade: Arcade, trouble: str = "") -> Scene:
+    page = PhonesPage(with_phones(arcade, trouble).context)
+    page.networks = [Network("Intel(R) Wi-Fi 6E AX210 160MHz", "192.168.100.200")]
+    arcade.context.settings.phones_network = page.networks[0].name
+    return page
+
+
+def locked_phone(arcade: Arcade) -> Scene:
+    scene = match(arcade)
+    scene.devices[3] = PHONES[3]
+    return Reconnect(scene, 3)
+
+
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "events": events,
     **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
@@ -306,6 +347,16 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "pad test": lambda arcade: ControlsTest(arcade.context),
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),
+    "reconnect a phone": locked_phone,
+    "join by phone": join_by_phone,
+    "options of phones": phones_page,
+    **{f"join by phone, {key}": partial(join_by_phone, trouble=key) for key in ("missing", "network_gone")},
+    **{f"options of phones, {key}": partial(phones_page, trouble=key) for key in ("port_taken", "port_forbidden")},
+    **{
+        f"lobby {game} with phones": lambda arcade, game=game: lobby(game, 0, 0)(with_phones(arcade))
+        for game in games()
+    },
+    "pause with phones": lambda arcade: Pause(match(with_phones(arcade)), KEYS[0]),
     "still there": lambda arcade: StillThere(match(arcade)),
     "replays": lambda arcade: ReplaysPage(arcade.context),
     "devices": lambda arcade: DeviceTable(

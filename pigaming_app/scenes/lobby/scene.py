@@ -62,7 +62,7 @@ class Lobby:
         self.prewarm_queue = PrewarmQueue(card.prewarm_jobs())
         self.prewarm_queue.append(self._row_jobs())
         self.warmup: MatchRunner | None = None
-        self.code_due, self.code_open = True, False  # the large QR code: shown first without being asked for
+        self.code_due, self.code_open = not any(drivers), False  # the large QR code: opens an empty lobby
 
     @property
     def variant(self) -> str:

@@ -12,6 +12,7 @@ import html
 import json
 import logging
 import secrets
+import socket
 import threading
 from collections.abc import Mapping
 from typing import Any
@@ -20,7 +21,7 @@ from aiohttp import web
 
 from pigaming_app import ASSETS
 from pigaming_app.ui.input.phones import protocol
-from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, Seats
+from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, Seats, stop_reading
 from pigaming_app.ui.input.phones.network import PhonesUnavailable
 from pigaming_app.ui.input.phones.refusals import ErrorsOfLibrary, RateMeter, Refusals
 from pigaming_app.ui.input.phones.registry import Phones
@@ -30,6 +31,7 @@ ALPHABET = "abcdefghjkmnpqrstuvwxyz23456789"  # without signs that look alike: t
 TOKEN_LENGTH = 10  # 49 bits, guessed over a network within one session
 MAX_CONNECTIONS, MAX_OF_PEER = 64, 24
 MAX_OPENED, OPENED_SECONDS = 80, 10.0  # connections that a peer may open in that time
+RECEIVE_BYTES = 8192  # buffered by the system for a connection: bounds what a flood makes the server parse at once
 IDLE_SECONDS = 5.0  # without a complete request
 FILES = {
     "page.css": ("phones/page.css", "text/css"),
@@ -113,7 +115,9 @@ class PhoneServer:
         try:
             assert runner.server is not None
             guard = Guard(runner.server, settings, self.refusals)
-            listener = await self._loop.create_server(guard.handler, self.address, self.port)
+            listening = socket.create_server((self.address, self.port))
+            listening.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BYTES)  # accepted ones inherit it
+            listener = await self._loop.create_server(guard.handler, sock=listening)
             self.port = listener.sockets[0].getsockname()[1]
             self._ready.set()
             await self._ended.wait()
@@ -145,14 +149,16 @@ class PhoneServer:
         return response
 
     def _headers(self) -> dict[str, str]:
-        here = f"ws://{self.address}:{self.port}"
-        policy = f"default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src data:; connect-src 'self' {here}"
+        sockets = f"connect-src 'self' ws://{self.address}:{self.port}"
+        policy = (
+            "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src data:; base-uri 'none'"
+        )
         return {
             "Server": "PiGaming",
             "Cache-Control": "no-store",
             "Referrer-Policy": "no-referrer",
             "X-Content-Type-Options": "nosniff",
-            "Content-Security-Policy": f"{policy}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+            "Content-Security-Policy": f"{policy}; {sockets}; form-action 'none'; frame-ancestors 'none'",
         }
 
     def _refused(self, kind: str, request: web.Request) -> web.StreamResponse:
@@ -244,10 +250,11 @@ def _first_part(path: str) -> bytes:
 
 async def _closed(request: web.Request, code: int) -> web.WebSocketResponse:
     """A socket that is closed at once, for a reason that the page knows."""
-    socket = web.WebSocketResponse(timeout=CLOSE_SECONDS, max_msg_size=protocol.MAX_FRAME, compress=False)
-    await socket.prepare(request)
-    await socket.close(code=code)
-    return socket
+    answer = web.WebSocketResponse(timeout=CLOSE_SECONDS, max_msg_size=protocol.MAX_FRAME, compress=False)
+    await answer.prepare(request)
+    stop_reading(request)
+    await answer.close(code=code)
+    return answer
 
 
 def _cause(error: OSError) -> str:
