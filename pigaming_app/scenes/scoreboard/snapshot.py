@@ -62,9 +62,12 @@ class MatchSnapshot:
 ALARM_SECONDS = 10
 
 
-def match_of(scenes: Sequence[Scene]) -> ShownMatch | None:
-    """The match on the stack, if any."""
-    return next((scene for scene in reversed(scenes) if isinstance(scene, ShownMatch)), None)
+def match_of(scenes: Sequence[Scene]) -> tuple[ShownMatch | None, bool]:
+    """The match on the stack, if any, and whether it is on top."""
+    for above, scene in enumerate(reversed(scenes)):
+        if isinstance(scene, ShownMatch):
+            return scene, above == 0
+    return None, False
 
 
 def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
