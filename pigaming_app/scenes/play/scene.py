@@ -312,7 +312,7 @@ class MatchScene:
         return False
 
     @property
-    def waiting(self) -> bool:
+    def preparing(self) -> bool:
         """True while the countdown runs."""
         return self.countdown.locked
 

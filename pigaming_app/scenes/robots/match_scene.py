@@ -193,9 +193,9 @@ class RealMatch(MatchScene):
         return {"robots": lambda access: SwapPage(self, access)}
 
     @property
-    def waiting(self) -> bool:
+    def preparing(self) -> bool:
         """True while robots drive to their start positions, and while the countdown runs."""
-        return self.gathering is not None or super().waiting
+        return self.gathering is not None or super().preparing
 
     @property
     def robots_kind(self) -> str:

@@ -30,9 +30,9 @@ class ScorePage:
 
     def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
         """The current or last match; None before the first one."""
-        found = match_of(scenes)
+        found, on_top = match_of(scenes)
         if found is not None:
-            self.last = snapshot(found, self.context.words, found is scenes[-1])
+            self.last = snapshot(found, self.context.words, on_top)
         elif self.last is not None and self.last.state != "over":
             self.last = None  # it was left
         return match_parts(self.context, self.last) if self.last else None

@@ -32,7 +32,7 @@ class ShownMatch(Protocol):
     def runner(self) -> Any: ...
 
     @property
-    def waiting(self) -> bool:
+    def preparing(self) -> bool:
         """True until the robots may drive."""
 
 
@@ -49,7 +49,7 @@ class Side:
 
 @dataclass(frozen=True)
 class MatchSnapshot:
-    """A match now. `sides`: best first; `alarm`: the time is running out; `state`: "", "waiting", "paused" or "over"."""
+    """A match now. `sides`: best first; `alarm`: time is running out; `state`: "", "waiting", "paused" or "over"."""
 
     game: str
     arena: str
@@ -62,9 +62,12 @@ class MatchSnapshot:
 ALARM_SECONDS = 10
 
 
-def match_of(scenes: Sequence[Scene]) -> ShownMatch | None:
-    """The match on the stack, if any."""
-    return next((scene for scene in reversed(scenes) if isinstance(scene, ShownMatch)), None)
+def match_of(scenes: Sequence[Scene]) -> tuple[ShownMatch | None, bool]:
+    """The match on the stack, if any, and whether it is on top."""
+    for above, scene in enumerate(reversed(scenes)):
+        if isinstance(scene, ShownMatch):
+            return scene, above == 0
+    return None, False
 
 
 def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
@@ -73,7 +76,7 @@ def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
     left = math.ceil(match.seconds_left)
     counts_up = setup.game == "race"
     seconds = int(match.seconds) if counts_up else left
-    state = "over" if match.over else "paused" if not on_top else "waiting" if scene.waiting else ""
+    state = "over" if match.over else "paused" if not on_top else "waiting" if scene.preparing else ""
     return MatchSnapshot(
         setup.game,
         arena_title(match.arena, words.language),

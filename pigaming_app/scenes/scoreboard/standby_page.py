@@ -14,6 +14,7 @@ from pigaming_app.scenes.results.high_score_tables import format_score
 from pigaming_app.scenes.scoreboard import text
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
+from pigaming_app.ui.i18n import Words
 
 ROWS = 4
 TOP, H, GAP, LEFT, W = 420, 600, 36, 60, 1800
@@ -39,19 +40,19 @@ class StandbyPage:
         names = list(games())
         w = (W - GAP * (len(names) - 1)) // len(names)
         for i, game in enumerate(names):
-            content = (words(f"games.{game}"), *best_today(self.context.scores, game))
+            content = (words(f"games.{game}"), *best_today(self.context.scores, game, words))
             column = partial(_column, words(f"games.{game}"), content[1], content[2], words("best.first"))
             parts.append(Part((LEFT + i * (w + GAP), TOP, w, H), (*content, words.language), column))
         return parts
 
 
-def best_today(scores: Scores, game: str) -> tuple[str, Best]:
+def best_today(scores: Scores, game: str, words: Words) -> tuple[str, Best]:
     """Feat and best results of today in the game's table with the most of them; the feat is empty without any."""
     found = [(table, scores.best(table, days=1)) for table in scores.tables() if _countable(table, game)]
     if not any(rows for _, rows in found):
         return "", ()
     table, rows = max(found, key=lambda pair: len(pair[1]))
-    return table.feat, tuple((row.initials, format_score(row.score, table)) for row in rows[:ROWS])
+    return table.feat, tuple((row.initials, words.decimal(format_score(row.score, table))) for row in rows[:ROWS])
 
 
 def _countable(table: ScoreTable, game: str) -> bool:

@@ -1,10 +1,13 @@
 """Matches with real robots on the emulated arena in simulated time."""
 
+from datetime import date
 from math import hypot
+from pathlib import Path
 
 import pygame
 import pytest
 
+from pigaming_app.events.day_log import Battery, DayLog, PlayedMatch, read_day
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -13,6 +16,7 @@ from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
+from pigaming_app.scenes.operator.page import OperatorPage, end_all
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.real_replays import verify
@@ -23,10 +27,12 @@ from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.unavailable import UnavailablePage
+from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.window import Canvas
 from tests.cases import one_in
 from tests.hardware.sentences import sentence
 from tests.scenes.arcade import Arcade
@@ -393,3 +399,27 @@ def test_the_reason_is_shown_and_simulated_robots_play(
     assert sentence(arcade.shown(UnavailablePage).message) == "There is no camera 3: plug one in."
     arcade.press(Button.FIRE)
     assert type(arcade.shown(MatchScene)) is MatchScene
+
+
+@pytest.mark.long
+def test_the_day_log_has_the_match_and_the_batteries_and_the_operators_page_ends_it(
+    arcade: Arcade, mat: EmulatedSession, tmp_path: Path
+) -> None:
+    arcade.context.day_log = DayLog(tmp_path)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    stopped: list[int] = []
+    arcade.context.emergency_stops += [mat.close, lambda: stopped.append(len(arcade.stack.scenes))]
+    match = begun(arcade)
+    assert not match.preparing
+    assert match.camera_image is not None
+    tick = match.match.state.tick
+    arcade.open(OperatorPage(arcade.context, tuple(arcade.stack.scenes)))
+    play(arcade, 1.0)
+    assert match.match.state.tick == tick
+    arcade.stack.apply(end_all(arcade.context))
+    assert arcade.stack.top is arcade.title
+    assert stopped == [4]
+    records, _ = read_day(tmp_path, date.today())
+    (played,) = (record for record in records if isinstance(record, PlayedMatch))
+    assert (played.robots, played.complete, played.ais) == ("emulated", False, 2)
+    assert [record.robot for record in records if isinstance(record, Battery)] == [1, 2]

@@ -17,9 +17,10 @@ from pigaming_app.scenes.scoreboard.pages import complete
 from pigaming_app.scenes.scoreboard.score_page import ScorePage, match_parts
 from pigaming_app.scenes.scoreboard.snapshot import sides, snapshot
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage, best_today
-from pigaming_app.scenes.scoreboard.window import PERIOD, ScoreboardWindow
+from pigaming_app.scenes.scoreboard.window import PERIOD, WINDOWED, ScoreboardWindow
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
@@ -178,8 +179,8 @@ def test_the_best_of_today_come_from_the_table_with_the_most_of_them() -> None:
     scores.add(few, "AAA", 50)
     for initials, points in (("BBB", 5), ("CCC", 9)):
         scores.add(many, initials, points)
-    assert best_today(scores, "pitanks") == ("points", (("CCC", "9"), ("BBB", "5")))
-    assert best_today(scores, "race") == ("", ())
+    assert best_today(scores, "pitanks", Words("en")) == ("points", (("CCC", "9"), ("BBB", "5")))
+    assert best_today(scores, "race", Words("en")) == ("", ())
 
 
 # ---- the window
@@ -286,3 +287,28 @@ def test_a_paused_match_is_shown_as_such(arcade: Arcade) -> None:
     page.parts(arcade.stack.scenes)
     assert page.last
     assert page.last.state == "paused"
+
+
+@pytest.mark.parametrize(("number", "arena_display", "own"), [(2, 0, True), (1, 0, False), (3, 0, False), (1, 1, True)])
+def test_it_fills_a_display_of_its_own_and_is_small_elsewhere(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, arena_display: int, own: bool
+) -> None:
+    opened: list[tuple[tuple[int, int], object]] = []
+    real = pygame.Window
+
+    def window(title: str, size: tuple[int, int], *, position: object, **options: bool) -> pygame.Window:
+        opened.append((size, position))
+        return real(title, size, **options)
+
+    monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [(1280, 800), (1366, 768)])
+    monkeypatch.setattr(pygame, "Window", window)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("pigaming_app.scenes.scoreboard.window._focus_arcade", lambda: None)
+        shown = ScoreboardWindow(number, arena_display, [Lamps("a")])
+    shown.close()
+    ((size, position),) = opened
+    if own:
+        assert size == [(1280, 800), (1366, 768)][number - 1]
+        assert position == pygame.WINDOWPOS_CENTERED | (number - 1)
+    else:
+        assert size == WINDOWED
