@@ -120,6 +120,8 @@ class TimeOfDay:
     def error(self, value: object) -> str | None:
         valid = isinstance(value, str) and re.fullmatch("([01][0-9]|2[0-3]):[0-5][0-9]", value)
         return None if valid else "no time such as 22:30"
+
+
 class ChangedControls:
     """Whole numbers by function, by device: see ui/input/remap.py. Users of the setting must check the names."""
 
