@@ -10,16 +10,16 @@ import pygame
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.operator.group_limit import GroupLimit
-from pigaming_app.ui.draw import BODY, FOCUS, ICE
+from pigaming_app.ui.draw import FOCUS, ICE
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.notices import MAX_WIDTH, Notices
-from pigaming_app.ui.widgets.notices import Y as NOTICE_Y
 
 if TYPE_CHECKING:
     from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
 
 HOLD, HOLD_IN_KIOSK = 1.0, 5.0  # s for which F10 is held
+SIZE, SENTENCE_Y = 34, 1047  # px, of what a group is told: below the row of prompts
 MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
 
 
@@ -64,7 +64,7 @@ class OperatorDesk:
         """Draw what a group is told, unless a notice is in its place."""
         sentence = self.limit.sentence if self.limited else ""
         if sentence and not self.notices.waiting:
-            caption(sentence, FOCUS, ICE, fit_size(sentence, BODY, MAX_WIDTH, "body")).draw(screen, 960, NOTICE_Y)
+            caption(sentence, FOCUS, ICE, fit_size(sentence, SIZE, MAX_WIDTH, "body")).draw(screen, 960, SENTENCE_Y)
 
     def show(self, seconds: float, left: float, scenes: Sequence[Scene]) -> None:
         """Follow the settings and draw a slice of the second screen; `left`: s that are left of this frame."""

@@ -8,6 +8,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
 
 WARNED = 60.0  # s before the limit, from which the rest is shown
+STEP = 10  # s between two sentences: each new one costs a few milliseconds of a match
 FAREWELL = 20.0  # s from the limit, or from the end of the last match, to the title
 
 
@@ -66,4 +67,4 @@ class GroupLimit:
             return words("operator.farewell", seconds=max(1, math.ceil(self.farewell)))
         if self.left <= 0.0:
             return words("operator.last_match")
-        return words("operator.soon", seconds=math.ceil(self.left)) if self.left <= WARNED else ""
+        return words("operator.soon", seconds=STEP * math.ceil(self.left / STEP)) if self.left <= WARNED else ""

@@ -22,8 +22,10 @@ def test_the_title_returns_after_a_countdown(arcade: Arcade) -> None:
     assert limit.update(300.0 - WARNED - 1, scenes) is None
     assert limit.sentence == ""
     limit.update(2.0, scenes)
-    assert "59" in limit.sentence
-    assert limit.update(WARNED, scenes) is None
+    assert "60" in limit.sentence
+    limit.update(11.0, scenes)
+    assert "50" in limit.sentence
+    assert limit.update(WARNED - 11.0, scenes) is None
     assert str(round(FAREWELL)) in limit.sentence
     assert limit.update(FAREWELL - 1.0, scenes) is None
     assert limit.update(1.5, scenes) == Home()
