@@ -56,14 +56,19 @@ def plain_standing(row: Standing) -> dict[str, Any]:
 
 def standings_csv(event: Event) -> str:
     """The table of the event."""
-    rows = event.standings
-    breaks = list(rows[0].tie_breaks)
+    breaks = columns(event.standings)
     teams = {entrant.name: entrant.team for entrant in event.entrants}
     body = (
-        [row.place, row.entrant, teams[row.entrant], row.points, row.wins, row.played, *row.tie_breaks.values()]
-        for row in rows
+        [row.place, row.entrant, teams[row.entrant], row.points, row.wins, row.played]
+        + [row.tie_breaks[key] for key in breaks]
+        for row in event.standings
     )
     return _csv(["place", "entrant", "team", "points", "wins", "played", *breaks], body)
+
+
+def columns(rows: Sequence[Standing]) -> list[str]:
+    """The tie-breaks that need a column of their own."""
+    return [key for key in rows[0].tie_breaks if key != "wins"]
 
 
 def matches_csv(event: Event) -> str:

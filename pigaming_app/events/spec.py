@@ -10,6 +10,7 @@ MAX_ROUNDS = 64
 MOST_MATCHES = 4096  # of two in a round robin
 MAX_NAME = 12  # characters of an entrant or a team
 MAX_TITLE = 60  # characters
+MAX_SEED = 10**12
 WALKOVER = "walkover"  # note of an outcome without a match: the opponent has withdrawn
 DEFAULT_AI = "level3"  # takes the seat of an entrant without a brain, where nobody can play
 
@@ -144,6 +145,8 @@ def check_spec(spec: EventSpec) -> None:
         raise ValueError(f"{spec.rounds} times {count} entrants are more than {MOST_MATCHES} matches")
     if spec.format == Format.SWISS and spec.seats == 2 and spec.rounds > count - 1:
         raise ValueError(f"{count} entrants can play at most {count - 1} Swiss rounds, not {spec.rounds}")
+    if not 0 <= spec.seed <= MAX_SEED:
+        raise ValueError(f"a seed is a number from 0 to {MAX_SEED}, not {spec.seed}")
     if spec.fill and spec.format != Format.GRAND_PRIX:
         raise ValueError("AIs fill the seats of a Grand Prix only")
     if not 0 < len(spec.title) <= MAX_TITLE or not spec.title.isprintable():

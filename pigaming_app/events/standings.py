@@ -85,33 +85,32 @@ def team_standings(progress: Progress) -> tuple[Standing, ...]:
 
 
 def _table(field: Field) -> Table:
-    """The matches as the format counts them."""
-    counted = [outcome for outcome in field.outcomes.values() if not _void(field, outcome)]
-    grand_prix_event = field.spec.format == Format.GRAND_PRIX
-    points = dict.fromkeys(field.entrants, 0.0)
+    """The matches as the format counts them. In a round robin a walkover counts as played."""
+    form = field.spec.format
+    points, unplayed = dict.fromkeys(field.entrants, 0.0), dict.fromkeys(field.entrants, 0.0)
     games, met = [], dict.fromkeys(field.entrants, 0)
-    for outcome in counted:
-        gained = _grand_prix(outcome) if grand_prix_event else scoring.points(outcome)
+    for outcome in field.outcomes.values():
+        if _void(field, outcome):
+            continue
+        gained = _grand_prix(outcome) if form == Format.GRAND_PRIX else scoring.points(outcome)
+        walkover = outcome.note == WALKOVER
         for name, value in gained.items():
             points[name] += value
-        if outcome.note == WALKOVER:
+        if walkover and form != Format.ROUND_ROBIN:
+            for name, value in gained.items():
+                unplayed[name] += value
             continue
-        first = outcome.places[0][0] if len(outcome.places[0]) == 1 else ""
+        first = outcome.places[0][0] if len(outcome.places[0]) == 1 and not walkover else ""
         games.append(Game(gained, first))
         for name in gained:
             met[name] += 1
-    byes = dict.fromkeys(field.entrants, 0.0)
-    if field.spec.format == Format.SWISS:
-        byes = {name: count * scoring.BYE for name, count in field.byes().items()}
-        for name, value in byes.items():
-            points[name] += value
-        for outcome in counted:
-            if outcome.note == WALKOVER:
-                for name, value in scoring.points(outcome).items():
-                    byes[name] += value
     complete = [drawn for drawn in field.rounds if all(one.number in field.outcomes for one in drawn.fixtures)]
+    for name in (name for drawn in complete if form != Format.ROUND_ROBIN for name in drawn.byes):
+        value = grand_prix.BYE if form == Format.GRAND_PRIX else scoring.BYE
+        points[name] += value
+        unplayed[name] += value
     missed = {name: max(0, len(complete) - met[name]) for name in field.entrants}
-    return Table({name: scoring.exact(value) for name, value in points.items()}, games, missed, byes)
+    return Table({name: scoring.exact(value) for name, value in points.items()}, games, missed, unplayed)
 
 
 def _void(field: Field, outcome: Outcome) -> bool:
@@ -129,6 +128,8 @@ def _left_early(field: Field, name: str) -> bool:
 
 def _grand_prix(outcome: Outcome) -> dict[str, float]:
     """Points by place; a walkover is a first place."""
+    if outcome.note == WALKOVER:
+        return {name: share * grand_prix.POINTS[0] for name, share in scoring.points(outcome).items()}
     found: dict[str, float] = {}
     for place in outcome.places:
         here = grand_prix.shared(len(found) + 1, len(place))

@@ -1,5 +1,8 @@
 """Tie-breaks after the FIDE Handbook, C.07 (Tie-break regulations, from 1 August 2024).
 
+Two things are simpler: a round without an opponent counts as one against somebody with the own points, without a limit,
+and the unplayed rounds of opponents are not adjusted.
+
 Every function takes the table of all matches and the entrants who are still level, and returns a value of each of them:
 more is better. A match of three or four counts as one of two against the mean of the opponents.
 """
@@ -20,16 +23,16 @@ class Game:
 
 @dataclass(frozen=True)
 class Table:
-    """All matches that count, and the sum of the points of everybody, with those of byes."""
+    """All matches that count, and the sum of the points of everybody, with those of byes and walkovers."""
 
     points: Mapping[str, float]
     games: Sequence[Game]
-    missed: Mapping[str, int]  # rounds without an opponent: byes and missed ones
-    byes: Mapping[str, float]  # points of byes
+    missed: Mapping[str, int]  # rounds without an opponent: byes, walkovers and missed ones
+    unplayed: Mapping[str, float]  # points of byes and walkovers
 
 
 def head_to_head(table: Table, level: Sequence[str]) -> Values:
-    """Direct encounter (article 6): points of the matches among those who are level, if each two of them have met."""
+    """Direct encounter: points of the matches among those who are level, if each two of them have met."""
     among = [game for game in table.games if sum(name in game.points for name in level) > 1]
     met = {frozenset((one, other)) for game in among for one in game.points for other in game.points if one != other}
     values = dict.fromkeys(level, 0.0)
@@ -45,12 +48,12 @@ def head_to_head(table: Table, level: Sequence[str]) -> Values:
 
 
 def wins(table: Table, level: Sequence[str]) -> Values:
-    """Number of games won (article 7.2): matches in which an entrant came first alone."""
+    """Number of games won: matches in which an entrant came first alone."""
     return {name: float(sum(game.first == name for game in table.games)) for name in level}
 
 
 def buchholz(table: Table, level: Sequence[str]) -> Values:
-    """Sum of the opponents' points (article 8.1); a round without an opponent is one against the own points (16.4)."""
+    """Sum of the opponents' points; a round without an opponent is one against the own points."""
     return {
         name: sum(_opponents(table, game, name) for game in table.games if name in game.points)
         + table.missed[name] * table.points[name]
@@ -59,10 +62,10 @@ def buchholz(table: Table, level: Sequence[str]) -> Values:
 
 
 def sonneborn_berger(table: Table, level: Sequence[str]) -> Values:
-    """Sum of the opponents' points, each times the own points against it (article 9.1)."""
+    """Sum of the opponents' points, each times the own points against it."""
     return {
         name: sum(game.points[name] * _opponents(table, game, name) for game in table.games if name in game.points)
-        + table.byes[name] * table.points[name]
+        + table.unplayed[name] * table.points[name]
         for name in level
     }
 

@@ -145,6 +145,7 @@ def test_seeding_games_and_seeds_of_matches():
         ({"rounds": 4}, "4 entrants can play at most 3 Swiss rounds, not 4"),
         ({"fill": "level1"}, "AIs fill the seats of a Grand Prix only"),
         ({"games": ()}, "an event needs a game"),
+        ({"seed": -1}, "a seed is a number from 0 to 1000000000000, not -1"),
     ],
 )
 def test_an_impossible_event_is_refused_with_one_sentence(changes, reason):

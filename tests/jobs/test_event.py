@@ -2,7 +2,7 @@
 
 import csv
 import json
-import os
+import random
 import signal
 import subprocess
 import sys
@@ -13,6 +13,7 @@ import pytest
 
 from pigaming_app.cli import main
 from pigaming_app.events.event_files import load
+from tests.jobs.test_hostile_options import ANY, POSIX, fault, furnish
 
 ROOT = Path(__file__).resolve().parents[2]
 SHORT = ["--minutes", "0.05"]
@@ -157,6 +158,33 @@ def test_a_wrong_file_is_one_line(words, reason, capsys):
     assert told.err.count("\n") == 1
 
 
+OPTIONS = (
+    "--game", "--format", "--entrants", "--rounds", "--seats", "--minutes", "--arena", "--rules", "--advance", "--fill",
+    "--title", "--seed",
+)  # fmt: skip
+
+
+@POSIX
+@pytest.mark.parametrize("seed", range(2))
+def test_every_value_is_used_or_refused_in_one_line(tmp_path, monkeypatch, seed):
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    furnish(tmp_path / "here")
+    basic = ["event", "new", "cup.json", "--format", "swiss", "--entrants", "A,B,C", *SHORT]
+    cases = [[*basic, option, value] for option in OPTIONS for value in ANY]
+    cases += [["event", *words, value] for words in (["show"], ["run", "--headless"], [], ["export"]) for value in ANY]
+    cases += [["event", "new", value, *basic[3:]] for value in ANY]
+    assert main(["event", "new", "kept.json", *basic[3:]]) == 0
+    targets = ("--csv", "--matches", "--json")
+    cases += [["event", "export", "kept.json", option, value] for option in targets for value in ANY]
+    faults = {}
+    for case in random.Random(seed).sample(cases, 120):
+        Path("cup.json").unlink(missing_ok=True)
+        if wrong := fault(case):
+            faults[repr(case)] = wrong
+    assert not faults
+
+
 def test_an_event_is_not_overwritten(capsys):
     assert new() == 0
     before = Path("cup.json").read_bytes()
@@ -166,7 +194,7 @@ def test_an_event_is_not_overwritten(capsys):
 
 
 @pytest.mark.long
-@pytest.mark.skipif(os.name != "posix", reason="needs SIGKILL")
+@POSIX
 def test_a_killed_run_goes_on_where_it_stopped(capsys):
     assert new("--rounds", "8", entrants="A=random,B=idle,C=random,D=idle") == 0
     command = [sys.executable, "-X", "pigaming", str(ROOT / "main.py"), "event", "run", "cup.json", "--headless"]
@@ -186,6 +214,7 @@ def test_a_killed_run_goes_on_where_it_stopped(capsys):
     result = json.loads(capsys.readouterr().out)
     assert len(result["matches"]) == 48
     assert all(match["played"] for match in result["matches"])
+    assert not [*Path().glob(".pigaming-*")]
     straight = load(Path("cup.json"))[0]
     Path("cup.json").unlink()
     assert new("--rounds", "8", entrants="A=random,B=idle,C=random,D=idle") == 0

@@ -1,6 +1,8 @@
 """Whole matches of one game, each with brains of its own on the seats, in one loop, plain or compiled."""
 
+import os
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE
@@ -27,13 +29,26 @@ class LineUps:
         self._cast = Cast(self.kinds.values(), fast)
 
     def played(self, setups: Sequence[Setup]) -> list[Any]:
-        """The final state of each match. Every seat names one of the brains, or is off. Raises ArenaError."""
+        """The final state of each match; compiled ones share the cores. Raises ArenaError.
+
+        Every seat names one of the brains, or is off.
+        """
         states = initial_states(setups)
-        matches = packed(states) if self.fast else states
         minds = self._cast.minds([self._seated(setup) for setup in setups])
-        loop = (compiled_rollout if self.fast else plain_rollout)(self.game, self._cast.families)
-        loop(matches, minds, self._cast.weights, max(longest(setup) for setup in setups))
-        return [unpack(games()[self.game].state, row) for row in matches] if self.fast else states
+        ticks = max(longest(setup) for setup in setups)
+        if not self.fast:
+            plain_rollout(self.game, self._cast.families)(states, minds, self._cast.weights, ticks)
+            return states
+        matches, loop = packed(states), compiled_rollout(self.game, self._cast.families)
+        share = -(-len(setups) // (os.cpu_count() or 1))
+        with ThreadPoolExecutor() as threads:  # the loop runs without the GIL, and matches are independent
+            parts = [
+                threads.submit(loop, matches[i : i + share], minds[i : i + share], self._cast.weights, ticks)
+                for i in range(0, len(setups), share)
+            ]
+        for part in parts:
+            part.result()
+        return [unpack(games()[self.game].state, row) for row in matches]
 
     def _seated(self, setup: Setup) -> list[tuple[BrainKind, int]]:
         """Brain and seed of every seat, as `new_match` has them."""

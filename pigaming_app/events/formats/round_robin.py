@@ -10,7 +10,7 @@ there are rounds until each two have met as often as there are cycles, but at mo
 design would need.
 """
 
-from collections.abc import Sequence
+from functools import lru_cache
 from random import Random
 
 from pigaming_app.events.formats.field import Draw, Field, Match, meetings
@@ -55,7 +55,7 @@ def berger(count: int) -> list[list[tuple[int, int]]]:
     return table
 
 
-def _pairs(names: Sequence[str], seats: int, cycles: int) -> list[Draw]:
+def _pairs(names: tuple[str, ...], seats: int, cycles: int) -> list[Draw]:
     count = len(names) + len(names) % 2
     draws = []
     for cycle in range(cycles):
@@ -71,7 +71,8 @@ def _pairs(names: Sequence[str], seats: int, cycles: int) -> list[Draw]:
     return draws
 
 
-def _groups(names: Sequence[str], seats: int, cycles: int) -> list[Draw]:
+@lru_cache(8)
+def _groups(names: tuple[str, ...], seats: int, cycles: int) -> list[Draw]:
     perfect = -(-cycles * (len(names) - 1) // (min(seats, len(names)) - 1))
     every = len(names) * (len(names) - 1) // 2
     draws: list[Draw] = []

@@ -1,20 +1,22 @@
 """Points of a match, alike for two and for more: the share of the opponents that were beaten, a tie as half."""
 
 from pigaming_app.events.formats.field import Field
-from pigaming_app.events.spec import Outcome
+from pigaming_app.events.spec import WALKOVER, Outcome
 
 BYE = 1.0  # points, as for a win (FIDE Handbook C.04.1, Basic rules for Swiss systems)
 
 
 def points(outcome: Outcome) -> dict[str, float]:
-    """Points of each entrant, 0 to 1: between two 1, 1/2 or 0. Whoever is alone and absent has none."""
+    """Points of each entrant, 0 to 1: between two 1, 1/2 or 0. Of a walkover all for whoever is there."""
+    if outcome.note == WALKOVER:
+        there = outcome.places[0] if len(outcome.places) > 1 else ()
+        return {name: float(name in there) for place in outcome.places for name in place}
     count = sum(map(len, outcome.places))
     found: dict[str, float] = {}
     ahead = 0
     for place in outcome.places:
-        for name in place:
-            beaten = count - ahead - len(place) + (len(place) - 1) / 2
-            found[name] = beaten / (count - 1) if count > 1 else 0.0
+        beaten = count - ahead - len(place) + (len(place) - 1) / 2
+        found |= dict.fromkeys(place, beaten / (count - 1))
         ahead += len(place)
     return found
 

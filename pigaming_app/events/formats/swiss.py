@@ -4,8 +4,9 @@ Matches of two follow the FIDE Handbook, C.04.1 (Basic rules) and C.04.3 (the Du
 upper half by the seeding meets the lower half in order; whoever is left floats down to the next group; no two meet
 twice; an odd one out, the last in the order who has had none yet, has a bye, which counts as a win. Where the
 preferred opponent is not possible, the next one of the lower half is tried, then the upper half, then the next groups.
+The Dutch system's rules on colours and on repeated floats are left out; seats alternate instead.
 Up to half as many rounds as entrants always have a pairing without rematches (Dirac); beyond, rematches are the fewest
-that are found. Instead of colours, seats alternate.
+that are found.
 
 Matches of three or four: groups of neighbours in the order of scores, in which as few as possible meet again.
 """
@@ -18,8 +19,8 @@ from pigaming_app.events.formats.field import Draw, Field, Match, Pair
 from pigaming_app.events.formats.grouping import neighbours
 from pigaming_app.events.formats.scoring import scores
 
-TRIES = 20_000  # steps of the search for one order
-ORDERS = 20  # other orders that are tried
+TRIES = 5_000  # steps of the search for one order
+ORDERS = 10  # other orders that are tried
 
 
 def next_round(field: Field) -> Draw | None:

@@ -1,6 +1,7 @@
 """Standings and matches of an event as files for other programs."""
 
 import json
+import os
 from argparse import ArgumentParser, Namespace
 
 from pigaming_app.events.exports import matches_csv, plain, standings_csv
@@ -28,8 +29,8 @@ def run(arguments: Namespace) -> int:
     wanted = [(target, writer) for target, writer in writers if target is not None]
     if not wanted:
         raise Refusal("--csv, --matches or --json with the name of a file is needed")
-    targets = [target.resolve() for target, _ in wanted]
-    if len({*targets, arguments.file.resolve()}) <= len(targets):
+    names = [os.path.realpath(name) for name in (arguments.file, *(target for target, _ in wanted))]
+    if len({*names}) < len(names):
         raise Refusal("every file needs a name of its own")
     write_all_atomic({target: writer(event).encode("utf-8") for target, writer in wanted})
     return 0

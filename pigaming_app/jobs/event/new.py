@@ -13,12 +13,23 @@ from pigaming_app.events import event_files
 from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
-from pigaming_app.events.spec import FEWEST, MAX_ROUNDS, MOST, SEATS, Advance, Entrant, EventSpec, Format
+from pigaming_app.events.spec import (
+    FEWEST,
+    MAX_ROUNDS,
+    MAX_SEED,
+    MAX_TITLE,
+    MOST,
+    SEATS,
+    Advance,
+    Entrant,
+    EventSpec,
+    Format,
+)
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.jobs.event.files import file_option
 from pigaming_app.jobs.event.show import print_event
-from pigaming_app.jobs.terminal.options import DEFAULT_GAME, MAX_INTEGER, decimal, integer, word
+from pigaming_app.jobs.terminal.options import DEFAULT_GAME, decimal, integer, word
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.parsing import describe_error, quote, read_text
@@ -54,9 +65,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--advance", default=Advance.HALF.value, help="in a knock-out: the better half, or quarter")
     parser.add_argument("--fill", default="", metavar="AI", help="AI on empty seats of a Grand Prix")
     parser.add_argument("--title", type=word, help="default: the name of the file")
-    parser.add_argument(
-        "--seed", type=integer(0, MAX_INTEGER // 10**6), metavar="NUMBER", default=1, help="random seed; default 1"
-    )
+    parser.add_argument("--seed", type=integer(0, MAX_SEED), metavar="NUMBER", default=1, help="random seed; default 1")
     parser.add_argument("--json", action="store_true", help="print the event as one JSON object")
 
 
@@ -83,7 +92,7 @@ def _spec(arguments: Namespace) -> EventSpec:
     require_one_of("choice for --advance:", arguments.advance, list(Advance))
     form = Format(arguments.format)
     return EventSpec(
-        title=arguments.title or arguments.file.stem,
+        title=arguments.title or arguments.file.stem[:MAX_TITLE],
         format=form,
         games=played,
         entrants=tuple(_with_whole_path(entrant) for entrant in _entrants(arguments.entrants)),

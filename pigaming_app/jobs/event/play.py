@@ -22,6 +22,7 @@ from pigaming_app.jobs.event.show import print_event
 from pigaming_app.jobs.terminal.options import decimal
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.storage.safe_files import require_writable
 
 
 def options(parser: ArgumentParser) -> None:
@@ -38,6 +39,7 @@ def run(arguments: Namespace) -> int:
     event = loaded(arguments.file)
     if not arguments.headless:
         raise Refusal("event run: add --headless; events in a window are started from the arcade")
+    require_writable(arguments.file)
     require_for_brains(entrant.brain for entrant in event.entrants)
     began, before = perf_counter(), len(event.outcomes)
     with refused(ChoiceError, ArenaError, ValueError):
@@ -45,8 +47,10 @@ def run(arguments: Namespace) -> int:
         headless = HeadlessRun(event)
         while event.open:
             started = perf_counter()
-            outcomes = headless.play(event)
+            outcomes, entrants = headless.play(event), event.entrants
             event = event_files.update(arguments.file, partial(_recorded, outcomes), event)
+            if event.entrants != entrants:  # changed by another process
+                headless = HeadlessRun(event)
             _progress(event)
             if arguments.speed < inf:
                 sleep(max(0.0, _longest(event, outcomes) / arguments.speed - (perf_counter() - started)))
@@ -58,8 +62,10 @@ def run(arguments: Namespace) -> int:
 
 
 def _recorded(outcomes: list[Outcome], event: Event) -> Event:
+    """The event with these outcomes, as far as another process has not been faster. Raises ValueError."""
     for outcome in outcomes:
-        event = event.record(outcome)
+        if outcome.fixture not in event.outcomes:
+            event = event.record(outcome)
     return event
 
 

@@ -5,7 +5,7 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.exports import plain
+from pigaming_app.events.exports import columns, plain
 from pigaming_app.events.spec import Standing
 from pigaming_app.jobs.event.files import file_option, loaded
 
@@ -52,7 +52,7 @@ def lines(event: Event) -> Iterator[str]:
 
 
 def _table(rows: Sequence[Standing]) -> Iterator[str]:
-    breaks = list(rows[0].tie_breaks)
+    breaks = columns(rows)
     yield f"{'':4}{'':14}{'points':>8}{'wins':>6}{'played':>8}" + "".join(f"{key:>18}" for key in breaks)
     for row in rows:
         values = "".join(f"{row.tie_breaks[key]:18.2f}" for key in breaks)

@@ -69,3 +69,11 @@ def test_points_of_a_team_are_those_of_its_entrants():
         ("Red", 13.0, 1), ("Blue", 6.0, 0)
     ]  # fmt: skip
     assert new_event(Format.GRAND_PRIX, 3).team_standings == ()
+
+
+def test_an_odd_one_out_in_heats_of_two_has_the_points_of_a_tie():
+    event = new_event(Format.GRAND_PRIX, 3, games=GAMES, seats=2)
+    assert event.byes == {1: ("P3",), 2: ("P2",), 3: ("P1",)}
+    assert [row.points for row in event.standings] == [0.0, 0.0, 0.0]
+    event = played(event)
+    assert [(row.entrant, row.points) for row in event.standings] == [("P1", 28.0), ("P2", 24.0), ("P3", 20.0)]
