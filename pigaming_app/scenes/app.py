@@ -7,6 +7,7 @@ import faulthandler
 import gc
 import logging
 import math
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -97,7 +98,7 @@ def opened(options: Options) -> "Iterator[App]":
     """The arcade with window and devices; closes all and saves the settings on exit. Raises NoDisplay."""
     heap.return_large_blocks()
     data_folders = folders()
-    first_start = not any(data_folders.config.glob(f"{FILE}*"))  # neither settings nor a backup
+    first_start = not any(os.path.exists(data_folders.config / name) for name in (FILE, f"{FILE}.bak"))
     settings, damaged = Settings.load(data_folders.config)
     if first_start:
         settings.language = system_language()

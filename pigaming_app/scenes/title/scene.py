@@ -39,7 +39,7 @@ from pigaming_app.ui.widgets.labels import (
 )
 
 PROMPT_Y, FOOT_Y = 906, 990
-MENU_GAP, LANGUAGES_W = 16, 340  # px: between two chips; of the languages and the button that changes them
+MENU_GAP, LANGUAGES_W = 16, 240  # px: between two chips; of the language and the button that changes it
 LOGO = (LEFT + 16, 84, 30)
 
 
