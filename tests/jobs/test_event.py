@@ -51,6 +51,20 @@ def test_an_event_from_its_beginning_to_the_table(form, capsys):
     assert standings(capsys) == result["standings"]
 
 
+def test_without_headless_the_arcade_opens_on_the_next_match(monkeypatch, controls):
+    from pigaming_app.jobs import arcade
+    from pigaming_app.scenes.events.next_page import NextMatch
+    from tests.scenes.arcade import Arcade
+
+    opened = []
+    monkeypatch.setattr(arcade, "show", lambda options: opened.append(options) or 0)
+    assert new("--game", "pitanks") == 0
+    assert main(["event", "run", "cup.json"]) == 0
+    page = opened[0].first_scene(Arcade(controls).context)
+    assert isinstance(page, NextMatch)
+    assert page.running.path == Path("cup.json").resolve()
+
+
 def test_games_take_turns_each_with_its_own_length_arena_and_rules(capsys):
     words = ["--game", "pitanks,race", "--arena", "race=kidney", "--rules", "party", "--json", "--seats", "2"]
     assert new(*words, "--minutes", "race=0.1,pitanks=0.05", entrants="AAA=random,BBB=idle,CCC=random") == 0
@@ -138,7 +152,7 @@ def test_a_wrong_option_is_one_line(words, reason, capsys):
     [
         (["run", "no.json", "--headless"], "no.json: no such event"),
         (["run", "broken.json", "--headless"], "cannot be read"),
-        (["run", "cup.json"], "add --headless"),
+        (["run", "cup.json", "--json"], "need --headless"),
         (["run", "cup.json", "--headless", "--speed", "fast"], "'fast' is not a number"),
         (["show", "."], "cannot be read"),
         (["export", "cup.json"], "--csv, --matches or --json"),

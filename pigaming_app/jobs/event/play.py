@@ -1,4 +1,4 @@
-"""Play an event from where it stopped; with --headless its AIs, without a window, at full speed.
+"""Play an event from where it stopped, in the arcade; with --headless without a window, its AIs at full speed.
 
 An entrant without a brain is played by level3. Every result is in the file before the next match; the event goes on
 from there after Ctrl-C, a kill or a power cut.
@@ -16,6 +16,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
 from pigaming_app.events.spec import Outcome
 from pigaming_app.games.setup import ChoiceError
+from pigaming_app.jobs import arcade
 from pigaming_app.jobs.event.files import file_option, loaded
 from pigaming_app.jobs.event.headless import HeadlessRun, seconds_of
 from pigaming_app.jobs.event.show import print_event
@@ -35,10 +36,10 @@ def options(parser: ArgumentParser) -> None:
 
 
 def run(arguments: Namespace) -> int:
-    """Play all matches that are left and print the table. Raises Refusal or NotSaved."""
+    """Play all matches that are left and print the table, or open the event in the arcade. Raises Refusal, NotSaved."""
     event = loaded(arguments.file)
     if not arguments.headless:
-        raise Refusal("event run: add --headless; events in a window are started from the arcade")
+        return _in_window(arguments, event)
     require_writable(arguments.file)
     require_for_brains(entrant.brain for entrant in event.entrants)
     began, before = perf_counter(), len(event.outcomes)
@@ -59,6 +60,17 @@ def run(arguments: Namespace) -> int:
         print(end="\r\x1b[K", file=sys.stderr)
     print_event(event, arguments.json, seconds=seconds, matches_per_second=played / seconds)
     return 0
+
+
+def _in_window(arguments: Namespace, event: Event) -> int:
+    """The arcade on the page of the next match. Raises Refusal."""
+    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.events.choice import page_of
+    from pigaming_app.scenes.events.running import RunningEvent
+
+    if arguments.json or arguments.speed < inf:
+        raise Refusal("event run: --json and --speed need --headless")
+    return arcade.show(Options(first_scene=lambda context: page_of(context, RunningEvent(arguments.file, event))))
 
 
 def _recorded(outcomes: list[Outcome], event: Event) -> Event:
