@@ -116,13 +116,21 @@ class Firmware:
         return old_check(packet) if self.version == 1 else check(packet)
 
 
+def _step(crc: int) -> int:
+    """A CRC-32 after eight more bits, all zero."""
+    for _ in range(8):
+        crc = crc >> 1 ^ 0xEDB88320 if crc & 1 else crc >> 1
+    return crc
+
+
+STEPS = [_step(byte) for byte in range(256)]
+
+
 def check(packet: bytes) -> bytes:
     """The CRC-32 of Ethernet in five 7-bit bytes, low first."""
     crc = 0xFFFFFFFF
     for byte in packet:
-        crc ^= byte
-        for _ in range(8):
-            crc = crc >> 1 ^ 0xEDB88320 if crc & 1 else crc >> 1
+        crc = crc >> 8 ^ STEPS[(crc ^ byte) & 0xFF]
     crc ^= 0xFFFFFFFF
     return bytes([crc & 0x7F, crc >> 7 & 0x7F, crc >> 14 & 0x7F, crc >> 21 & 0x7F, crc >> 28])
 
