@@ -22,6 +22,8 @@ SHORT = ["--minutes", "0.05"]
 @pytest.fixture(autouse=True)
 def home(tmp_path, monkeypatch):
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+    for variable in ("SDL_VIDEODRIVER", "SDL_AUDIODRIVER"):  # `fault` changes them
+        monkeypatch.setenv(variable, "dummy")
     monkeypatch.chdir(tmp_path)
 
 
@@ -62,7 +64,7 @@ def test_without_headless_the_arcade_opens_on_the_next_match(monkeypatch, contro
     assert main(["event", "run", "cup.json"]) == 0
     page = opened[0].first_scene(Arcade(controls).context)
     assert isinstance(page, NextMatch)
-    assert page.running.path == Path("cup.json").resolve()
+    assert page.running.path == Path("cup.json")
 
 
 def test_games_take_turns_each_with_its_own_length_arena_and_rules(capsys):
@@ -197,6 +199,12 @@ def test_every_value_is_used_or_refused_in_one_line(tmp_path, monkeypatch, seed)
         if wrong := fault(case):
             faults[repr(case)] = wrong
     assert not faults
+
+
+def test_a_folder_is_not_created_for_an_event(capsys):
+    assert main(["event", "new", "nowhere/cup.json", "--format", "swiss", "--entrants", "A,B,C", *SHORT]) == 2
+    assert "nowhere" in capsys.readouterr().err
+    assert not Path("nowhere").exists()
 
 
 def test_an_event_is_not_overwritten(capsys):

@@ -33,6 +33,7 @@ from pigaming_app.jobs.terminal.options import DEFAULT_GAME, decimal, integer, w
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.parsing import describe_error, quote, read_text
+from pigaming_app.storage.safe_files import require_writable
 
 T = TypeVar("T")
 BY_GAME = "for one game, or GAME=VALUE,GAME=VALUE"
@@ -79,6 +80,7 @@ def run(arguments: Namespace) -> int:
         event = Event(spec)
         _ = event.progress  # checks the spec
         check_playable(spec, find_brain)
+    require_writable(arguments.file)  # its folder has to exist
     event_files.save(arguments.file, event)
     print_event(event, arguments.json)
     return 0
