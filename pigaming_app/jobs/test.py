@@ -21,14 +21,14 @@ MYPY = {"mypy": ("mypy", "--no-error-summary")}
 UNITS = tuple(f"tests/{room}" for room in (
     "sim", "games", "ai/brain", "ai/pitanks", "ai/factory", "ai/race", "ai/qlearning", "storage", "test_layers.py",
 ))  # fmt: skip
-WORKERS = ("-n", str((os.cpu_count() or 1) + 1), "--dist", "worksteal")  # some tests wait for processes
+WORKERS = ("-n", str(os.cpu_count() or 1), "--dist", "worksteal")
 # No window and no sound; bytecode is written even where the caller forbids it, because tests start many processes.
 ENVIRONMENT = {
     "SDL_VIDEODRIVER": "dummy",
     "SDL_AUDIODRIVER": "dummy",
     "PYGAME_HIDE_SUPPORT_PROMPT": "1",
     "PYTHONDONTWRITEBYTECODE": "",
-    "OPENCV_FOR_THREADS_NUM": "1",  # every core has a worker
+    "OPENCV_FOR_THREADS_NUM": "1",  # there is a worker for every core
 }
 
 
