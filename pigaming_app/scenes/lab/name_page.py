@@ -11,18 +11,13 @@ from pigaming_app.ui.draw import (
     BOLD,
     ICE,
     MIST,
-    STEEL,
-    THIN,
     Color,
-    cut_box,
-    panel,
 )
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
-from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
-from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters
+from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
 
 INPUT_LOCKOUT = 0.3  # s during which input is ignored
 W, H, GAP, MIDDLE = 176, 240, 32, 510  # px, letter boxes
@@ -87,7 +82,7 @@ class NamePage:
         heading(words("lab.name_title")).draw(screen)
         xs = [middle(i) for i in range(LENGTH)]
         for x in xs:
-            box().draw(screen, x, MIDDLE)
+            letter_box(W, H).draw(screen, x, MIDDLE)
         draw_letters(screen, self.picker, xs, MIDDLE, SIZE, 50, ICE)
         cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
         line, color = self._hint()
@@ -137,12 +132,3 @@ class NamePage:
 def middle(slot: int) -> float:
     """Centre of a letter, x in px."""
     return 960 + (slot - (LENGTH - 1) / 2) * (W + GAP)
-
-
-@cached
-def box() -> LitImage:
-    """Box of a letter, centred on (0, 0)."""
-    layer = Layer(-W / 2, -H / 2, W, H)
-    panel(layer.glow, -W / 2, -H / 2, W, H)
-    layer.glow.line(cut_box(-W / 2, -H / 2, W, H, 20), STEEL, THIN, True)
-    return layer.render()

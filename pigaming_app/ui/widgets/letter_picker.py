@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.ui.draw import FOCUS, LINE, Color, brackets, icon
+from pigaming_app.ui.draw import FOCUS, LINE, STEEL, THIN, Color, brackets, cut_box, icon, panel
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import word
@@ -81,4 +81,13 @@ def cursor(w: int, h: int, arm: int, corner: int, width: float, arrows: tuple[fl
     brackets(layer.glow, -w / 2, -h / 2, w, h, FOCUS, arm, corner, width)
     for side, name in ((-1, "up"), (1, "down")):
         icon(layer.glow, name, 0, side * away, r, FOCUS, LINE)
+    return layer.render()
+
+
+@cached
+def letter_box(w: float, h: float) -> LitImage:
+    """Box of a letter, px, centred on (0, 0)."""
+    layer = Layer(-w / 2, -h / 2, w, h)
+    panel(layer.glow, -w / 2, -h / 2, w, h)
+    layer.glow.line(cut_box(-w / 2, -h / 2, w, h, 20), STEEL, THIN, True)
     return layer.render()

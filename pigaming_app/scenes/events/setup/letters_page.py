@@ -7,13 +7,12 @@ import pygame
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.results.spelling import Spelling
-from pigaming_app.ui.draw import ALARM, BODY, BOLD, HERO, ICE, LABEL, MIST, STEEL, THIN, cut_box, panel
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
-from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw import ALARM, BODY, BOLD, HERO, ICE, LABEL, MIST
+from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
-from pigaming_app.ui.widgets.letter_picker import cursor, draw_letters
+from pigaming_app.ui.widgets.letter_picker import cursor, draw_letters, letter_box
 from pigaming_app.ui.widgets.word_filter import is_rude
 
 IDLE = 90.0  # s without input before the return to the entrants
@@ -78,7 +77,7 @@ class LettersPage:
         text("  ".join(names[-RECENT:]), LABEL, MIST, "head").draw(screen, 960, RECENT_Y)
         xs = [middle(i) for i in range(LETTERS)]
         for x in xs:
-            box().draw(screen, x, MIDDLE)
+            letter_box(W, H).draw(screen, x, MIDDLE)
         draw_letters(screen, self.spelling.picker, xs, MIDDLE, HERO, 60, ICE)
         cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.spelling.picker.slot], MIDDLE)
         if self.refusal:
@@ -114,12 +113,3 @@ class LettersPage:
 def middle(slot: int) -> float:
     """Centre of a letter, x in px."""
     return 960 + (slot - (LETTERS - 1) / 2) * (W + GAP)
-
-
-@cached
-def box() -> LitImage:
-    """Box of a letter, centred on (0, 0)."""
-    layer = Layer(-W / 2, -H / 2, W, H)
-    panel(layer.glow, -W / 2, -H / 2, W, H)
-    layer.glow.line(cut_box(-W / 2, -H / 2, W, H, 20), STEEL, THIN, True)
-    return layer.render()
