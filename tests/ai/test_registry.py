@@ -2,7 +2,8 @@
 
 import pytest
 
-from pigaming_app.ai.registry import BRAINS, LEVELS, NAMED_LEVELS, RIVALS, level_of
+from pigaming_app.ai.game_ai import LEVELS, NAMED_LEVELS
+from pigaming_app.ai.registry import AIS, BRAINS, level_of
 from pigaming_app.games.registry import games
 from pigaming_app.storage.settings import Settings
 
@@ -17,10 +18,10 @@ def test_a_level_is_a_name_of_a_brain(game):
 
 @pytest.mark.parametrize("game", games())
 def test_the_lobby_offers_brains_and_begins_with_a_level(game):
-    assert set(RIVALS[game]) <= set(BRAINS[game])
-    assert RIVALS[game][:5] == LEVELS
+    assert set(AIS[game].rivals) <= set(BRAINS[game])
+    assert AIS[game].rivals[:5] == LEVELS
     assert Settings().strength in LEVELS
 
 
 def test_the_old_machine_is_offered_after_all_others():
-    assert RIVALS["pitanks"][-1] == "fsm"
+    assert AIS["pitanks"].rivals[-1] == "fsm"

@@ -17,7 +17,7 @@ import numpy as np
 
 from pigaming_app.ai.experiments.league import duel, league
 from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.registry import LEVELS
+from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.games.pitanks.state import RICOCHET
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError

@@ -5,7 +5,8 @@ import json
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.registry import BRAINS, LEVELS
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.events.league_files import file_name, ratings_of
 from pigaming_app.games.registry import games
 

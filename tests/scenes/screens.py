@@ -7,7 +7,8 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
-from pigaming_app.ai.registry import POINT, RIVALS
+from pigaming_app.ai.game_ai import POINT
+from pigaming_app.ai.registry import AIS
 from pigaming_app.events.day_log import Battery, PlayedMatch, ProgramEvent, Record
 from pigaming_app.events.day_report import figures as day_figures
 from pigaming_app.events.ladder import Climb, table_of, worth
@@ -135,7 +136,7 @@ def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
 
 
 def seats(game: str) -> Seats:
-    found = Seats(team_mode=games()[game].default.team_mode, rivals=RIVALS[game])
+    found = Seats(team_mode=games()[game].default.team_mode, rivals=AIS[game].rivals)
     for device in KEYS[:2]:
         found.join(device)
     found.add_ai()
@@ -201,7 +202,9 @@ def summit(arcade: Arcade) -> Summit:
 
 def strengths(arcade: Arcade) -> Strengths:
     scene = Strengths(arcade.context, "pitanks")
-    rows = [(brain, 900.0 - 160.0 * i) for i, brain in enumerate((*RIVALS["pitanks"], "classic", "random", "hand1"))]
+    rows = [
+        (brain, 900.0 - 160.0 * i) for i, brain in enumerate((*AIS["pitanks"].rivals, "classic", "random", "hand1"))
+    ]
     rated = tuple(Strength(brain, rating, rating - 90.0, rating + 90.0) for brain, rating in rows)
     scene.ratings, scene.age = Ratings("pitanks", "original", 100_000, rated), 9.0
     return scene

@@ -17,7 +17,8 @@ from typing import Any
 from aiohttp import ClientSession
 
 from pigaming_app.ai.brain.kind import HumanPlayer
-from pigaming_app.ai.registry import DRIVING, TURN, new_match
+from pigaming_app.ai.game_ai import TURN
+from pigaming_app.ai.registry import AIS, new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
@@ -142,7 +143,7 @@ def _match(read: Any) -> Match:
     one, two, three, four = (Seat("human", seat) for seat in range(MAX_PHONES))
     match = new_match(Setup("pitanks", "classic", (one, two, three, four), 60, 1, games()["pitanks"].default.name))
     for seat in range(MAX_PHONES):
-        match.sit(seat, HumanPlayer(partial(read, seat), DRIVING["pitanks"][TURN]))
+        match.sit(seat, HumanPlayer(partial(read, seat), AIS["pitanks"].driving[TURN]))
     return match
 
 

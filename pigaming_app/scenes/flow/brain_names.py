@@ -1,7 +1,8 @@
 """Names of AIs on the screen: levels as stars, the others in words."""
 
 from pigaming_app.ai.brain_files import display_name
-from pigaming_app.ai.registry import LEVELS, RIVALS, level_of
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import AIS, level_of
 from pigaming_app.ui.draw.theme import STARS
 from pigaming_app.ui.i18n import Words
 
@@ -22,4 +23,4 @@ def brain_name(words: Words, game: str, brain: str) -> str:
     """The name of an AI on a label: the stars of a level, the words for another that the lobby offers, else its own."""
     if level := level_of(brain):
         return stars_of(level)
-    return words(f"match.{brain}") if brain in RIVALS[game] else display_name(brain).upper()
+    return words(f"match.{brain}") if brain in AIS[game].rivals else display_name(brain).upper()

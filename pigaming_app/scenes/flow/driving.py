@@ -1,6 +1,7 @@
 """The driving style of each device: chosen by its player, remembered for its kind of device."""
 
-from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN
+from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN
+from pigaming_app.ai.registry import AIS
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Device
 
@@ -16,8 +17,8 @@ PICTURES = {
 
 
 class DrivingStyles:
-    """Driving styles by device, a name in `DRIVING`. A style belongs to the device, so it stays on a change of seat, in
-    a rematch and in another game.
+    """Driving styles by device, each a name in `GameAI.driving`. A style belongs to the device, so it stays on a change
+    of seat, in a rematch and in another game.
     """
 
     def __init__(self, settings: Settings) -> None:
@@ -33,7 +34,7 @@ class DrivingStyles:
         last = self.settings.pad_driving if device.has_stick else self.settings.keys_driving
         for style in (self.chosen.get(device, ""), self.remembered.setdefault(device, last)):
             for name in (style, UNHELPED.get(style, "")):
-                if name in DRIVING[game]:
+                if name in AIS[game].driving:
                     return name
         return POINT if device.has_stick and variant == PARTY else TURN
 
@@ -42,7 +43,7 @@ class DrivingStyles:
 
         One button is a need of one person, so it is not remembered for others.
         """
-        names = list(DRIVING[game])
+        names = list(AIS[game].driving)
         style = names[(names.index(self.of(device, game, variant)) + delta) % len(names)]
         self.chosen[device] = style
         if style == ONE_BUTTON:

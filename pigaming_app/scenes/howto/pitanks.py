@@ -4,7 +4,7 @@ import math
 
 import pygame
 
-from pigaming_app.ai.registry import POINT, TURN
+from pigaming_app.ai.game_ai import POINT, TURN
 from pigaming_app.games.pitanks.state import POWERS
 from pigaming_app.scenes.howto.animation import Loop, add, drive_round
 from pigaming_app.scenes.views.sprites import effects

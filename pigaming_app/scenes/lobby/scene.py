@@ -10,7 +10,8 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.ai import registry
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import AIS
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
@@ -45,9 +46,7 @@ class Lobby:
     def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.context, self.game = context, game
         team_mode = games()[game].variants[last_choice(context, game).variant].team_mode
-        self.seats = Seats(
-            context.settings.strength, team_mode=team_mode, rivals=registry.RIVALS[game], mat=context.robots
-        )
+        self.seats = Seats(context.settings.strength, team_mode=team_mode, rivals=AIS[game].rivals, mat=context.robots)
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in context.settings.real and not context.robots_problem
         for seat, driver in enumerate(drivers):
@@ -168,10 +167,10 @@ class Lobby:
     def _row_jobs(self) -> Iterator[Callable[[], object]]:
         """Prewarm jobs for the rows that appear when somebody joins and AIs fill the seats."""
         words = self.context.words
-        for style in registry.DRIVING[self.game]:
+        for style in AIS[self.game].driving:
             for color in (*PLAYERS, None):
                 yield partial(card.driving, words(f"lobby.drive_{style}"), PICTURES[style], color)
-        for strength in registry.LEVELS:
+        for strength in LEVELS:
             yield partial(card.strength, *level_words(words, strength), None)
 
     # ---- input
@@ -282,7 +281,7 @@ class Lobby:
 
     def _save_strength(self) -> None:
         """Save the AI strength as the default of the next lobby, unless only this game offers it."""
-        if self.seats.strength in registry.LEVELS:
+        if self.seats.strength in LEVELS:
             self.context.settings.strength = self.seats.strength
 
     def _swap(self, seat: int) -> None:

@@ -5,7 +5,7 @@ FIRE takes the next empty seat, which determines the player number. The last AI 
 
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.ai.registry import LEVELS, NAMED_LEVELS
+from pigaming_app.ai.game_ai import LEVELS, NAMED_LEVELS
 from pigaming_app.games.game import ALLIES, FREE, PAIRS, Seat
 from pigaming_app.ui.input.events import Device
 

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pygame
 
-from pigaming_app.ai.registry import DRIVING
+from pigaming_app.ai.registry import AIS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.match_choice import last_choice
@@ -144,7 +144,7 @@ class ControlsTest:
     def _drive(self, device: Device) -> None:
         """One tick of a device's robot, which a tether pulls back to its place."""
         state = self.driven.setdefault(device, _new_robot())
-        linear, angular = DRIVING[GAME][self._style_of(device)](state, 0, self.context.controls.drive(device))
+        linear, angular = AIS[GAME].driving[self._style_of(device)](state, 0, self.context.controls.drive(device))
         robot = state.robots[0]
         robot.requested_linear, robot.requested_angular = linear * SPEED, angular * TURN_RATE
         integrate(robot)

@@ -8,7 +8,7 @@ from contextlib import AbstractContextManager
 
 import pygame
 
-from pigaming_app.ai.registry import TURN
+from pigaming_app.ai.game_ai import TURN
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.brain_names import brain_name

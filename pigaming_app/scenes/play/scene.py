@@ -13,7 +13,8 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.registry import ONE_BUTTON, make_brain, make_person, new_match
+from pigaming_app.ai.game_ai import ONE_BUTTON
+from pigaming_app.ai.registry import make_brain, make_person, new_match
 from pigaming_app.events.day_log import PlayedMatch, now
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds

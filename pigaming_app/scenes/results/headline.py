@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from pigaming_app.ai.brain_files import display_name
-from pigaming_app.ai.registry import RIVALS
+from pigaming_app.ai.registry import AIS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.brain_names import lit_stars
@@ -46,7 +46,7 @@ def headline(
         return words("results.stand_in_wins" if seat in absent else "results.wins", player=seat + 1)
     name = (
         lit_stars(brain)
-        or f"({words(f'lobby.{brain}').lower() if brain in RIVALS[setup.game] else display_name(brain)})"
+        or f"({words(f'lobby.{brain}').lower() if brain in AIS[setup.game].rivals else display_name(brain)})"
     )
     return words("results.ai_wins", player=seat + 1, name=name)
 

@@ -10,7 +10,8 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.ai.registry import LEVELS, new_match
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import new_match
 from pigaming_app.events.ladder import ALL, table_of
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup

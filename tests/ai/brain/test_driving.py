@@ -9,7 +9,8 @@ import pytest
 
 from pigaming_app.ai.brain.driving import pointed
 from pigaming_app.ai.brain.kind import HumanPlayer
-from pigaming_app.ai.registry import DRIVING, POINT, TURN, new_match
+from pigaming_app.ai.game_ai import POINT, TURN
+from pigaming_app.ai.registry import AIS, new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.action import STEPS, quantise
@@ -120,7 +121,7 @@ def test_in_every_game_the_stick_points_on_the_screen(
     )
     state, robot = match.state, match.state.robots[0]
     robot.heading = 0.3
-    match.sit(0, HumanPlayer(lambda: StickState(*stick), DRIVING[game][POINT]))
+    match.sit(0, HumanPlayer(lambda: StickState(*stick), AIS[game].driving[POINT]))
     for _ in range(75):
         match.tick()
         action = state.actions[0]
@@ -131,4 +132,4 @@ def test_in_every_game_the_stick_points_on_the_screen(
 
 def test_turn_and_drive_passes_the_stick_on() -> None:
     stick = StickState(0.5, -0.25)
-    assert DRIVING["race"][TURN](SimpleNamespace(), 0, stick) == (0.5, -0.25)
+    assert AIS["race"].driving[TURN](SimpleNamespace(), 0, stick) == (0.5, -0.25)

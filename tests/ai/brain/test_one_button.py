@@ -3,7 +3,8 @@
 import pytest
 
 from pigaming_app.ai.brain.kind import OneButtonPlayer
-from pigaming_app.ai.registry import DRIVING, ONE_BUTTON, make_person, new_match
+from pigaming_app.ai.game_ai import ONE_BUTTON
+from pigaming_app.ai.registry import AIS, make_person, new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
@@ -33,7 +34,7 @@ def played(match: Match, seconds: float) -> Match:
 
 @pytest.mark.parametrize("game", games())
 def test_every_game_offers_it(game: str) -> None:
-    assert ONE_BUTTON in DRIVING[game]
+    assert ONE_BUTTON in AIS[game].driving
     assert isinstance(make_person(game, ONE_BUTTON, lambda: NOTHING, 1), OneButtonPlayer)
 
 

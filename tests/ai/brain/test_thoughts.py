@@ -7,13 +7,14 @@ import pytest
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
 from pigaming_app.ai.factory import foreman
+from pigaming_app.ai.game_ai import NAMED_LEVELS
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
 from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.rewards import Recipe
 from pigaming_app.ai.race import racer
-from pigaming_app.ai.registry import BRAINS, NAMED_LEVELS, make_brain
+from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.factory.state import INPUT, RAW, A
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

@@ -5,7 +5,8 @@ from math import hypot
 
 import pytest
 
-from pigaming_app.ai.registry import NAMED_LEVELS, make_brain
+from pigaming_app.ai.game_ai import NAMED_LEVELS
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (

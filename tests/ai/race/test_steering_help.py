@@ -6,8 +6,9 @@ from math import atan2, pi
 import pytest
 
 from pigaming_app.ai.brain.kind import HumanPlayer
+from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, POINT, TURN
 from pigaming_app.ai.race.steering_help import helped_stick
-from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, POINT, TURN
+from pigaming_app.ai.registry import AIS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
@@ -125,9 +126,9 @@ def test_the_stick_stays_in_its_range_and_the_race_is_not_changed():
 
 def test_a_helped_person_drives_by_the_helped_stick_of_the_style():
     state = placed(600.0, -90.0)
-    for name, style in ((HELPED_TURN, DRIVING["race"][TURN]), (HELPED_POINT, DRIVING["race"][POINT])):
+    for name, style in ((HELPED_TURN, AIS["race"].driving[TURN]), (HELPED_POINT, AIS["race"].driving[POINT])):
         stick = StickState(0.5, 0.75, False, True)
-        HumanPlayer(lambda stick=stick: stick, DRIVING["race"][name]).think(state, 0)
+        HumanPlayer(lambda stick=stick: stick, AIS["race"].driving[name]).think(state, 0)
         action = state.actions[0]
         expected = helped_stick(state, 0, *style(state, 0, stick))
         assert (action.linear, action.angular) == tuple(map(quantise, expected))

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import DRIVING, HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN
+from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN
+from pigaming_app.ai.registry import AIS
 from pigaming_app.scenes.flow.driving import PARTY, PICTURES, DrivingStyles
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import ICONS
@@ -46,10 +47,10 @@ def test_the_choice_of_one_player_does_not_change_another() -> None:
 def test_the_styles_go_round_in_both_directions() -> None:
     styles = DrivingStyles(Settings())
     seen = []
-    for _ in DRIVING["race"]:
+    for _ in AIS["race"].driving:
         styles.change(KEYS, "race", PARTY, -1)
         seen.append(styles.of(KEYS, "race", PARTY))
-    assert sorted(seen) == sorted(DRIVING["race"])
+    assert sorted(seen) == sorted(AIS["race"].driving)
     assert seen[-1] == TURN
 
 
@@ -90,6 +91,6 @@ def test_one_button_is_for_one_device_and_not_remembered() -> None:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_style_has_a_picture_and_a_name(language: str) -> None:
-    for style in {style for styles in DRIVING.values() for style in styles}:
+    for style in {style for styles in (ai.driving for ai in AIS.values()) for style in styles}:
         assert PICTURES[style] in ICONS
         assert Words(language)(f"lobby.drive_{style}")

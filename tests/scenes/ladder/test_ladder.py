@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import LEVELS
+from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.events import climb_files
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength, file_name

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import LEVELS, ONE_BUTTON, POINT, RIVALS, TURN
+from pigaming_app.ai.game_ai import LEVELS, ONE_BUTTON, POINT, TURN
+from pigaming_app.ai.registry import AIS
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.flow import match_choice
@@ -321,4 +322,4 @@ def test_levels_have_stars_and_the_other_ais_none() -> None:
     assert rows[0] == ("Level 1", "★☆☆☆☆")
     assert rows[4] == ("Level 5", "★★★★★")
     assert [stars.count("★") for _, stars in rows] == [1, 2, 3, 4, 5]
-    assert {level_words(words, rival)[1] for rival in RIVALS["pitanks"] if rival not in LEVELS} == {""}
+    assert {level_words(words, rival)[1] for rival in AIS["pitanks"].rivals if rival not in LEVELS} == {""}

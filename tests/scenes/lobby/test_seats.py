@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.ai.registry import LEVELS
+from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.games.game import ALLIES, ALONE, FREE, PAIRS, Seat
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, REAL, RIVALS, TEAM, Seats
 from pigaming_app.ui.input.events import Device

@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer, OneButtonPlayer
-from pigaming_app.ai.registry import ONE_BUTTON, TURN
+from pigaming_app.ai.game_ai import ONE_BUTTON, TURN
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.play.countdown import CENTRE, clear_of
 from pigaming_app.scenes.play.device_table import DeviceTable

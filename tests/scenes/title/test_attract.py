@@ -6,7 +6,8 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.ai.registry import LEVELS, new_match
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.moments import CLOSE, KINDS, LAST, Moment
 from pigaming_app.games.registry import games

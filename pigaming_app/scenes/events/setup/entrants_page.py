@@ -10,7 +10,8 @@ from string import ascii_uppercase
 import pygame
 
 from pigaming_app.ai.brain_files import display_name
-from pigaming_app.ai.registry import LEVELS, RIVALS, level_of
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import AIS, level_of
 from pigaming_app.events.entrant_lists import entrants_of_text
 from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
 from pigaming_app.scenes.events.setup.draft import Draft
@@ -248,7 +249,7 @@ def brains_for(played: tuple[str, ...]) -> tuple[str, ...]:
     if len(played) > 1:
         return LEVELS
     saved = [str(file_of(name)) for name in names()] if played == ("pitanks",) else []
-    return (*RIVALS[played[0]], *saved)
+    return (*AIS[played[0]].rivals, *saved)
 
 
 def one_a_line(text: str) -> str:

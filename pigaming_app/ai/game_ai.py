@@ -1,0 +1,43 @@
+"""The AIs of one game, and the ways in which people drive in it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from pigaming_app.ai.brain import baselines
+from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
+from pigaming_app.ai.brain.kind import BrainKind
+
+LEVELS = ("level1", "level2", "level3", "level4", "level5")  # in every game; one to five stars on the screen
+NAMED_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}  # second names
+
+TURN, POINT = "turn", "point"
+HELPED_TURN, HELPED_POINT = "helped_turn", "helped_point"  # with steering help
+ONE_BUTTON = "one_button"  # an AI drives; its entry in `driving` shows a stick on pages without a match
+CHAUFFEUR = "level3"  # the AI that drives for one button
+USUAL_DRIVING: Mapping[str, Driving] = {TURN: turn_and_drive, POINT: point_where_to_go, ONE_BUTTON: turn_and_drive}
+
+
+@dataclass(frozen=True)
+class GameAI:
+    """The AIs of one game. `kinds`: by name, the five LEVELS among them; `idle` and `random` are added."""
+
+    kinds: Mapping[str, BrainKind]
+    rivals: tuple[str, ...] = LEVELS  # offered in the lobby, in the order in which it steps through them
+    driving: Mapping[str, Driving] = field(default_factory=lambda: USUAL_DRIVING)  # styles, in the lobby's order
+    boosts: bool = False  # the one button is the turbo too, where there may be nothing to fire
+
+    def __post_init__(self) -> None:
+        missing = [name for name in LEVELS if name not in self.kinds]
+        if missing:
+            raise ValueError(f"kinds: {', '.join(missing)} missing")
+
+    @property
+    def brains(self) -> dict[str, BrainKind]:
+        """All brains by name; three of the levels answer to a second name."""
+        kinds = {"idle": baselines.IDLE, "random": baselines.RANDOM, **self.kinds}
+        return {**kinds, **{name: kinds[level] for name, level in NAMED_LEVELS.items()}}
+
+
+def every_level(kind: BrainKind) -> dict[str, BrainKind]:
+    """One brain in place of all five levels."""
+    return {name: replace(kind, name=name) for name in LEVELS}
