@@ -148,16 +148,16 @@ def test_every_number_of_every_view_is_finite(game, arena, teams):
 def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
     import pygame
 
-    from pigaming_app.scenes.views.registry import VIEWS
+    from pigaming_app.scenes.views.registry import SCREENS
 
-    assert game in VIEWS, f"{game} has no view: add one to scenes.views.VIEWS"
+    assert game in SCREENS, f"{game} has no view: add it to scenes.views.registry.SCREENS"
     from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 
     pygame.display.init()
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))
     match = Match(setup(game, arena))
-    scene = VIEWS[game](match.arena, match.state, ["easy", "random", "random", "random"], AllEffects())
+    scene = SCREENS[game].view(match.arena, match.state, ["easy", "random", "random", "random"], AllEffects())
     for seat in range(4):
         match.sit(seat, make_brain(game, "random", seat))
     screen.fill((1, 2, 3))

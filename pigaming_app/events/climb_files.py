@@ -23,7 +23,7 @@ from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.events.ladder import ALL, FORMATS, LEVELS, MOST_LOST, NEEDED, Climb
+from pigaming_app.events.ladder import ALL, LEVELS, MOST_LOST, NEEDED, Climb, climbed_games
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.parsing import parse_toml
 from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
@@ -106,7 +106,7 @@ def _saved(entry: Any) -> SavedClimb | None:
     if not isinstance(entry, dict) or entry.keys() != {"number", "when", *names}:
         return None
     number, when, game = entry["number"], entry["when"], entry["game"]
-    if type(number) is not int or not 0 < number <= NUMBERS or game not in (*FORMATS, ALL):
+    if type(number) is not int or not 0 < number <= NUMBERS or game not in (*climbed_games(), ALL):
         return None
     if not isinstance(when, datetime) or when.tzinfo is None:
         return None

@@ -10,7 +10,7 @@ climbs the one with fewer lost matches is better, then the earlier one.
 
 from dataclasses import dataclass, replace
 
-from pigaming_app.games.game import Outcome, Seat, Setup
+from pigaming_app.games.game import LadderMatches, Outcome, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import ScoreTable
 
@@ -20,23 +20,6 @@ OFFER_AFTER = 2  # clear losses in a row
 ALL = "all"  # a climb through all games
 MOST_LOST = 999  # lost matches that count
 RULES = "party"  # short matches, and an overtime instead of a tie
-
-
-@dataclass(frozen=True)
-class Format:
-    """The matches of one game. `arenas`: one for each rung; `clear`: points, or s in a race, of a clear loss."""
-
-    minutes: float
-    goal: int
-    arenas: tuple[str, ...]
-    clear: float
-
-
-FORMATS = {
-    "pitanks": Format(1.0, 0, ("classic", "courtyard", "trenches", "islands", "labyrinth"), 4.0),
-    "factory": Format(2.0, 0, ("hall", "lines", "yard", "hall", "lines"), 3.0),
-    "race": Format(10.0, 3, ("classic", "kidney", "hairpin", "technical", "classic"), 5.0),
-}
 
 
 @dataclass(frozen=True)
@@ -71,7 +54,7 @@ class Climb:
         """Game of the next match; in a climb through all games, each rung begins with another one."""
         if self.game != ALL:
             return self.game
-        names = list(FORMATS)
+        names = climbed_games()
         return names[(self.rung - 1 + self.wins + self.losses) % len(names)]
 
     @property
@@ -111,7 +94,7 @@ class Climb:
     def setup(self, seed: int) -> Setup:
         """The next match: the person on seat 0, the robot on seat 1."""
         game, level = self.next_game, f"level{self.level}"
-        rules, form = games()[game].variants[RULES], FORMATS[game]
+        rules, form = games()[game].variants[RULES], ladder_of(game)
         one, two, three, four = (
             Seat(driver, team) for driver, team in zip(("human", level, "off", "off"), rules.teams, strict=True)
         )
@@ -119,13 +102,25 @@ class Climb:
         return Setup(game, arena, (one, two, three, four), form.minutes, seed, RULES, form.goal)
 
 
+def climbed_games() -> list[str]:
+    """The games that have a ladder."""
+    return [name for name, game in games().items() if game.ladder]
+
+
+def ladder_of(game: str) -> LadderMatches:
+    """The matches of a game's ladder. Raises ValueError if it has none."""
+    found = games()[game].ladder
+    if not found:
+        raise ValueError(f"{game} has no ladder")
+    return found
+
+
 def is_clear_loss(game: str, outcome: Outcome) -> bool:
     """True if seat 0 lost by at least the game's `clear`, or has not finished a race that another has."""
-    own = next(row for row in outcome.rows if row.seat == 0)
-    best = outcome.rows[0]
-    if game != "race":
-        return best.score - own.score >= FORMATS[game].clear
-    return not own.stats["total"] or own.stats["total"] - best.stats["total"] >= FORMATS[game].clear
+    own, best, clear = next(row for row in outcome.rows if row.seat == 0), outcome.rows[0], ladder_of(game).clear
+    if not games()[game].timed:
+        return best.score - own.score >= clear
+    return not own.stats["total"] or own.stats["total"] - best.stats["total"] >= clear
 
 
 def table_of(game: str) -> ScoreTable:

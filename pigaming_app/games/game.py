@@ -81,6 +81,16 @@ class Variant:
     feats: tuple[str, ...] = ()  # names of its high-score tables; empty: all of the game
 
 
+@dataclass(frozen=True)
+class LadderMatches:
+    """The matches of a ladder. `arenas`: one for each rung; `clear`: points, or s in a timed game, of a clear loss."""
+
+    minutes: float
+    goal: int
+    arenas: tuple[str, ...]
+    clear: float
+
+
 Reroute = Callable[[Arena, Any, tuple[ThingSpec, ...]], Callable[[Any], None]]
 """reroute(arena, rules, things), once things have moved: the slow part of a new plan, for any thread. Its result is to
 be called with the match, between two ticks. Raises FieldError if robots cannot pass the things."""
@@ -105,10 +115,14 @@ class Game:
     stats: Callable[[Any, int], Mapping[str, float]]
     records: Callable[[Any, int], Mapping[str, int]]  # by names of `record_kinds`; only those achieved
     times: Callable[[Any, int], tuple[float, ...]]
+    rules: Callable[[Setup], Any]  # the rule record of a match
     goal: str = ""  # unit of `goals`: laps, pallets
     rounds: tuple[int, ...] = (1,)  # the choices: the number of rounds of which most decide a match
     surprise: Callable[[int], str] | None = None  # the text of an arena file, from a seed
     reroute: Reroute | None = None  # for AIs that do not plan from the walls alone
+    timed: bool = False  # the fastest wins: the clock counts up, and results compare the stages' times
+    scored: bool = False  # the results table begins with the score
+    ladder: LadderMatches | None = None
 
     def records_of(self, variant: str) -> tuple[RecordKind, ...]:
         """The high-score tables of a variant; of an unknown one, those of the default."""

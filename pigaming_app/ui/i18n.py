@@ -38,6 +38,10 @@ class Words:
         """The text of a key, `table.name`, with values filled in. Raises KeyError for an unknown key."""
         return self._texts[key].format(**{name: self._localised(value) for name, value in values.items()})
 
+    def __contains__(self, key: str) -> bool:
+        """True if there is such a text."""
+        return key in self._texts
+
     def sentence(self, message: Message) -> str:
         """The short on-screen sentence of a hardware message."""
         return self(f"hardware.{message.key}", **message.values)

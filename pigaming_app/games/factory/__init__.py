@@ -3,9 +3,9 @@
 from pigaming_app.games.factory.layout import read
 from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.games.factory.rules import judge
-from pigaming_app.games.factory.start import VARIANTS, ranking_key, records, start, stats, times
+from pigaming_app.games.factory.start import VARIANTS, ranking_key, records, rules_of, start, stats, times
 from pigaming_app.games.factory.state import Factory
-from pigaming_app.games.game import Game, RecordKind
+from pigaming_app.games.game import Game, LadderMatches, RecordKind
 
 FACTORY = Game(
     name="factory",
@@ -23,5 +23,7 @@ FACTORY = Game(
     stats=stats,
     records=records,
     times=times,
+    rules=rules_of,
     goal="pallets",
+    ladder=LadderMatches(2.0, 0, ("hall", "lines", "yard", "hall", "lines"), 3.0),
 )

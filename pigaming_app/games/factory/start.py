@@ -109,6 +109,13 @@ def _place_equipment(match: Factory, floor: Floor) -> None:
     match.aisle[:] = floor.aisle
 
 
+def rules_of(setup: Setup) -> Rules:
+    """The rules of a match."""
+    rules = Rules()
+    set_rules(rules, setup)
+    return rules
+
+
 def set_rules(rules: Rules, setup: Setup) -> None:
     """Adapt fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)

@@ -40,6 +40,13 @@ def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
     match.next_pickup = match.rules.pickup_every // 2
 
 
+def rules_of(setup: Setup) -> Rules:
+    """The rules of a match."""
+    rules = Rules()
+    set_rules(rules, setup)
+    return rules
+
+
 def set_rules(rules: Rules, setup: Setup) -> None:
     """Adapt fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)

@@ -1,9 +1,9 @@
 """Robot Race: the first to finish wins."""
 
-from pigaming_app.games.game import Game, RecordKind
+from pigaming_app.games.game import Game, LadderMatches, RecordKind
 from pigaming_app.games.race.observation import Observation, Senses, observe
 from pigaming_app.games.race.rules import judge
-from pigaming_app.games.race.start import VARIANTS, ranking_key, read, records, reroute, start, stats, times
+from pigaming_app.games.race.start import VARIANTS, ranking_key, read, records, reroute, rules_of, start, stats, times
 from pigaming_app.games.race.state import Race
 
 RACE = Game(
@@ -22,6 +22,9 @@ RACE = Game(
     stats=stats,
     records=records,
     times=times,
+    rules=rules_of,
     goal="laps",
     reroute=reroute,
+    timed=True,
+    ladder=LadderMatches(10.0, 3, ("classic", "kidney", "hairpin", "technical", "classic"), 5.0),
 )

@@ -177,6 +177,13 @@ def _place_line(line: TimingLine, course: Course, along: float) -> None:
     line.bx, line.by = point_at(course, along, half)
 
 
+def rules_of(setup: Setup) -> Rules:
+    """The rules of a match."""
+    rules = Rules()
+    set_rules(rules, setup)
+    return rules
+
+
 def set_rules(rules: Rules, setup: Setup) -> None:
     """Adapt fresh rules to a setup. `party`: a common start, and half the speed in mud instead of a third."""
     rules.ticks = round(setup.minutes * 60 * HZ)

@@ -14,8 +14,8 @@ from pigaming_app.ai.brain.thoughts import PETALS, MoveKey, Thoughts
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.floor_marks import FloorMarks
-from pigaming_app.scenes.flow.match_words import FIRES
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PLAYERS
@@ -110,7 +110,7 @@ class BrainOverlay:
         else:
             cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen)
             buttons = [("turbo", state.actions[seat].turbo)]
-            if self.match.setup.game in FIRES:
+            if SCREENS[self.match.setup.game].fire:
                 buttons.insert(0, ("fire", state.actions[seat].fire))
             cards.draw_held(screen, right + w, seat, held(state.actions[seat]), buttons)
 

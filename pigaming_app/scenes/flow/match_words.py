@@ -1,27 +1,10 @@
 """Rule numbers that a player should know, as texts: match length, protection, turbo."""
 
-from collections.abc import Callable
-from typing import Any
-
-from pigaming_app.games.factory.start import set_rules as factory_rules
-from pigaming_app.games.factory.state import Rules as FactoryRules
 from pigaming_app.games.game import Game, Seat, Setup, Variant
-from pigaming_app.games.pitanks.start import set_rules as pitanks_rules
-from pigaming_app.games.pitanks.state import Rules as PiTanksRules
-from pigaming_app.games.race.start import set_rules as race_rules
-from pigaming_app.games.race.state import Rules as RaceRules
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
-
-# text key for FIRE in each game
-FIRES = {"pitanks": "hint_fire", "factory": "hint_lift", "race": "hint_recover"}
-RULES: dict[str, tuple[Callable[[], Any], Callable[[Any, Setup], None]]] = {
-    "pitanks": (PiTanksRules, pitanks_rules),
-    "factory": (FactoryRules, factory_rules),
-    "race": (RaceRules, race_rules),
-}
 
 
 def limits_line(words: Words, game: str, minutes: float, variant: str) -> str:
@@ -30,8 +13,9 @@ def limits_line(words: Words, game: str, minutes: float, variant: str) -> str:
 
 
 def tagline(words: Words, game: str, goal: int) -> str:
-    """The line under a game's name; that of the race contains the number of laps."""
-    return words("games.race_line_one" if game == "race" and goal == 1 else f"games.{game}_line", n=goal)
+    """The line under a game's name; it may contain the goal, such as the number of laps."""
+    one = f"games.{game}_line_one"
+    return words(one if goal == 1 and one in words else f"games.{game}_line", n=goal)
 
 
 def last_goal(settings: Settings, game: str) -> int:
@@ -58,10 +42,8 @@ def match_length(words: Words, game: Game, minutes: float, goal: int) -> str:
 
 def rule_numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
     """The rule numbers by their placeholder names, in minutes or seconds."""
-    make, set_rules = RULES[game]
-    rules, empty = make(), Seat("off", 0)
-    seats = empty, empty, empty, empty
-    set_rules(rules, Setup(game, "", seats, minutes, 1, variant, games()[game].variants[variant].default_goal))
+    empty, goal = Seat("off", 0), games()[game].variants[variant].default_goal
+    rules = games()[game].rules(Setup(game, "", (empty, empty, empty, empty), minutes, 1, variant, goal))
     numbers = {
         "minutes": rules.ticks * DT / 60.0,
         "protection": getattr(rules, "protection", 0) * DT,

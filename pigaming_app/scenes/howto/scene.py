@@ -6,9 +6,10 @@ import pygame
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_words import FIRES, last_minutes, last_variant, limits_line
+from pigaming_app.scenes.flow.match_words import last_minutes, last_variant, limits_line
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.howto.lessons import LESSONS, PAGE, PAGES, LessonPicture
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui.draw import (
     BLACK,
     BODY,
@@ -140,8 +141,8 @@ class HowTo:
             (controls.label(device, turbo), words("howto.hint_turbo")),
             (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
-        if self.game in FIRES:
-            pairs.insert(1, (words.key_name(controls.label(device, Button.FIRE)), words(f"howto.{FIRES[self.game]}")))
+        if fire := SCREENS[self.game].fire:
+            pairs.insert(1, (words.key_name(controls.label(device, Button.FIRE)), words(f"howto.{fire}")))
         return tuple((label, action) for label, action in pairs if label)
 
 

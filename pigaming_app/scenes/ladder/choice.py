@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.events.ladder import ALL, FORMATS, stars_and_losses, table_of
+from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, table_of
 from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
@@ -41,7 +41,7 @@ class LadderChoice:
 
     def __init__(self, context: Context, game: str) -> None:
         self.context = context
-        spots = [FocusSpot(name, tile_rect(i).move(0, TOP - TILE_Y)) for i, name in enumerate(FORMATS)]
+        spots = [FocusSpot(name, tile_rect(i).move(0, TOP - TILE_Y)) for i, name in enumerate(climbed_games())]
         self.focus = Focus([*spots, FocusSpot(ALL, ALL_BOX)], game)
         self.navigation = Navigation(context, self.focus, HINTS, IDLE, MESSAGE_SECONDS)
         self.saved: dict[str, Climber] = {}
@@ -61,7 +61,8 @@ class LadderChoice:
             return Push(Climbers(self.context, self.focus.name))
         if event.button is Button.X:
             self.context.sounds.play("accept")
-            return Push(Strengths(self.context, self.focus.name if self.focus.name in FORMATS else next(iter(FORMATS))))
+            climbed = climbed_games()
+            return Push(Strengths(self.context, self.focus.name if self.focus.name in climbed else climbed[0]))
         chosen = self.focus.activated(event)
         if chosen is None:
             return self.navigation.handle(event)

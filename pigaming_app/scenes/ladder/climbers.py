@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.events.ladder import ALL, FORMATS, stars_and_losses, table_of
+from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, table_of
 from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
@@ -17,7 +17,6 @@ from pigaming_app.ui.widgets.arrows import Arrows, as_direction, draw_arrows
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.score_board import Board, BoardRow
 
-GAMES = (*FORMATS, ALL)
 SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans in days
 STAY = 20.0  # s without input
 INPUT_LOCKOUT = 0.4  # s during which input is ignored
@@ -49,7 +48,8 @@ class Climbers:
         self.idle = 0.0
         if event.button in (Button.LEFT, Button.RIGHT):
             step = 1 if event.button is Button.RIGHT else -1
-            self.game, self.turned = GAMES[(GAMES.index(self.game) + step) % len(GAMES)], 0.0
+            tables = [*climbed_games(), ALL]
+            self.game, self.turned = tables[(tables.index(self.game) + step) % len(tables)], 0.0
             self.context.sounds.play("move")
         elif self.age > INPUT_LOCKOUT and event.button in CLOSING:
             self.context.sounds.play("back")

@@ -22,7 +22,7 @@ from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.seats import EMPTY, Seats
 from pigaming_app.scenes.results.high_score_tables import contest, format_score, table_of
 from pigaming_app.scenes.results.scene import SceneFactory
-from pigaming_app.scenes.views.preview import preview
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -301,7 +301,7 @@ class MatchSetupPage:
 @resumable
 def picture(game: str, name: str, allies: bool) -> Steps[LitImage]:
     """Large preview of an arena, positioned for the page. `allies`: all robots are in one team."""
-    image = yield from preview(load_cached(game, name), *PICTURE.size, allies)
+    image = yield from SCREENS[game].preview(load_cached(game, name), *PICTURE.size, allies)
     return LitImage(image, PICTURE.topleft)
 
 

@@ -19,7 +19,7 @@ from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.last_hit import LastHit
 from pigaming_app.scenes.real_replays import shown_things
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.view import ShownEffects, SoundCue
 from pigaming_app.sim.things.spec import ThingSpec
@@ -48,7 +48,7 @@ class MatchRunner:
     ) -> None:
         self.context, self.match, self.loud, self.rumble = context, match, loud, rumble
         self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
-        kind = VIEWS[match.setup.game]
+        kind = SCREENS[match.setup.game].view
         with self._tag_sprites():
             self.view = kind(match.arena, match.state, self.players, ShownEffects(context.settings), context.words)
         self.brain = BrainOverlay(match, self.view, context.words)

@@ -190,8 +190,8 @@ class MatchScene:
         if self.match.over and not self.stop_requested:
             self.ending.draw_sign(screen)
         elif self.countdown.shown:
-            if self.match.setup.game == "race" and self.match.seconds < 1.0:
-                self._draw_laps(screen)
+            if self.match.game.timed and self.match.seconds < 1.0:
+                self._draw_goal(screen)
             if self.countdown.locked:
                 self.runner.draw_captions(screen, self.devices)
                 self.countdown_at = clear_of(self.runner.robots())
@@ -218,11 +218,11 @@ class MatchScene:
         card, centre = self.rule_card
         card.draw(screen, *centre)
 
-    def _draw_laps(self, screen: pygame.Surface) -> None:
+    def _draw_goal(self, screen: pygame.Surface) -> None:
         """Show the number of laps in place of the stopped clock."""
         box = self.runner.view.clock
         screen.fill("black", box)
-        lines = wrap(tagline(self.context.words, "race", self.match.setup.goal), LABEL, box.w, "head")
+        lines = wrap(tagline(self.context.words, self.match.setup.game, self.match.setup.goal), LABEL, box.w, "head")
         for i, line in enumerate(lines):
             text(line, LABEL, FOCUS, "head", room=box.w).draw(screen, box.centerx, 80 + 58 * i - 29 * (len(lines) - 1))
 

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import pygame
 
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites.effects import SPARK_LEVELS, SPARK_SIZES, SPARK_TURNS, sparks
-from pigaming_app.ui.draw import ADD, BLACK, FOCUS, ICE, PRE, Color, GlowCanvas, cut_box, dim, shape_points
+from pigaming_app.ui.draw import ADD, FOCUS, ICE, PRE, Color, GlowCanvas, Point
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, step, trim
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -99,24 +100,14 @@ class Celebration:
 
 @cached
 def confetti(game: str, shape: int, color: Color, size: int, tumble: int) -> Sprite:
-    """A piece in a view of its tumbling: the player's shape, in the factory a crate, in the race a chequer."""
+    """A piece in a view of its tumbling."""
     half = size + 10
     ink = GlowCanvas(2 * half, 2 * half)
     flat, turn = 0.3 + 0.7 * abs(math.cos(tumble * math.pi / TUMBLES)), 0.5 + tumble * math.pi / TUMBLES
     c, s = math.cos(turn), math.sin(turn)
 
-    def placed(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    def placed(points: list[Point]) -> list[Point]:
         return [(half + x * c - flat * y * s, half + x * s + flat * y * c) for x, y in points]
 
-    if game == "factory":
-        crate = placed(cut_box(-size, -size, 2 * size, 2 * size, 0.35 * size))
-        ink.solid(crate).fill(crate, dim(color, 0.35)).line(crate, color, 4, True)
-    elif game == "race":
-        whole = placed([(-size, -size), (size, -size), (size, size), (-size, size)])
-        ink.solid(whole).fill(whole, color)
-        for x, y in ((-size, -size), (0.0, 0.0)):
-            ink.fill(placed([(x, y), (x + size, y), (x + size, y + size), (x, y + size)]), BLACK)
-    else:
-        piece = placed(shape_points(shape, size))
-        ink.solid(piece).fill(piece, color)
+    SCREENS[game].confetti(ink, placed, size, shape, color)
     return trim(ink.sprite(0.5), half, half)

@@ -41,7 +41,6 @@ from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, ba
 from pigaming_app.ui.draw.text import fit_size
 
 TOP, ROW, PITCH = 280, 120, 136
-SCORED = ("pitanks",)  # games with a score column
 TIMES = ("best", "total")  # columns in s
 PLACE_X, BADGE_X, AI_X = 68, 172, 236  # px from a row's left edge: centres of place, badge and AI icon
 FIGURES = (226, 828)  # px from a row's left edge: left and right limit of the columns
@@ -71,7 +70,7 @@ class ResultsPage:
         self.by_team = len(self.teams) < len(outcome.rows)
         game = games()[setup.game]
         columns = game.variants[setup.variant].columns or game.columns
-        self.columns = ("score", *columns) if setup.game in SCORED else columns
+        self.columns = ("score", *columns) if game.scored else columns
         self.stars = stars(outcome) if finished and is_allied(setup) else 0
         self.winners = outcome.winners if finished else ()
         self.title_at = FIRST + APART * len(self.teams) + 0.15
@@ -272,7 +271,7 @@ class ResultsPage:
 
     def _plot(self, x: int, w: int) -> Plot:
         """Plot of scores or laps."""
-        if self.setup.game == "race":
+        if games()[self.setup.game].timed:
             rows = sorted(self.outcome.rows, key=lambda row: row.seat)
             laps = [Curve((row.seat,), tuple((i + 1.0, lap) for i, lap in enumerate(row.times))) for row in rows]
             return LapPlot(x, TOP, w, 528, laps, self.setup.goal)

@@ -18,6 +18,7 @@ from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.results.stars import STARS, star
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites.effects import SPARK_SIZES, SPARK_TURNS, sparks
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.sprites.robot import robot
@@ -162,7 +163,7 @@ class WinnersMoment:
 
     def _colors(self) -> list[Color]:
         """Colours of the confetti."""
-        if self.setup.game == "factory":
+        if SCREENS[self.setup.game].team_colors:
             return [TEAMS[self.setup.seats[seat].team % len(TEAMS)] for seat in self.seats]
         return [PLAYERS[seat] for seat in self.seats]
 

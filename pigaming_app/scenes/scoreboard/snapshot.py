@@ -7,6 +7,7 @@ from typing import Any, Protocol, runtime_checkable
 
 from pigaming_app.games.game import PAIRS, Setup
 from pigaming_app.games.match import Match, standings
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.headline import is_allied, team_name
@@ -74,7 +75,7 @@ def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
     """The match of a scene now; `on_top`: no page lies over it."""
     match, setup = scene.match, scene.setup
     left = math.ceil(match.seconds_left)
-    counts_up = setup.game == "race"
+    counts_up = match.game.timed
     seconds = int(match.seconds) if counts_up else left
     state = "over" if match.over else "paused" if not on_top else "waiting" if scene.preparing else ""
     return MatchSnapshot(
@@ -113,6 +114,6 @@ def sides(scene: ShownMatch, words: Words) -> tuple[Side, ...]:
 
 def score_text(setup: Setup, score: int) -> str:
     """A score as shown: laps with their number, else points or pallets."""
-    if setup.game == "race" and setup.goal:
+    if games()[setup.game].timed and setup.goal:
         return f"{min(score, setup.goal)}/{setup.goal}"
     return str(score).replace("-", "−")

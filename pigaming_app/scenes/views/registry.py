@@ -1,15 +1,12 @@
-"""View class of each game."""
+"""How each game appears on the screens."""
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Mapping
 
-from pigaming_app.scenes.views.factory.view import FactoryView
-from pigaming_app.scenes.views.pitanks.view import PiTanksView
-from pigaming_app.scenes.views.race.view import RaceView
-from pigaming_app.scenes.views.view import MatchView, ViewOptions
-from pigaming_app.sim.arena import Arena
-from pigaming_app.ui.i18n import Words
+from pigaming_app.scenes.views.game_screens import GameScreens
+from pigaming_app.scenes.views.games import factory, pitanks, race
 
-View = Callable[[Arena, Any, list[str], ViewOptions, Words | None], MatchView]
-
-VIEWS: dict[str, View] = {"pitanks": PiTanksView, "factory": FactoryView, "race": RaceView}
+SCREENS: Mapping[str, GameScreens] = {
+    "pitanks": pitanks.SCREENS,
+    "factory": factory.SCREENS,
+    "race": race.SCREENS,
+}  # by game

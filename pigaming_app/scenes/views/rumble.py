@@ -1,6 +1,6 @@
-"""Rumbles of the pads, by game and kind of event (see `events.py` of each view)."""
+"""Rumbles of the pads by kind of event (see `events.py` of each view)."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 
@@ -21,26 +21,12 @@ BEST = Rumble(0.4, 0.7, 0.3)
 DELIVERED = Rumble(0.5, 0.8, 0.32)
 FINISH = Rumble(0.8, 0.8, 0.5)
 
-RUMBLES: dict[str, dict[str, Rumble]] = {
-    "pitanks": {"hit": TAKEN, "scored": GIVEN, "shielded": BLOCKED, "pickup": PICKED},
-    "factory": {"delivered": DELIVERED, "stolen": GIVEN, "freeze": TAKEN, "spoiled": BLOCKED, "lift": PICKED},
-    "race": {
-        "lap": LAP,
-        "best": BEST,
-        "finish": FINISH,
-        "item": PICKED,
-        "boost": GIVEN,
-        "spin": TAKEN,
-        "resisted": BLOCKED,
-    },
-}
 
-
-def rumbles(game: str, events: Iterable[tuple[str, int | None]]) -> dict[int, Rumble]:
-    """The strongest rumble of each seat for the (kind, seat) of one tick's events."""
+def rumbles(kinds: Mapping[str, Rumble], events: Iterable[tuple[str, int | None]]) -> dict[int, Rumble]:
+    """The strongest rumble of each seat for the (kind, seat) of one tick's events; `kinds`: those that rumble."""
     strongest: dict[int, Rumble] = {}
     for kind, seat in events:
-        rumble = RUMBLES.get(game, {}).get(kind)
+        rumble = kinds.get(kind)
         if rumble and seat is not None:
             strongest[seat] = max(rumble, strongest.get(seat, rumble), key=_energy)
     return strongest

@@ -5,7 +5,7 @@ from pathlib import Path
 import pygame
 
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.world import DT
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import Settings
@@ -24,7 +24,7 @@ class Screenshot:
         pygame.display.set_mode(SIZE)
         self.match, self.screen = match, pygame.Surface(SIZE)
         players = [seat.brain for seat in match.setup.seats]
-        self.view = VIEWS[match.setup.game](match.arena, match.state, players, Settings(), Words("en"))
+        self.view = SCREENS[match.setup.game].view(match.arena, match.state, players, Settings(), Words("en"))
 
     def watch(self) -> None:
         """Record the tick just played."""

@@ -16,6 +16,7 @@ from pigaming_app.scenes.views.prewarm import driving
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.things.on_mat import ThingsOnMat
+from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.scenes.views.tread_marks import TreadMarks
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -69,11 +70,11 @@ class MatchView:
     """View of one match. `players`: for each seat "human" or the name of the AI; may change during the match.
 
     Subclasses take arena, state, players, options and words, and override `watch` and `draw`. `clock`: the part of the
-    HUD between the panels. `style`: of real things, see things/styles.py.
+    HUD between the panels. `style`: of real things.
     """
 
     clock = pygame.Rect(820, 0, 280, HUD_HEIGHT)
-    style = "pitanks"
+    style = NEON
 
     def __init__(
         self,

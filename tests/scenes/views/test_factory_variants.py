@@ -23,12 +23,12 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.views.benchmark.frame_times import BusyFactory
+from pigaming_app.scenes.views.benchmark.factory import BusyFactory
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.factory import contest, countdowns, star_panel
 from pigaming_app.scenes.views.factory.hud import CALLS
 from pigaming_app.scenes.views.factory.next_step import is_task
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw.surface_cache import BUDGET, surfaces
@@ -55,7 +55,7 @@ def begun(variant="standard", goal=None, floor="hall"):
 
 
 def seen(match, players=HUMANS, language="en"):
-    return VIEWS["factory"](match.arena, match.state, list(players), AllEffects(), Words(language))
+    return SCREENS["factory"].view(match.arena, match.state, list(players), AllEffects(), Words(language))
 
 
 def sounds(view, state):
@@ -407,7 +407,8 @@ def test_allies_have_warehouses_of_one_colour(screen, variant):
 @pytest.mark.parametrize("variant", games()["factory"].variants)
 def test_a_match_fits_the_cache_and_is_left_alone(screen, variant):
     scene = BusyFactory(variant)
-    view = VIEWS["factory"](scene.arena, scene.state, ["human", "human", "easy", "hard"], AllEffects(), Words("pt"))
+    players = ["human", "human", "easy", "hard"]
+    view = SCREENS["factory"].view(scene.arena, scene.state, players, AllEffects(), Words("pt"))
     while not view.prewarm(1000.0):
         pass
     assert surfaces.bytes < BUDGET

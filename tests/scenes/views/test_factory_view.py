@@ -33,7 +33,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.factory.next_step import next_slot
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
 from tests.cases import one_in
 
@@ -56,7 +56,7 @@ def begun(floor="hall", goal=4, brains=("human",) * 4, teams=(ICE, FIRE, ICE, FI
 
 
 def seen(match, players=HUMANS, taste=None):
-    return VIEWS["factory"](match.arena, match.state, list(players), taste or AllEffects())
+    return SCREENS["factory"].view(match.arena, match.state, list(players), taste or AllEffects())
 
 
 def sounds(view, state):

@@ -5,9 +5,8 @@ import pygame
 import pytest
 
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.views.benchmark.frame_times import BUSY
 from pigaming_app.scenes.views.particles import CALM_BURSTS, Particles
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.view import ShownEffects
 from pigaming_app.sim.world import DT
 from pigaming_app.storage.settings import Settings
@@ -23,9 +22,9 @@ def filmed(game: str, variant: str, calm: bool) -> list[Cells]:
     """The cells of a match at peak load, after its first second."""
     pygame.display.init()
     screen = pygame.display.set_mode((1920, 1080))
-    scene = BUSY[game](variant)
+    scene = SCREENS[game].busy(variant)
     effects = ShownEffects(Settings(calm=calm))
-    view = VIEWS[game](scene.arena, scene.state, ["human", "human", "easy", "hard"], effects, Words("en"))
+    view = SCREENS[game].view(scene.arena, scene.state, ["human", "human", "easy", "hard"], effects, Words("en"))
     film = []
     for picture in range(int((1.0 + SECONDS) * RATE)):
         for _ in range(round(1.0 / RATE / DT)):

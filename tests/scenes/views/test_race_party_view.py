@@ -16,7 +16,7 @@ from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.race.lines import CHECKPOINT, START, line_signs
 from pigaming_app.scenes.views.race.party.events import AGAIN
 from pigaming_app.scenes.views.race.party.floor import robot_ahead
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import PLAYERS
@@ -36,7 +36,7 @@ def screen() -> pygame.Surface:
 
 
 def seen(scene, flashes="full", language="en"):
-    return VIEWS["race"](scene.arena, scene.state, ["human"] * 4, AllEffects(flashes, True), Words(language))
+    return SCREENS["race"].view(scene.arena, scene.state, ["human"] * 4, AllEffects(flashes, True), Words(language))
 
 
 def party(seats=4, laps=5):
@@ -106,7 +106,7 @@ def test_the_busiest_party_builds_no_sprite_after_the_countdown(screen):
 def test_each_line_has_the_colour_of_the_seat_that_was_dealt_it(screen, seed):
     one, two, three, four = (Seat("random", i) for i in range(4))
     match = new_match(Setup("race", "classic", (one, two, three, four), 10.0, seed, "standard", 3))
-    view = VIEWS["race"](match.arena, match.state, ["random"] * 4, AllEffects(), Words("en"))
+    view = SCREENS["race"].view(match.arena, match.state, ["random"] * 4, AllEffects(), Words("en"))
     for seat, racer in enumerate(match.state.racers):
         line = match.state.lines[racer.line]
         tint = average(view.background.surface, (line.ax + line.bx) / 2, (line.ay + line.by) / 2)

@@ -13,8 +13,8 @@ from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.benchmark.race import BusyRace
+from pigaming_app.scenes.views.games.race import preview
 from pigaming_app.scenes.views.particles import MAX_PARTICLES
-from pigaming_app.scenes.views.preview import preview
 from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SETTLE, SHOWN_FROM
@@ -24,7 +24,7 @@ from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import RaceCard, card_bits
 from pigaming_app.scenes.views.race.lines import sign_post
 from pigaming_app.scenes.views.race.track import edges
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import write_with_backup
@@ -45,7 +45,7 @@ def screen() -> pygame.Surface:
 
 
 def seen(scene, players=HUMANS, taste=None, language="en"):
-    return VIEWS["race"](scene.arena, scene.state, list(players), taste or AllEffects(), Words(language))
+    return SCREENS["race"].view(scene.arena, scene.state, list(players), taste or AllEffects(), Words(language))
 
 
 def sounds(view, state):
@@ -113,7 +113,7 @@ def test_the_road_is_black_and_beside_it_lies_mud(screen):
 def test_a_preview_shows_the_track_at_any_size(screen, track):
     arena = load("race", track)
     for w, h in ((320, 200), (1000, 640), (200, 300)):
-        image = run_to_end(preview(arena, w, h))
+        image = run_to_end(preview(arena, w, h, False))
         assert image.get_size() == (w, h)
         assert max(pygame.transform.average_color(image)[:3]) > 8
 
@@ -545,7 +545,7 @@ def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp
 def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_path):
     scene = BusyRace(2, laps=5)
     players = ["hard", "human", "off", "off"]
-    view = VIEWS["race"](scene.arena, scene.state, players, AllEffects(), Words("en"))
+    view = SCREENS["race"].view(scene.arena, scene.state, players, AllEffects(), Words("en"))
     view.enable_persistence(tmp_path)
     drive_laps(scene, view, 0, [600, 500])
     view.watch(scene.state)

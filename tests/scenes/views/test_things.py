@@ -10,9 +10,9 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
-from pigaming_app.scenes.views.preview import preview
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.things.on_mat import halo, place
+from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.sim.arena import replace_things
 from pigaming_app.sim.things.spec import ThingSpec, Use, written
 from pigaming_app.ui.draw.frame_budget import run_to_end
@@ -40,7 +40,7 @@ def begun(game, *things):
     one, two, three, four = (Seat("human", team) for team in rules.teams)
     setup = Setup(game, name, (one, two, three, four), 1.0, 3, rules.name, rules.default_goal)
     match = Match(setup, arena=arena)
-    return match, VIEWS[game](arena, match.state, ["human"] * 4, AllEffects("full", True), Words("en"))
+    return match, SCREENS[game].view(arena, match.state, ["human"] * 4, AllEffects("full", True), Words("en"))
 
 
 def drawn(screen, match, view):
@@ -59,7 +59,7 @@ def brightest_of_body(screen):
     return max(max(screen.get_at((x, y))[:3]) for x in range(box.left, box.right) for y in range(box.top, box.bottom))
 
 
-@pytest.mark.parametrize("game", list(VIEWS))
+@pytest.mark.parametrize("game", list(SCREENS))
 def test_no_light_falls_on_a_thing_and_much_around_it(screen, game):
     match, view = begun(game, square())
     for side in (-1.0, 1.0):  # light that the match would throw on it
@@ -110,13 +110,16 @@ def test_a_thing_that_is_moved_goes_dark_there_at_once_and_is_no_event(screen):
 def test_a_block_that_glides_needs_no_new_sprite():
     first, second = place(square()), place(square(X + 3.3, Y - 7.7))
     assert first[2:6] == second[2:6]
-    assert halo("pitanks", *first[2:6]) is halo("pitanks", *second[2:6])
+    assert halo(NEON, *first[2:6]) is halo(NEON, *second[2:6])
 
 
-@pytest.mark.parametrize("game", list(VIEWS))
+@pytest.mark.parametrize("game", list(SCREENS))
 def test_a_preview_shows_things(screen, game):
     match, _ = begun(game, square(half=60.0))
-    bare, furnished = (run_to_end(preview(arena, 400, 230)) for arena in (load(game, arenas(game)[0]), match.arena))
+    bare, furnished = (
+        run_to_end(SCREENS[game].preview(arena, 400, 230, False))
+        for arena in (load(game, arenas(game)[0]), match.arena)
+    )
     middle = pygame.Rect(0, 0, 16, 16)
     middle.center = 200, 103
     assert max(pygame.transform.average_color(furnished, middle)[:3]) < 25  # halos alone

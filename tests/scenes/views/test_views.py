@@ -9,8 +9,8 @@ from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, POWERS, SHIELD
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects, BusyPiTanks
 from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.pitanks.hud import layout
-from pigaming_app.scenes.views.preview import preview
-from pigaming_app.scenes.views.registry import VIEWS
+from pigaming_app.scenes.views.preview import walls
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.draw.frame_budget import run_to_end
@@ -27,7 +27,7 @@ def screen():
 
 
 def seen(scene, players=HUMANS, taste=None):
-    return VIEWS["pitanks"](scene.arena, scene.state, list(players), taste or AllEffects())
+    return SCREENS["pitanks"].view(scene.arena, scene.state, list(players), taste or AllEffects())
 
 
 def sounds(view, state):
@@ -222,6 +222,6 @@ def test_sprites_are_made_in_slices(screen):
 def test_a_preview_shows_every_wall_and_start_at_any_size():
     arena = BusyPiTanks().arena
     for w, h in ((320, 200), (800, 450), (200, 300)):
-        image = run_to_end(preview(arena, w, h))
+        image = run_to_end(walls(arena, w, h, False))
         assert image.get_size() == (w, h)
         assert image.get_at((0, 0))[:3] == (0, 0, 0)

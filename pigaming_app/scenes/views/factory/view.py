@@ -34,9 +34,10 @@ from pigaming_app.scenes.views.factory.panels import X as PANELS
 from pigaming_app.scenes.views.factory.panels import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.factory.panels import pulse
 from pigaming_app.scenes.views.factory.prewarm import jobs
-from pigaming_app.scenes.views.rumble import rumbles
+from pigaming_app.scenes.views.rumble import BLOCKED, DELIVERED, GIVEN, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
@@ -48,11 +49,14 @@ HANDS = 40.0  # px from a worker to its load
 BEFORE = 124.0  # px from a real robot, in its wide disc, to its load
 BESIDE = 102.0  # px from a robot to its countdown
 
+# by kind of event
+RUMBLES = {"delivered": DELIVERED, "stolen": GIVEN, "freeze": TAKEN, "spoiled": BLOCKED, "lift": PICKED}
+
 
 class FactoryView(MatchView):
     """The view of one match of Robot Factory."""
 
-    style = "factory"
+    style = WORKSHOP
 
     def __init__(
         self, arena: Arena, state: Factory, players: list[str], options: ViewOptions, words: Words | None = None
@@ -79,7 +83,7 @@ class FactoryView(MatchView):
         self.people_before, self.people = self.people, _people(state)
         self.guide.update(state)
         events = self.detector.detect(state)
-        self.rumbles = rumbles("factory", ((event.kind, event.player) for event in events))
+        self.rumbles = rumbles(RUMBLES, ((event.kind, event.player) for event in events))
         for event in events:
             if event.kind in CALLS:
                 self.hud.call(event.worth, event.kind, state.tick)

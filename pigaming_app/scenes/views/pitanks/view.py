@@ -13,7 +13,7 @@ from pigaming_app.scenes.views.pitanks.effects import ABOVE, react
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
 from pigaming_app.scenes.views.pitanks.hud import PiTanksHud, pulse
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
-from pigaming_app.scenes.views.rumble import rumbles
+from pigaming_app.scenes.views.rumble import BLOCKED, GIVEN, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
@@ -29,6 +29,8 @@ BLINK = 9  # ticks for which an ending shield is away, then there: less than thr
 ENDING = 2 * HZ  # remaining ticks from which a shield blinks
 BOUNTY = 84  # px from a robot to its bounty
 MUZZLE = 70.0  # px from a robot to the centre of its muzzle flash
+
+RUMBLES = {"hit": TAKEN, "scored": GIVEN, "shielded": BLOCKED, "pickup": PICKED}  # by kind of event
 
 
 class PiTanksView(MatchView):
@@ -63,7 +65,7 @@ class PiTanksView(MatchView):
         for event in events:
             if event.kind == "fire" and event.player is not None:
                 self.flashed[event.player] = self.particles.clock
-        self.rumbles = rumbles("pitanks", ((event.kind, event.player) for event in events))
+        self.rumbles = rumbles(RUMBLES, ((event.kind, event.player) for event in events))
         above = ABOVE + REAL_WIDER if self.real else ABOVE
         return react(events, state, self.particles, self.options, above)
 

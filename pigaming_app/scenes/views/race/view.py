@@ -24,10 +24,11 @@ from pigaming_app.scenes.views.race.party.prewarm import party_jobs
 from pigaming_app.scenes.views.race.party.sprites import SHIELD_SWAY, SWIRL_TURNS, swirl
 from pigaming_app.scenes.views.race.prewarm import jobs, void_words
 from pigaming_app.scenes.views.race.recovery import draw_way_back, target_of
-from pigaming_app.scenes.views.rumble import rumbles
+from pigaming_app.scenes.views.rumble import BEST, BLOCKED, FINISH, GIVEN, LAP, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import ghost as blank
 from pigaming_app.scenes.views.sprites.robot import tank
+from pigaming_app.scenes.views.things.styles import ROAD
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
@@ -45,11 +46,21 @@ ENTRY, STOP = 170.0, 52.0  # px before a line: target of the path to it, and its
 SPRAYED = 60.0  # px/s, minimum speed for mud spray
 BLINK, BLINKS = 0.08, 0.6  # s: one blink, and all of a robot that was put back on the track
 
+RUMBLES = {
+    "lap": LAP,
+    "best": BEST,
+    "finish": FINISH,
+    "item": PICKED,
+    "boost": GIVEN,
+    "spin": TAKEN,
+    "resisted": BLOCKED,
+}  # by kind of event
+
 
 class RaceView(MatchView):
     """The view of one race."""
 
-    style = "race"
+    style = ROAD
 
     def __init__(
         self, arena: Arena, state: Race, players: list[str], options: ViewOptions, words: Words | None = None
@@ -98,7 +109,7 @@ class RaceView(MatchView):
             if not state.racers[seat].place.on and abs(robot.linear) > SPRAYED:
                 back = robot.heading + (math.pi if robot.linear > 0.0 else 0.0)
                 spray(self.particles, LEFT + robot.x, TOP + robot.y, back, 1 + state.tick % 2, 0.8)
-        self.rumbles = rumbles("race", ((event.kind, event.seat) for event in events))
+        self.rumbles = rumbles(RUMBLES, ((event.kind, event.seat) for event in events))
         return sound_cues(events, state)
 
     def draw(self, screen: pygame.Surface, state: Race, blend: float, seconds: float) -> None:

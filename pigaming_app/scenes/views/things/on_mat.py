@@ -14,7 +14,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.things.outlines import grown
-from pigaming_app.scenes.views.things.styles import STYLES
+from pigaming_app.scenes.views.things.styles import Style
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BLACK, GlowCanvas, Point
@@ -44,9 +44,9 @@ class Placed(NamedTuple):
 
 
 class ThingsOnMat:
-    """The things of one match. `style`: name in STYLES."""
+    """The things of one match."""
 
-    def __init__(self, style: str, things: Sequence[ThingSpec] = ()) -> None:
+    def __init__(self, style: Style, things: Sequence[ThingSpec] = ()) -> None:
         self.style = style
         self.placed: list[Placed] = []
         self.sprites: list[tuple[Shape, Sprite] | None] = []  # the latest of each thing
@@ -126,7 +126,7 @@ def place(thing: ThingSpec) -> Placed:
 
 @cached
 @resumable
-def halo(style: str, use: Use, shape: Shape, turn: int, margin: int) -> Steps[Sprite]:
+def halo(style: Style, use: Use, shape: Shape, turn: int, margin: int) -> Steps[Sprite]:
     """The light of a thing, as light to add, at heading `turn` of TURNS."""
     angle = turn * math.tau / TURNS
     c, s = math.cos(angle), math.sin(angle)
@@ -140,19 +140,18 @@ def halo(style: str, use: Use, shape: Shape, turn: int, margin: int) -> Steps[Sp
     return trim(image, w, h)
 
 
-def draw(ink: GlowCanvas, style: str, use: Use, corners: Sequence[Point], margin: float) -> None:
+def draw(ink: GlowCanvas, style: Style, use: Use, corners: Sequence[Point], margin: float) -> None:
     """Draw one thing in the style of a game, with a black body if it is a wall."""
-    look = STYLES[style]
     if use is Use.WALL:
-        look.wall(ink, corners, margin)
+        style.wall(ink, corners, margin)
         ink.fill(grown(corners, margin), BLACK)
     elif use is Use.MUD:
-        look.mud(ink, corners)
+        style.mud(ink, corners)
     else:
-        look.line(ink, corners)
+        style.line(ink, corners)
 
 
-def draw_all(ink: GlowCanvas, style: str, things: Sequence[ThingSpec]) -> None:
+def draw_all(ink: GlowCanvas, style: Style, things: Sequence[ThingSpec]) -> None:
     """Draw all things, arena px: flat ones first."""
     for thing in sorted(things, key=lambda thing: thing.use is Use.WALL):
         draw(ink, style, thing.use, thing.outline, thing.margin)

@@ -103,11 +103,9 @@ def floor_paint(ink: GlowCanvas, corners: Sequence[Point]) -> None:
     ink.fill(corners, dim(WARNING, 0.62))
 
 
-STYLES = {
-    "pitanks": Style(neon_wall, mud, neon_line),
-    "race": Style(kerb_wall, mud, road_paint),
-    "factory": Style(warning_wall, slow_zone, floor_paint),
-}
+NEON = Style(neon_wall, mud, neon_line)
+ROAD = Style(kerb_wall, mud, road_paint)
+WORKSHOP = Style(warning_wall, slow_zone, floor_paint)
 
 
 def _wavy(ring: Points, level: int) -> list[Point]:

@@ -1,0 +1,56 @@
+"""How one game appears on the screens, apart from its lessons and texts."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import pygame
+
+from pigaming_app.scenes.views.preview import walls
+from pigaming_app.scenes.views.view import MatchView, ViewOptions
+from pigaming_app.sim.arena import Arena
+from pigaming_app.ui.draw import Color, GlowCanvas, Point, shape_points
+from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.i18n import Words
+
+
+class BenchmarkMatch(Protocol):
+    """A match or a synthetic replacement."""
+
+    arena: Arena
+    state: Any
+
+    def tick(self) -> None:
+        """Advance by 1/50 s."""
+
+
+Placed = Callable[[list[Point]], list[Point]]
+"""Points of a piece of confetti, px from its middle, as they lie on the canvas."""
+
+
+def player_shape(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color) -> None:
+    """Confetti: the shape of a player."""
+    piece = placed(shape_points(shape, size))
+    ink.solid(piece).fill(piece, color)
+
+
+@dataclass(frozen=True)
+class GameScreens:
+    """How one game appears.
+
+    - `view(arena, state, players, options, words)`: the view of a match.
+    - `tile(canvas, x, y)`: the picture on the title, in 560 x 284 px below and right of (x, y).
+    - `busy(variant)`: its most laborious match, for the benchmark of frame times.
+    - `fire`: text key (table `howto`) of what FIRE does; empty: nothing.
+    - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.
+    - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
+    - `team_colors`: winners have the colour of their team, not their own.
+    """
+
+    view: Callable[[Arena, Any, list[str], ViewOptions, Words | None], MatchView]
+    tile: Callable[[GlowCanvas, float, float], None]
+    busy: Callable[[str], BenchmarkMatch]
+    fire: str = ""
+    preview: Callable[[Arena, int, int, bool], Steps[pygame.Surface]] = walls
+    confetti: Callable[[GlowCanvas, Placed, float, int, Color], None] = player_shape
+    team_colors: bool = False

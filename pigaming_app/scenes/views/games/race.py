@@ -1,0 +1,81 @@
+"""How Robot Race appears on the screens."""
+
+import math
+
+import pygame
+
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.views.benchmark.race import BusyRace
+from pigaming_app.scenes.views.game_screens import GameScreens, Placed
+from pigaming_app.scenes.views.preview import fitted
+from pigaming_app.scenes.views.race.background import GLOW, earth
+from pigaming_app.scenes.views.race.lines import draw_line, frame
+from pigaming_app.scenes.views.race.track import draw_track
+from pigaming_app.scenes.views.race.view import RaceView
+from pigaming_app.scenes.views.sprites.robot import robot
+from pigaming_app.scenes.views.things.on_mat import black_out, draw_all
+from pigaming_app.scenes.views.things.styles import ROAD
+from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import ADD, BLACK, ICE, LINE, MIST, PLAYERS, THIN, Color, GlowCanvas, Point, dim
+from pigaming_app.ui.draw.frame_budget import Steps
+
+
+def tile(ink: GlowCanvas, x: float, y: float) -> None:
+    ink.line(_lane(x, y, 114), MIST, LINE).line(_lane(x, y, 20), MIST, LINE)
+    ink.dashes(_lane(x, y, 67), dim(MIST, 0.45), 3, 20, 20, False)
+    for i, j in ((i, j) for i in range(2) for j in range(6) if (i + j) % 2):
+        left, top = x + 150 + 15 * i, y + 24 + 15 * j
+        ink.fill([(left, top), (left + 15, top), (left + 15, top + 15), (left, top + 15)], ICE)
+    for player, cx, cy, a in ((3, 446, 196, 5.8), (0, 286, 182, 0.0), (1, 150, 214, 0.0)):
+        for side in (-26, 26):
+            for i in range(4):
+                streak = [(-108 + 18 * i, side), (-46, side)]
+                ink.set_transform(x + cx, y + cy, a).line(streak, dim(PLAYERS[player], 0.16 * (i + 1)), THIN)
+        robot(ink, player, x + cx, y + cy, a, 0.85)
+
+
+def _lane(x: float, y: float, r: float) -> list[Point]:
+    """Half a track: along the top, round a bend, back along the bottom."""
+    bend = [(x + 396 + r * math.sin(math.pi * i / 40), y + 136 - r * math.cos(math.pi * i / 40)) for i in range(41)]
+    return [(x + 28, y + 136 - r), *bend, (x + 28, y + 136 + r)]
+
+
+def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
+    """Preview of a track: mud, road, direction, and the lines, which no seat has been dealt yet."""
+    left, top, k = fitted(w, h)
+    below = pygame.transform.smoothscale(earth(arena.plan), (round(k * WIDTH), round(k * HEIGHT)))
+    yield
+    glow, crisp = (
+        GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
+        GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
+    )
+    yield from draw_track(glow, crisp, arena.plan)
+    for along in arena.plan.lines:
+        draw_line(glow, crisp, frame(arena.plan.course, along), ICE)
+    black_out(crisp, arena.things)
+    draw_all(glow, ROAD, arena.things)
+    yield
+    light = yield from glow.lit_steps(GLOW)
+    out = pygame.Surface((w, h))
+    out.blit(below, (round(left), round(top)))
+    for thing in arena.things:
+        pygame.draw.polygon(out, BLACK, [(left + k * x, top + k * y) for x, y in thing.outline])
+    out.blit(light, (0, 0), special_flags=ADD)
+    yield from crisp.downscale_onto(out)
+    return out
+
+
+def chequer(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color) -> None:
+    """Confetti: a piece of a chequered flag."""
+    whole = placed([(-size, -size), (size, -size), (size, size), (-size, size)])
+    ink.solid(whole).fill(whole, color)
+    for x, y in ((-size, -size), (0.0, 0.0)):
+        ink.fill(placed([(x, y), (x + size, y), (x + size, y + size), (x, y + size)]), BLACK)
+
+
+def busy(variant: str) -> BusyRace:
+    return BusyRace(laps=max(games()["race"].variants[variant].goals), variant=variant)
+
+
+SCREENS = GameScreens(RaceView, tile, busy, "hint_recover", preview, chequer)
