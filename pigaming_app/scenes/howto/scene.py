@@ -8,7 +8,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_minutes, last_variant, limits_line
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
-from pigaming_app.scenes.howto.lessons import LESSONS, PAGE, PAGES, LessonPicture
+from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE, LessonPicture
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui.draw import (
     BLACK,
@@ -54,7 +54,7 @@ class HowTo:
         """Turn the page, open a game, or leave."""
         clicked = next((game for game, box in self._names() if event.at and box.collidepoint(event.at)), None)
         if event.button in (Button.LEFT, Button.RIGHT):
-            pages = [(game, page) for game in LESSONS for page in range(page_count(game))]
+            pages = [(game, page) for game in taught() for page in range(SCREENS[game].page_count)]
             step = 1 if event.button is Button.RIGHT else -1
             self._show(*pages[(pages.index((self.game, self.page)) + step) % len(pages)])
         elif event.button is Button.CLICK and clicked:
@@ -77,7 +77,7 @@ class HowTo:
         button_label("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
         black_out(screen, *boxes)
-        for i, (box, (name, picture)) in enumerate(zip(boxes, self.lessons(), strict=True)):
+        for i, (box, (name, picture)) in enumerate(zip(boxes, self.lessons(), strict=False)):
             screen.set_clip(box.inflate(-8, -8))
             key = picture(screen, box.centerx, TOP + 268, self.clock)
             screen.set_clip(None)
@@ -95,13 +95,14 @@ class HowTo:
 
     def lessons(self) -> list[tuple[str, LessonPicture]]:
         """The lessons of this page: text keys of the captions, and the pictures."""
-        return list(LESSONS[self.game].items())[PAGE * self.page : PAGE * (self.page + 1)]
+        first = LESSONS_PER_PAGE * self.page
+        return list(SCREENS[self.game].lessons.items())[first : first + LESSONS_PER_PAGE]
 
     def _foot(self, screen: pygame.Surface) -> None:
         """The limits of the rules, after the name of the rule set and a dot for each page if there are several."""
-        words, count, left = self.context.words, page_count(self.game), float(LEFT)
-        if count > 1:
-            name = words(f"setup.{self.game}_{PAGES[self.game][self.page]}")
+        words, count, left = self.context.words, SCREENS[self.game].page_count, float(LEFT)
+        if SCREENS[self.game].lesson_pages:
+            name = words(f"setup.{self.game}_{self._variant()}")
             pages(name, self.page, count).draw(screen)
             left += pages_width(name, count) + 40
         limits = limits_line(words, self.game, self.minutes(), self._variant())
@@ -119,13 +120,13 @@ class HowTo:
 
     def _variant(self) -> str:
         """The rule set of the page; if the game has only one page, that of the last match."""
-        names = PAGES.get(self.game, (last_variant(self.context.settings, self.game).name,))
-        return names[self.page]
+        names = SCREENS[self.game].lesson_pages
+        return names[self.page] if names else last_variant(self.context.settings, self.game).name
 
     def _names(self) -> list[tuple[str, pygame.Rect]]:
         """The games and the rectangles of their names, at the right end of the heading."""
         boxes, right = [], RIGHT
-        for game in reversed(LESSONS):
+        for game in reversed(taught()):
             w = chip_width(self.context.words(f"games.{game}"))
             boxes.append((game, pygame.Rect(right - w, 80, w, 64)))
             right -= w + 16
@@ -146,9 +147,9 @@ class HowTo:
         return tuple((label, action) for label, action in pairs if label)
 
 
-def page_count(game: str) -> int:
-    """Number of pages of a game."""
-    return len(LESSONS[game]) // PAGE
+def taught() -> list[str]:
+    """The games that have lessons."""
+    return [game for game, screens in SCREENS.items() if screens.lessons]
 
 
 @cached

@@ -13,8 +13,8 @@ from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers, format_climb
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.initials import Initials, Qualification, places
-from pigaming_app.scenes.results.stars import star
 from pigaming_app.scenes.results.winner import big_robot, title
+from pigaming_app.scenes.views.sprites.stars import star
 from pigaming_app.storage.scores import Score
 from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, LINE, MIST, PLAYERS, STEEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue

@@ -17,11 +17,11 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
-from pigaming_app.scenes.results.stars import STARS, star
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites.effects import SPARK_SIZES, SPARK_TURNS, sparks
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.sprites.robot import robot
+from pigaming_app.scenes.views.sprites.stars import STARS, star
 from pigaming_app.scenes.views.view import ShownEffects
 from pigaming_app.ui.draw import (
     ADD,

@@ -1,7 +1,7 @@
 """How one game appears on the screens, apart from its lessons and texts."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import pygame
@@ -24,6 +24,11 @@ class BenchmarkMatch(Protocol):
         """Advance by 1/50 s."""
 
 
+LessonPicture = Callable[[pygame.Surface, float, float, float], str | None]
+"""lesson(screen, x, y, seconds): one moment of a loop, centred on a point; may return the text key of a word below."""
+
+LESSONS_PER_PAGE = 4
+
 Placed = Callable[[list[Point]], list[Point]]
 """Points of a piece of confetti, px from its middle, as they lie on the canvas."""
 
@@ -45,6 +50,8 @@ class GameScreens:
     - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.
     - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
     - `team_colors`: winners have the colour of their team, not their own.
+    - `lessons`: by text key of their captions (table `howto.lessons`), in pages of four.
+    - `lesson_pages`: rule set of each page, if there is more than one.
     """
 
     view: Callable[[Arena, Any, list[str], ViewOptions, Words | None], MatchView]
@@ -54,3 +61,10 @@ class GameScreens:
     preview: Callable[[Arena, int, int, bool], Steps[pygame.Surface]] = walls
     confetti: Callable[[GlowCanvas, Placed, float, int, Color], None] = player_shape
     team_colors: bool = False
+    lessons: Mapping[str, LessonPicture] = field(default_factory=dict)
+    lesson_pages: tuple[str, ...] = ()
+
+    @property
+    def page_count(self) -> int:
+        """Pages of lessons."""
+        return -(-len(self.lessons) // LESSONS_PER_PAGE)

@@ -6,8 +6,8 @@ import pygame
 import pytest
 
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.howto.lessons import LESSONS, PAGE, PAGES
-from pigaming_app.scenes.howto.scene import HowTo, page_count
+from pigaming_app.scenes.howto.scene import HowTo, taught
+from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -24,26 +24,20 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 def test_left_and_right_turn_all_pages_of_all_games(arcade: Arcade) -> None:
     scene = HowTo(arcade.context)
     seen = []
-    for _ in range(sum(map(page_count, LESSONS)) + 1):
+    for _ in range(sum(SCREENS[game].page_count for game in taught()) + 1):
         seen.append((scene.game, scene.page, tuple(name for name, _ in scene.lessons())))
         scene.handle(InputEvent(Button.RIGHT, KEYS[0]))
     assert seen[0] == seen[-1]
     shown = [name for _, _, names in seen[:-1] for name in names]
-    assert shown == [name for lessons in LESSONS.values() for name in lessons]
+    assert shown == [name for game in taught() for name in SCREENS[game].lessons]
     scene.handle(InputEvent(Button.LEFT, KEYS[0]))
     assert (scene.game, scene.page) == seen[0][:2]
-
-
-def test_a_game_with_several_pages_has_four_lessons_for_each() -> None:
-    for game, variants in PAGES.items():
-        assert set(variants) <= set(games()[game].variants)
-        assert len(LESSONS[game]) == PAGE * len(variants)
 
 
 def test_a_page_names_the_minutes_of_its_rule_set(arcade: Arcade) -> None:
     scene = HowTo(arcade.context, "factory")
     minutes = []
-    for page in range(page_count("factory")):
+    for page in range(SCREENS["factory"].page_count):
         scene.page = page
         minutes.append(scene.minutes())
     assert minutes == [variant.default_minutes for variant in games()["factory"].variants.values()]
@@ -54,13 +48,13 @@ def test_a_page_names_the_minutes_of_its_rule_set(arcade: Arcade) -> None:
 
 
 @pytest.mark.parametrize(
-    ("game", "name"), one_in(2, [(game, name) for game, lessons in LESSONS.items() for name in lessons])
+    ("game", "name"), one_in(2, [(game, name) for game in taught() for name in SCREENS[game].lessons])
 )
 def test_a_lesson_moves_and_is_rarely_empty(arcade: Arcade, game: str, name: str) -> None:
     screen, looks, filled = pygame.Surface((414, 600)), set(), 0
     for i in range(16):
         screen.fill("black")
-        LESSONS[game][name](screen, 207.0, 268.0, i * 0.53)
+        SCREENS[game].lessons[name](screen, 207.0, 268.0, i * 0.53)
         lit = pygame.mask.from_threshold(screen, (0, 0, 0), (40, 40, 40))
         filled += 414 * 600 - lit.count() > 500
         looks.add(pygame.image.tobytes(screen, "RGB"))

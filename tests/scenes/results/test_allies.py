@@ -9,8 +9,8 @@ from pigaming_app.scenes.results.headline import headline, is_allied, stars
 from pigaming_app.scenes.results.high_score_tables import contest, counts
 from pigaming_app.scenes.results.high_scores import conditions
 from pigaming_app.scenes.results.scene import Results
-from pigaming_app.scenes.results.stars import HIGH
 from pigaming_app.scenes.results.view import TOP
+from pigaming_app.scenes.views.sprites.stars import HIGH
 from pigaming_app.ui.draw.layers import span
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from tests.scenes.arcade import Arcade

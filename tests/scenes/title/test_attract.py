@@ -15,8 +15,7 @@ from pigaming_app.games.replay import Replay, recorded
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.app import Options, run
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.howto.lessons import LESSONS
-from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.howto.scene import HowTo, taught
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
@@ -37,7 +36,7 @@ FASTEST = 0.08  # s per frame at which a match still runs at full speed
 
 
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES))
-@pytest.mark.parametrize("game", LESSONS)
+@pytest.mark.parametrize("game", taught())
 def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(controls: Controls, game: str, language: str) -> None:
     arcade = Arcade(controls, language)
     lesson = HowTo(arcade.context, game)

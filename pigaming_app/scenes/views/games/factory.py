@@ -8,6 +8,8 @@ from pigaming_app.scenes.views.benchmark.factory import BusyFactory
 from pigaming_app.scenes.views.factory.background import draw_floor
 from pigaming_app.scenes.views.factory.view import FactoryView
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
+from pigaming_app.scenes.views.lessons import factory as lessons
+from pigaming_app.scenes.views.lessons import factory_party, factory_together
 from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.sprites.robot import robot
@@ -71,4 +73,29 @@ def crate(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color
     ink.solid(box).fill(box, dim(color, 0.35)).line(box, color, 4, True)
 
 
-SCREENS = GameScreens(FactoryView, tile, BusyFactory, "hint_lift", preview, crate, team_colors=True)
+LESSONS = {
+    "lift": lessons.lift,
+    "work": lessons.work,
+    "deliver": lessons.deliver,
+    "people": lessons.people,
+    "rush": factory_party.rush,
+    "loose": factory_party.loose,
+    "claim": factory_party.claim,
+    "fast": factory_party.fast,
+    "allies": factory_together.allies,
+    "stars": factory_together.stars,
+    "tasks": factory_together.tasks,
+    "clear": factory_together.clear,
+}
+
+SCREENS = GameScreens(
+    FactoryView,
+    tile,
+    BusyFactory,
+    "hint_lift",
+    preview,
+    crate,
+    team_colors=True,
+    lessons=LESSONS,
+    lesson_pages=("standard", "party", "together"),
+)

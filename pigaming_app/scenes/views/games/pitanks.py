@@ -4,6 +4,8 @@ import math
 
 from pigaming_app.scenes.views.benchmark.pitanks import BusyPiTanks
 from pigaming_app.scenes.views.game_screens import GameScreens
+from pigaming_app.scenes.views.lessons import pitanks as lessons
+from pigaming_app.scenes.views.lessons import pitanks_party
 from pigaming_app.scenes.views.pitanks.view import PiTanksView
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.scenes.views.sprites.wall import draw_wall
@@ -29,4 +31,22 @@ def tile(ink: GlowCanvas, x: float, y: float) -> None:
     ink.text("+1", LABEL, x + 118, y + 100, BLUE, "hero", "c")
 
 
-SCREENS = GameScreens(PiTanksView, tile, lambda variant: BusyPiTanks(variant=variant), fire="hint_fire")
+LESSONS = {
+    "drive": lessons.drive,
+    "shoot": lessons.shoot,
+    "walls": lessons.walls,
+    "pickups": lessons.pickups,
+    "knockout": pitanks_party.knockout,
+    "light": pitanks_party.light,
+    "bounty": pitanks_party.bounty,
+    "finale": pitanks_party.finale,
+}
+
+SCREENS = GameScreens(
+    PiTanksView,
+    tile,
+    lambda variant: BusyPiTanks(variant=variant),
+    fire="hint_fire",
+    lessons=LESSONS,
+    lesson_pages=("plain", "party"),
+)

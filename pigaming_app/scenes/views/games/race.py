@@ -7,6 +7,8 @@ import pygame
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.benchmark.race import BusyRace
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
+from pigaming_app.scenes.views.lessons import race as lessons
+from pigaming_app.scenes.views.lessons import race_party
 from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.race.background import GLOW, earth
 from pigaming_app.scenes.views.race.lines import draw_line, frame
@@ -78,4 +80,17 @@ def busy(variant: str) -> BusyRace:
     return BusyRace(laps=max(games()["race"].variants[variant].goals), variant=variant)
 
 
-SCREENS = GameScreens(RaceView, tile, busy, "hint_recover", preview, chequer)
+LESSONS = {
+    "laps": lessons.laps,
+    "lines": lessons.lines,
+    "finish": lessons.finish,
+    "mud": lessons.mud,
+    "draft": race_party.draft,
+    "pads": race_party.pads,
+    "items": race_party.items,
+    "recover": race_party.recover,
+}
+
+SCREENS = GameScreens(
+    RaceView, tile, busy, "hint_recover", preview, chequer, lessons=LESSONS, lesson_pages=("standard", "party")
+)

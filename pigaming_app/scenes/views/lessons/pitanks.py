@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.ai.game_ai import POINT, TURN
 from pigaming_app.games.pitanks.state import POWERS
-from pigaming_app.scenes.howto.animation import Loop, add, drive_round
+from pigaming_app.scenes.views.lessons.animation import Loop, add, drive_round
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites.robot import tank

@@ -4,7 +4,7 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.howto.animation import add, drive_by
+from pigaming_app.scenes.views.lessons.animation import add, drive_by
 from pigaming_app.scenes.views.pitanks import banner
 from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things

@@ -5,11 +5,11 @@ import math
 import pygame
 
 from pigaming_app.games.factory.state import DELIVERED, DONE, ICE, RAW, B
-from pigaming_app.scenes.howto.animation import Loop, add
-from pigaming_app.scenes.howto.factory_party import DOWN, FORK, SLOT, UP, ease, machine, robot, slot
-from pigaming_app.scenes.results.stars import star
+from pigaming_app.scenes.views.lessons.animation import Loop, add
+from pigaming_app.scenes.views.lessons.factory_party import DOWN, FORK, SLOT, UP, ease, machine, robot, slot
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import factory_signs as signs
+from pigaming_app.scenes.views.sprites.stars import star
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw import MIST, PLAYERS, TITLE
 from pigaming_app.ui.draw.sprites import HEADINGS, step

@@ -5,8 +5,8 @@ import math
 import pygame
 
 from pigaming_app.games.factory.state import DELIVERED, DONE, FIRE, HALF, ICE, A, B
-from pigaming_app.scenes.howto.animation import add
 from pigaming_app.scenes.views.factory.background import draw_machine, draw_slot
+from pigaming_app.scenes.views.lessons.animation import add
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import factory_signs as signs
 from pigaming_app.scenes.views.sprites import pickups as things

@@ -4,7 +4,7 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.howto.animation import Loop, add, drive_by, drive_round
+from pigaming_app.scenes.views.lessons.animation import Loop, add, drive_by, drive_round
 from pigaming_app.scenes.views.race.lines import LineFrame, draw_line
 from pigaming_app.scenes.views.race.sprites import clods
 from pigaming_app.scenes.views.race.track import EDGE

@@ -6,8 +6,8 @@ from itertools import pairwise
 import pygame
 
 from pigaming_app.games.factory.state import DELIVERED, DONE, FIRE, HALF, ICE, RAW, A, B
-from pigaming_app.scenes.howto.animation import add
 from pigaming_app.scenes.views.factory.background import draw_lorry, draw_machine, draw_slot
+from pigaming_app.scenes.views.lessons.animation import add
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites.robot import tank

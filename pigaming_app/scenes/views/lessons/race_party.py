@@ -4,8 +4,8 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.howto.animation import add, drive_by
-from pigaming_app.scenes.howto.race import WIDE, edge, lit, sheets
+from pigaming_app.scenes.views.lessons.animation import add, drive_by
+from pigaming_app.scenes.views.lessons.race import WIDE, edge, lit, sheets
 from pigaming_app.scenes.views.race.party import sprites as things
 from pigaming_app.scenes.views.race.recovery import beam
 from pigaming_app.scenes.views.race.sprites import clods
