@@ -41,3 +41,7 @@ class GameAI:
 def every_level(kind: BrainKind) -> dict[str, BrainKind]:
     """One brain in place of all five levels."""
     return {name: replace(kind, name=name) for name in LEVELS}
+
+
+RANDOM_ONLY = GameAI(every_level(baselines.RANDOM))
+"""Of a game without brains."""

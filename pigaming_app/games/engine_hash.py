@@ -4,22 +4,31 @@ import ast
 import hashlib
 from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 from pigaming_app.sim.kernel import PACKAGE
+from pigaming_app.storage.plugins.parts import rule_sources
 
 ENGINE = ("sim", "games")  # rooms that determine how a match plays out, given the actions of the seats
 _SKIPPED = ("ctx", "kind", "type_comment")  # fields of the syntax tree without meaning for the program
 
 
-@cache
-def engine_hash() -> str:
+def engine_hash(game: str = "") -> str:
     """SHA-256 over the syntax trees of the engine, the same on every system and every Python since 3.11.
 
-    Comments, docstrings, formatting and module paths do not count; every name, constant, operator and annotation does.
+    `game`: a plug-in's rules count for its own game only; all games of this package have the same hash. Comments,
+    docstrings, formatting and module paths do not count; every name, constant, operator and annotation does.
     """
-    sources = (path.read_bytes() for folder in ENGINE for path in (PACKAGE / folder).rglob("*.py"))
-    return hashlib.sha256("".join(sorted(map(syntax_hash, sources))).encode()).hexdigest()
+    return _hash(rule_sources(game))
+
+
+@cache
+def _hash(added: tuple[Path, ...]) -> str:
+    """Hash of the engine and of added modules."""
+    ours = (path for folder in ENGINE for path in (PACKAGE / folder).rglob("*.py"))
+    hashes = sorted(syntax_hash(path.read_bytes()) for path in (*ours, *added))
+    return hashlib.sha256("".join(hashes).encode()).hexdigest()
 
 
 def syntax_hash(source: bytes) -> str:

@@ -1,4 +1,4 @@
-"""List of all games."""
+"""All games: those of this package, then those of plug-ins."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -7,9 +7,22 @@ from pigaming_app.games.factory import FACTORY
 from pigaming_app.games.game import Game
 from pigaming_app.games.pitanks import PITANKS
 from pigaming_app.games.race import RACE
+from pigaming_app.sim.kernel import add_sources
+from pigaming_app.storage.plugins.parts import RULES, parts, plugins
+
+OURS = {game.name: game for game in (PITANKS, FACTORY, RACE)}
 
 
 @cache
 def games() -> Mapping[str, Game]:
     """Every game by its name, in the order of the title screen."""
-    return {game.name: game for game in (PITANKS, FACTORY, RACE)}
+    for plugin in plugins():
+        add_sources(plugin.folder)
+    return {**OURS, **parts(RULES, "GAME", Game, _unusable)}
+
+
+def _unusable(name: str, game: Game) -> str:
+    """The reason why a plug-in's game cannot be used, or nothing."""
+    if name in OURS:
+        return f"there is a game {name} already"
+    return "" if game.name == name else f"its game is named {game.name}, not {name}"

@@ -59,7 +59,7 @@ class Replay:
     @property
     def other_engine(self) -> bool:
         """True if another version of the engine recorded it, so that it may play out differently."""
-        return self.engine != engine_hash()
+        return self.engine != engine_hash(self.setup.game)
 
 
 def replayable(match: Match) -> bool:
@@ -74,7 +74,7 @@ def recorded(match: Match) -> Replay:
         match.arena.source,
         bytes(match.log.ticks),
         digest(match.state),
-        engine_hash(),
+        engine_hash(match.setup.game),
         tuple(robot.score for robot in match.state.robots),
         match.outcome().winners,
         moments(match),

@@ -46,8 +46,10 @@ except ImportError as error:
     ) from None
 
 from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.games.registry import OURS
 from pigaming_app.gym.options import OptionError
 from pigaming_app.gym.parallel import MatchEnv
+from pigaming_app.gym.rewards import TALLIES
 
 os.environ.pop("SDL_AUDIODRIVER", None)  # PettingZoo sets it to dsp, which silences a program that plays sound too
 if _sound is not None:
@@ -56,6 +58,9 @@ if _sound is not None:
 __all__ = ["ENVIRONMENTS", "OptionError", "groups", "parallel_env"]
 
 ENVIRONMENTS = {"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v0": "factory"}  # names of the games
+ENVIRONMENTS |= {
+    f"{game.title().replace('_', '')}-v0": game for game in TALLIES if game in ENCODINGS and game not in OURS
+}
 
 
 def parallel_env(game: str, **options: Any) -> MatchEnv:

@@ -24,6 +24,7 @@ from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import CELL, ROBOTS
+from pigaming_app.storage.plugins.parts import parts
 
 
 @dataclass(frozen=True)
@@ -147,7 +148,7 @@ def more_work(match: Any, team: int) -> int:
     return more
 
 
-TALLIES = {
+TALLIES: Mapping[str, Tallies] = {
     "pitanks": Tallies(
         ("hits", "taken", "shots", "points", "lead", "win"),
         {"hits": 1.0, "taken": -1.0, "win": 5.0},
@@ -166,4 +167,5 @@ TALLIES = {
         tally_factory,
         is_over,
     ),
+    **parts("training", "TALLIES", Tallies),
 }  # by game

@@ -25,6 +25,7 @@ _registered: list[tuple[Callable[..., Any], Callable[..., Any], dict[str, str]]]
 
 PACKAGE = Path(__file__).resolve().parent.parent
 COMPILED = ("sim", "games", "ai", "gym")  # rooms with kernels
+_added: list[Path] = []  # folders of other packages with kernels
 
 
 def kernel(function: F) -> F:
@@ -50,6 +51,13 @@ def kernel_with_loops(loops: Callable[..., Any]) -> Callable[[F], F]:
         return function
 
     return register
+
+
+def add_sources(folder: Path) -> None:
+    """Count the modules in a folder among the sources of kernels. To be called before anything is compiled."""
+    if folder not in _added:
+        _added.append(folder)
+        _source_hash.cache_clear()
 
 
 def can_compile() -> bool:
@@ -114,10 +122,10 @@ def _cache_folder() -> Path:
 
 @cache
 def _source_hash() -> str:
-    """SHA-256 over the paths and texts of all modules in rooms with kernels."""
+    """SHA-256 over the paths and texts of all modules in rooms with kernels, and in added folders."""
     sha = hashlib.sha256()
-    for folder in COMPILED:
-        for path in sorted((PACKAGE / folder).rglob("*.py")):
-            sha.update(path.relative_to(PACKAGE).as_posix().encode())
+    for folder in (*(PACKAGE / room for room in COMPILED), *sorted(_added)):
+        for path in sorted(folder.rglob("*.py")):
+            sha.update(path.relative_to(folder.parent).as_posix().encode())
             sha.update(path.read_bytes().replace(b"\r\n", b"\n"))
     return sha.hexdigest()

@@ -5,7 +5,7 @@ the hash of the engine, and a handicap: a level is a network with a handicap.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from itertools import pairwise
 from math import isfinite
@@ -65,13 +65,16 @@ class TrainedNetwork:
     decisions: int  # of the learner's robots, over the whole training
     curve: Curve = Curve()
     licence: str = LICENCE
-    engine: str = field(default_factory=engine_hash)  # hash of the engine it was trained with
+    engine: str = ""  # hash of the engine it was trained with; "": the present one
     handicap: Handicap = NO_HANDICAP
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "engine", self.engine or engine_hash(self.game))
 
     @property
     def other_engine(self) -> bool:
         """True if it was trained with another version of the engine, so that results may differ."""
-        return self.engine != engine_hash()
+        return self.engine != engine_hash(self.game)
 
 
 def encode(trained: TrainedNetwork) -> bytes:

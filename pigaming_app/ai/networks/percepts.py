@@ -10,6 +10,7 @@ from pigaming_app.ai.networks import factory, pitanks, race
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.pitanks_things import MINE_NEAR
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.storage.plugins.parts import parts
 
 Point = tuple[float, float]
 At = Callable[[float, float, float], Point]  # distance, and direction as cosine and sine relative to the heading
@@ -154,4 +155,5 @@ SUBJECTS = {
         "item",
         in_race,
     ),
+    **parts("network", "SUBJECT", Subject),
 }  # by game

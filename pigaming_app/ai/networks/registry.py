@@ -2,7 +2,9 @@
 
 from pigaming_app.ai.networks import factory, pitanks, race
 from pigaming_app.ai.networks.encoding import Encoding
+from pigaming_app.storage.plugins.parts import parts
 
 ENCODINGS: dict[str, Encoding] = {
-    encoding.game: encoding for encoding in (pitanks.ENCODING, factory.ENCODING, race.ENCODING)
+    **{encoding.game: encoding for encoding in (pitanks.ENCODING, factory.ENCODING, race.ENCODING)},
+    **parts("network", "ENCODING", Encoding),
 }  # by game

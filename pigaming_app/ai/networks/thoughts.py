@@ -18,12 +18,6 @@ from pigaming_app.ai.networks.policy import LOGIT
 
 Explain = Callable[[Any, int, Any, Any], Thoughts]
 
-REASONS = {
-    "near": "looks_near", "others": "looks_others", "bullets": "looks_bullets", "mines": "looks_mines",
-    "pickups": "looks_pickups", "walls": "looks_walls", "self": "looks_self", "score": "looks_score",
-    "target": "looks_target", "choices": "looks_choices", "machines": "looks_machines", "people": "looks_people",
-    "load": "looks_load", "course": "looks_course", "oil": "looks_oil", "pads": "looks_pads",
-}  # text keys  # fmt: skip
 MATTERS = 0.05  # share of the choice from which on a topic counts
 TILTED = 0.3  # deflection above which the stick counts as held
 
@@ -45,7 +39,7 @@ def make_explain(encoding: Encoding) -> Explain:
         heads = dict(zip(names, chances, strict=True))
         return Thoughts(
             behaviour=behaviour_of(_step(action.linear), _step(action.angular), int(action.fire and shoots)),
-            reason=REASONS[first] if shares[first] >= MATTERS else "looks_nothing",
+            reason=f"looks_{first}" if shares[first] >= MATTERS else "looks_nothing",
             percepts=tuple(
                 sight for topic, sight in perceived(subject, match, seat, mind.inputs) if shares[topic] >= MATTERS
             ),

@@ -62,4 +62,5 @@ def _pools(arrays: Mapping[str, Any]) -> list[str]:
 
 def _plan(training: Training) -> dict[str, Any]:
     """What determines the course of a training."""
-    return {"engine": engine_hash(), "game": training.task.game, "seed": training.seed, **recipe(training)}
+    game = training.task.game
+    return {"engine": engine_hash(game), "game": game, "seed": training.seed, **recipe(training)}

@@ -11,7 +11,7 @@ from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import Handicap, draw
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.networks.thoughts import REASONS, make_explain, probabilities, topics_of
+from pigaming_app.ai.networks.thoughts import make_explain, probabilities, topics_of
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
@@ -50,7 +50,7 @@ def test_asking_changes_neither_match_nor_mind_and_everything_told_has_words():
             assert one.utilities.keys() == SUBJECTS["pitanks"].topics.keys()
             assert [sum(chances) for chances in one.heads.values()] == pytest.approx([1.0] * 4)
     assert len({one.chosen for one in told}) > 2
-    reasons = {*REASONS.values(), "looks_nothing"}
+    reasons = {*(f"looks_{topic}" for subject in SUBJECTS.values() for topic in subject.topics), "looks_nothing"}
     assert {one.reason for one in told if one.reason} <= reasons
     assert all(f"brain.because_{reason}" in text for reason in reasons for text in words)
 

@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.networks.files import brain_of
-from pigaming_app.ai.networks.thoughts import REASONS
+from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.registry import make_brain, new_match
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.brain import floor_marks as marks
@@ -280,7 +280,8 @@ def test_a_network_shows_what_matters_to_it_and_the_probabilities_of_its_choices
     aside = round(cards.heads_width(overlay.heads))
     for part in (pygame.Rect(0, 0, 652 - aside, 106), pygame.Rect(652 - aside, 0, aside, 106)):
         assert max(box.get_at((x, 30)).b for x in range(part.left + 8, part.right - 8)) > 100
-    assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in (*REASONS, *overlay.heads))
+    topics = {topic for subject in SUBJECTS.values() for topic in subject.topics}
+    assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in (*topics, *overlay.heads))
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -304,4 +305,5 @@ def test_every_wish_of_every_brain_has_a_sign(arcade: Arcade) -> None:
             stage.advance(1 / 60)
         for seat in range(4):
             told = stage.match.brains[seat].explain(stage.match.state, seat)
-            assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in told.utilities)
+            topics = {topic for subject in SUBJECTS.values() for topic in subject.topics}
+    assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in told.utilities)

@@ -1,0 +1,39 @@
+"""Which plug-ins may run: the operator switches each on or off. A new one runs only once it was switched on."""
+
+import json
+from pathlib import Path
+
+from pigaming_app.storage.parsing import parse_json
+from pigaming_app.storage.plugins.found import NAME, Plugin
+from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
+from pigaming_app.storage.settings import folders
+
+FILE = "games.json"  # in the configuration folder: {"tag": true, …}
+
+
+def is_on(plugin: Plugin) -> bool | None:
+    """Whether a plug-in may run; None if nobody has decided. What belongs to this program may, unless switched off."""
+    return _decisions().get(plugin.name, True if plugin.own else None)
+
+
+def switch(name: str, on: bool) -> None:
+    """Switch a game on or off, from the next start on. Raises NotSaved."""
+    decisions = {**_decisions(), name: on}
+    write_with_backup(_file(), json.dumps(decisions, indent=1, sort_keys=True) + "\n")
+
+
+def _decisions() -> dict[str, bool]:
+    found, _damage = read_or_restore(_file(), _parsed)
+    return found or {}
+
+
+def _parsed(text: str) -> dict[str, bool]:
+    """Raises ValueError."""
+    table = parse_json(text)
+    if not isinstance(table, dict):
+        raise ValueError("not a table")
+    return {name: on for name, on in table.items() if NAME.fullmatch(name) and isinstance(on, bool)}
+
+
+def _file() -> Path:
+    return folders().config / FILE

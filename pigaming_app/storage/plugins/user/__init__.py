@@ -1,0 +1,7 @@
+"""Packages in the folder `games` of the user's data folder, imported as `pigaming_app.storage.plugins.user.NAME`."""
+
+from pigaming_app.storage.settings import folders
+
+FOLDER = "games"  # below the data folder
+
+__path__ = [str(folders().data / FOLDER)]
