@@ -1,4 +1,4 @@
-"""Loading of arenas: files under assets/arenas/GAME/, parsed by the game they belong to, and arenas from a seed."""
+"""Loading of arenas: files under assets/arenas/GAME/, or in a plug-in, parsed by their game, and arenas from a seed."""
 
 import re
 from collections.abc import Sequence
@@ -9,6 +9,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_arena
 from pigaming_app.sim.things.spec import ThingSpec, written
+from pigaming_app.storage.plugins.parts import data_folders
 
 MAX_BYTES = 100_000  # per file; replays contain a copy
 SURPRISE = re.compile(r"surprise-(\d{1,9})")  # name of an arena that is made from this seed
@@ -16,7 +17,7 @@ SURPRISE = re.compile(r"surprise-(\d{1,9})")  # name of an arena that is made fr
 
 def arenas(game: str) -> list[str]:
     """The names of a game's arenas, `classic` first."""
-    names = sorted(path.stem for path in (ASSETS / "arenas" / game).glob("*.toml"))
+    names = sorted(path.stem for path in _folder(game).glob("*.toml"))
     return sorted(names, key=lambda name: name != "classic")
 
 
@@ -25,7 +26,7 @@ def load(game: str, name: str) -> Arena:
     make, seed = games()[game].surprise, SURPRISE.fullmatch(name)
     if make and seed:
         return parse(game, make(int(seed[1])), name)
-    path = Path(name) if name.endswith(".toml") else ASSETS / "arenas" / game / f"{name}.toml"
+    path = Path(name) if name.endswith(".toml") else _folder(game) / f"{name}.toml"
     try:
         if not path.exists():
             raise ArenaError(f"{name}: no such arena for {game}; there are {', '.join(arenas(game))}")
@@ -34,6 +35,11 @@ def load(game: str, name: str) -> Arena:
         raise ArenaError(f"{path.name}: file: cannot be read ({error.strerror or error})") from None
     except UnicodeDecodeError:
         raise ArenaError(f"{path.name}: file: cannot be read (it is not text in UTF-8)") from None
+
+
+def _folder(game: str) -> Path:
+    """The folder of a game's arenas."""
+    return dict(data_folders("arenas")).get(game, ASSETS / "arenas" / game)
 
 
 def _read(path: Path) -> str:

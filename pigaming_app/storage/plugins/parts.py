@@ -5,7 +5,7 @@ Switching a plug-in on or off counts from the next start on: kernels and hashes 
 
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
@@ -49,6 +49,13 @@ def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str
             else:
                 found[plugin.name] = value
     return found
+
+
+def data_folders(kind: str) -> Iterator[tuple[str, Path]]:
+    """Each plug-in that has not failed, and its folder of this kind: arenas, text, sounds, brains; it may be missing."""
+    for plugin in plugins():
+        if plugin.name not in _failed:
+            yield plugin.name, plugin.folder / kind
 
 
 def rule_sources(name: str) -> tuple[Path, ...]:

@@ -305,5 +305,4 @@ def test_every_wish_of_every_brain_has_a_sign(arcade: Arcade) -> None:
             stage.advance(1 / 60)
         for seat in range(4):
             told = stage.match.brains[seat].explain(stage.match.state, seat)
-            topics = {topic for subject in SUBJECTS.values() for topic in subject.topics}
     assert all(cards.sign(name, (255, 255, 255)).image.get_width() > 20 for name in told.utilities)
