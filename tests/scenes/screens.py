@@ -43,7 +43,7 @@ from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.operator.figures_page import FiguresPage
 from pigaming_app.scenes.operator.page import OperatorPage
 from pigaming_app.scenes.options.controls_test import ControlsTest
-from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
 from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
 from pigaming_app.scenes.phones.settings_page import PhonesPage
@@ -344,7 +344,10 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
     "operator day": lambda arcade: OperatorPage(arcade.context),
     "operator figures": figures,
-    "options easier": lambda arcade: OptionsPage(arcade.context, ease=True),
+    **{
+        f"options {section}": lambda arcade, section=section: OptionsPage(arcade.context, section=section)
+        for section in SECTIONS
+    },
     "remap": lambda arcade: RemapPage(arcade.context),
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
     "pad test": lambda arcade: ControlsTest(arcade.context),

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.emulator.objects import LID_HEIGHT, TEXELS, FlatObject, Placing, Print
 from pigaming_app.hardware.emulator.optics import SENSOR, Map, Optics
-from pigaming_app.hardware.emulator.things.overlay import Patch, patches, projected, shaded
+from pigaming_app.hardware.emulator.things.overlay import Patch, patches, shaded
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.signals import Image
 
@@ -22,6 +22,7 @@ BLUR = 0.7  # px, of the lens
 SPARE = 4  # px, margin around an object
 LIGHT_STEPS = 100  # of the room light's period
 NOISE = 2.5  # grey levels, standard deviation
+KEPT = 32  # windows whose light is kept while the same picture is projected
 
 Floats = NDArray[np.float32]
 
@@ -101,6 +102,7 @@ class SceneRenderer:
         """Replace the optics, for a camera that was moved."""
         self.optics = optics
         self._floor, self._lids = optics.lit_by(0.0), optics.lit_by(LID_HEIGHT)
+        self._lights: tuple[Image | None, dict[tuple[bool, ImageRegion], Image]] = None, {}  # of a projected picture
         self.furnish(self._solid)
 
     def furnish(self, things: Sequence[Prism]) -> None:
@@ -144,8 +146,10 @@ class SceneRenderer:
     ) -> Image:
         import cv2
 
-        room = np.float32(self.ambient) * self._room_light(scene.light)[window.cut()]
-        light = self._lit(scene, self._floor, window, room)
+        room = self._room_light(scene.light)[window.cut()]
+        if self.ambient != 1.0:
+            room = np.float32(self.ambient) * room
+        light = self._lit(scene, 0.0, window, room)
         cv2.multiply(light, self._mat[window.cut()], dst=light)
         for patch in self._patches:
             self._overlay(scene, patch, window, room, light)
@@ -173,7 +177,7 @@ class SceneRenderer:
             slice(left - patch.columns.start, right - patch.columns.start),
         )
         here = slice(top - window.top, bottom - window.top), slice(left - window.left, right - window.left)
-        lamp = projected(patch, scene.image, BLUR)[inner]
+        lamp = patch.projected(scene.image, BLUR)[inner]
         light[here] = np.float32(LAMP_LIGHT) * lamp + patch.room[inner] * room[here]
 
     def _lay(
@@ -202,20 +206,24 @@ class SceneRenderer:
         if thing.dark:
             region *= 1.0 + texture[..., 0] - texture[..., 1]
             return
-        lit = self._lit(scene, self._lids if thing.height else self._floor, part, room[rows, columns])
+        lit = self._lit(scene, thing.height, part, room[rows, columns])
         if self._solid:
             shade = shaded(self._solid, x, y, thing.height)
             lit[shade] = room[rows, columns][shade]
         region += texture[..., 0] * lit - texture[..., 1] * region
 
-    def _lit(self, scene: CameraScene, maps: tuple[Map, Map], window: ImageRegion, room: Floats) -> Floats:
-        """Light on white paper, in grey levels."""
+    def _lit(self, scene: CameraScene, height: float, window: ImageRegion, room: Floats) -> Floats:
+        """Light on white paper on the mat, or at the height of a lid, in grey levels."""
         import cv2
 
-        cut = window.cut()
-        shown = cv2.remap(scene.image, maps[0][cut], maps[1][cut], cv2.INTER_LINEAR)
-        shown = cv2.GaussianBlur(shown, (5, 5), BLUR)
-        return np.asarray(cv2.addWeighted(shown, LAMP_LIGHT / 255.0, room, 1.0, 0.0, dtype=cv2.CV_32F))
+        if self._lights[0] is not scene.image or len(self._lights[1]) >= KEPT:
+            self._lights = scene.image, {}
+        lights, key = self._lights[1], (height > 0.0, window)
+        if key not in lights:
+            x, y = self._lids if height else self._floor
+            shown = cv2.remap(scene.image, x[window.cut()], y[window.cut()], cv2.INTER_LINEAR)
+            lights[key] = np.asarray(cv2.GaussianBlur(shown, (5, 5), BLUR))
+        return np.asarray(cv2.addWeighted(lights[key], LAMP_LIGHT / 255.0, room, 1.0, 0.0, dtype=cv2.CV_32F))
 
     def _room_light(self, turn: float) -> Floats:
         """Room light on white paper: a bright spot moves over the mat."""

@@ -12,6 +12,7 @@ from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.hardware.proof.trials import FigureEight
 from pigaming_app.hardware.scan.procedure import Scan
 from pigaming_app.hardware.scan.watch import ThingsWatch
+from pigaming_app.hardware.session.emulated import QUICK
 from pigaming_app.hardware.signals import CameraFrame
 from pigaming_app.sim.world import DT, HZ
 
@@ -21,7 +22,6 @@ BETWEEN = (
     box(-980.0, 60.0, 90.0, 70.0, 60.0, 1.2, 0.08, "plain", 3),
     box(990.0, 60.0, 100.0, 80.0, 120.0, 0.7, 0.6, "striped", 4),
 )  # mm, where no robot comes
-RARELY = 30  # frames between complete renders while nobody compares pictures
 PUSHED = 60.0  # mm
 
 
@@ -41,7 +41,7 @@ class WatchedMatch:
     def drive(self, seconds: float) -> bool:
         """Drive until an alarm, at most `seconds`; True if there was one."""
         for _ in range(round(seconds * HZ)):
-            self.arena.camera.painter.refresh = 1 if self.watch.wants else RARELY
+            self.arena.camera.painter.refresh = 1 if self.watch.looks else QUICK
             picture = self.bed.lighting.picture(self.bed.rig.sense(SHOWS_AFTER))
             self.watch.note_canvas(lambda picture=picture: picture, self.arena.clock())  # type: ignore[misc]
             self.trail.tick()
@@ -63,7 +63,7 @@ class WatchedMatch:
 def scanned(bed: Testbed) -> Scan:
     """Scan the mat with the rig's frames, while the robots stand. Raises RuntimeError."""
     arena, rig = bed.arena, bed.rig
-    arena.camera.painter.refresh = 1
+    arena.camera.painter.refresh = 1  # the scan looks at the whole mat
     for _ in range(HZ):
         rig.send([None] * 4)
         arena.advance(DT)
@@ -75,6 +75,7 @@ def scanned(bed: Testbed) -> Scan:
         arena.advance(DT)
         rig.pump()
     rig.viewers.remove(scan.process)
+    arena.camera.painter.refresh = QUICK
     while scan.computing:
         scan.compute()
     if scan.layout is None:

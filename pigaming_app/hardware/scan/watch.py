@@ -1,9 +1,9 @@
 """Watch over the things during a match: once a second, the camera picture is compared with the expected one.
 
-The scene hands over the pictures it projects around that moment (`wants`, `note_canvas`); the expected light lies
-between their least and greatest, so that moving content cannot disagree. The room light may change: it is measured by
-the median of a wide neighbourhood, which no thing fills. Robots are left out. A disagreement counts if it stays in its
-place for PATIENCE checks in a row.
+The scene hands over the pictures it projects around that moment (`wants`, `note_canvas`), then the camera's frames
+(`looks`, `process`); the expected light lies between the pictures' least and greatest, so that moving content cannot
+disagree. The room light may change: it is measured by the median of a wide neighbourhood, which no thing fills. Robots
+are left out. A disagreement counts if it stays in its place for PATIENCE checks in a row.
 """
 
 from collections import deque
@@ -52,6 +52,11 @@ class ThingsWatch:
     def wants(self) -> bool:
         """True while the pictures of the canvas are needed."""
         return self.clock() > self._due - BURST
+
+    @property
+    def looks(self) -> bool:
+        """True while a frame of the camera is needed."""
+        return self.clock() >= self._due
 
     def note_canvas(self, pixels: Callable[[], Image], drawn: float) -> None:
         """Keep the projected picture if it is needed. `pixels`: grey (1080, 1920) or BGRA; `drawn`: s of the clock."""

@@ -104,9 +104,9 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
             x, y = (-88, -40) if i == 0 else (72, 40)
             _bubble(ink, x, y, -1 if i == 0 else 1, lit)
             ink.text(code.upper(), LABEL, x, y, lit, "head", "c")
-    elif name in ("display", "fullscreen"):
-        _monitor(ink, bool(chosen) if name == "fullscreen" else False, beat)
-    elif name == "padtest":
+    elif name in ("display", "fullscreen", "picture"):
+        _monitor(ink, name == "picture" or (name == "fullscreen" and bool(chosen)), beat)
+    elif name in ("padtest", "controls"):
         icon(ink, "pad", 0, 10, 130, FOCUS, LINE)
         if beat:
             ink.disc(0.44 * 130, 10 - 0.28 * 130, 12, ICE)

@@ -55,8 +55,8 @@ class MatchWatch:
         watch, looking = self._watch, self._viewer in self.rig.viewers
         if watch is None:
             return
-        if watch.wants != looking:
-            (self.rig.viewers.append if watch.wants else self.rig.viewers.remove)(self._viewer)
+        if watch.looks != looking:
+            (self.rig.viewers.append if watch.looks else self.rig.viewers.remove)(self._viewer)
         if watch.wants and self._drawn is not None:
             screen, drawn = self._drawn
             watch.note_canvas(lambda: pixels_of(screen), drawn)

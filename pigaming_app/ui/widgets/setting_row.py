@@ -54,6 +54,11 @@ class SettingValue:
     options: tuple[str, ...]
     chosen: int = 0
 
+    @property
+    def count(self) -> int:
+        """The number of values."""
+        return CELLS + 1 if self.kind == "meter" else len(self.options)
+
 
 def spots(names: Sequence[str]) -> list[FocusSpot]:
     """The spots of rows with these names."""

@@ -7,7 +7,7 @@ cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena  # noqa: E402
 from pigaming_app.hardware.emulator.optics import LAMP, Optics  # noqa: E402
-from pigaming_app.hardware.emulator.things.overlay import patches, projected, shaded  # noqa: E402
+from pigaming_app.hardware.emulator.things.overlay import patches, shaded  # noqa: E402
 from pigaming_app.hardware.emulator.things.prism import box, cylinder  # noqa: E402
 from tests.hardware.emulator.test_emulator import found, newest  # noqa: E402
 
@@ -19,7 +19,7 @@ def light(things, image=WHITE):
     """Projected light that the camera sees, as a share; nan away from the things."""
     optics, whole = Optics(), np.full((1080, 1920), np.nan, np.float32)
     for patch in patches(things, optics, MAT):
-        whole[patch.rows, patch.columns] = projected(patch, image, 0.7)
+        whole[patch.rows, patch.columns] = patch.projected(image, 0.7)
     return optics, whole
 
 

@@ -6,10 +6,11 @@ import pygame
 import pytest
 
 from pigaming_app.events.day_log import DayLog, PlayedMatch, now
+from pigaming_app.scenes.flow.settings_page import IDLE
 from pigaming_app.scenes.operator.chart import bars_of, step_of
 from pigaming_app.scenes.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
 from pigaming_app.scenes.operator.figures_page import FOLDER, FiguresPage
-from pigaming_app.scenes.operator.page import END_SECONDS, IDLE, LIMITS, ROWS, OperatorPage
+from pigaming_app.scenes.operator.page import END_SECONDS, LIMITS, ROWS, OperatorPage
 from pigaming_app.scenes.options.page import FOR_CHILDREN, OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title

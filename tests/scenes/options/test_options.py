@@ -8,7 +8,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.options.controls_test import ControlsTest
-from pigaming_app.scenes.options.page import CLEAR, EASE, OptionsPage
+from pigaming_app.scenes.options.page import CLEAR, FOR_CHILDREN, ROWS, SECTIONS, OptionsPage
 from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable
@@ -36,10 +36,11 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 
 
 def go(arcade: Arcade, name: str) -> OptionsPage:
-    """Focus a row, of the page for easier use if it is there."""
+    """Focus a row, on the page of its section."""
     page = arcade.shown(OptionsPage)
-    if name in EASE and name not in page.rows:
-        go(arcade, "ease")
+    section = next((section for section, rows in SECTIONS.items() if name in rows), "")
+    if section and name not in page.rows:
+        go(arcade, section)
         arcade.press(Button.FIRE)
         page = arcade.shown(OptionsPage)
     while page.focus.name != name:
@@ -81,13 +82,13 @@ def test_fire_cycles_through_the_values(arcade: Arcade) -> None:
 
 
 def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> None:
-    page = arcade.shown(OptionsPage)
-    music = page.focus.rect("music")
+    music = go(arcade, "music").focus.rect("music")
     arcade.click(music.x + dials.AT + 3 * dials.CELL - 10, music.centery)
     assert arcade.context.settings.music == 3
     arcade.click(music.x + 60, music.centery)
     assert arcade.context.settings.music == 3
     off = dials.chips((arcade.context.words("options.off"), arcade.context.words("options.on")))[0]
+    arcade.press(Button.BACK)
     shake = go(arcade, "shake").focus.rect("shake")
     arcade.click(shake.x + off[0] + 10, shake.centery)
     assert arcade.context.settings.shake is False
@@ -97,8 +98,8 @@ def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> N
 def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
     page = arcade.shown(OptionsPage)
-    for name in (*page.rows, *EASE):
-        value = page._value(name)
+    for name in (*ROWS, "close", *(row for rows in SECTIONS.values() for row in rows)):
+        value = page.value(name)
         if value.kind in ("toggle", "deed"):
             x, w = dials.chips(value.options)[-1]
             assert x + w <= dials.W - 24
@@ -127,13 +128,28 @@ def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcad
 
 
 @pytest.mark.parametrize("kiosk", [False, True])
-def test_every_row_is_one_step_below_the_one_before(arcade: Arcade, kiosk: bool) -> None:
+@pytest.mark.parametrize("section", ["", *SECTIONS])
+def test_every_row_is_one_step_below_the_one_before(arcade: Arcade, section: str, kiosk: bool) -> None:
     arcade.context.kiosk = kiosk
-    arcade.open(OptionsPage(arcade.context, operator=True))
+    arcade.open(OptionsPage(arcade.context, operator=True, section=section))
     page = arcade.shown(OptionsPage)
     for name in (*page.rows[1:], page.rows[0]):
         arcade.press(Button.DOWN)
         assert page.focus.name == name
+    assert page.focus.rect(page.rows[-1]).bottom <= 894  # a message and the prompts lie below
+
+
+@pytest.mark.parametrize("mouse", [False, True])
+@pytest.mark.parametrize("section", SECTIONS)
+def test_every_section_is_one_press_away_and_leads_back(arcade: Arcade, section: str, mouse: bool) -> None:
+    page = go(arcade, section)
+    if mouse:
+        arcade.click(*page.focus.rect(section).center)
+    else:
+        arcade.press(Button.START)
+    assert arcade.shown(OptionsPage).rows == SECTIONS[section]
+    arcade.press(Button.BACK)
+    assert arcade.shown(OptionsPage).focus.name == section
 
 
 def test_high_scores_stay_when_somebody_moves_on_while_holding(arcade: Arcade) -> None:
@@ -173,12 +189,22 @@ def test_a_failed_save_is_reported_and_the_change_still_applies(
     arcade.shown(OptionsPage)
 
 
+def rows_of(arcade: Arcade, operator: bool) -> set[str]:
+    """All rows of the options and of the sections that they lead to."""
+    main = OptionsPage(arcade.context, operator).rows
+    return {*main, *(row for name in main for row in rows_of_section(arcade, operator, name))}
+
+
+def rows_of_section(arcade: Arcade, operator: bool, name: str) -> tuple[str, ...]:
+    return OptionsPage(arcade.context, operator, name).rows if name in SECTIONS else ()
+
+
 def test_children_in_a_kiosk_find_neither_volume_nor_display_nor_the_way_out(arcade: Arcade) -> None:
     arcade.context.kiosk = True
-    children, operator = OptionsPage(arcade.context), OptionsPage(arcade.context, operator=True)
-    assert not {"music", "sounds", "display", "fullscreen", "reset", "close"} & set(children.rows)
-    assert {"music", "sounds", "display", "fullscreen", "reset", "close", "language"} <= set(operator.rows)
-    arcade.open(operator)
+    children, operator = rows_of(arcade, False), rows_of(arcade, True)
+    assert children == {*FOR_CHILDREN, "controls", "ease"}
+    assert operator == {*ROWS, "close", *(row for rows in SECTIONS.values() for row in rows)}
+    arcade.open(OptionsPage(arcade.context, operator=True))
     go(arcade, "close")
     arcade.press(Button.FIRE)
     assert arcade.stack.scenes == []
@@ -211,7 +237,7 @@ def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, tmp_path: Pa
     go(arcade, "ease")
     arcade.press(Button.FIRE)
     page = arcade.shown(OptionsPage)
-    assert [*page.rows] == ["calm", "flashes", "shake", "large", "remap"]
+    assert page.rows == ("calm", "flashes", "shake", "large")
     go(arcade, "calm")
     arcade.press(Button.RIGHT)
     go(arcade, "large")
@@ -219,12 +245,15 @@ def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, tmp_path: Pa
     assert (kept(tmp_path)["calm"], kept(tmp_path)["large_text"]) == (True, True)
     arcade.press(Button.LEFT)
     assert readable(BODY) == BODY
-    go(arcade, "remap")
-    arcade.press(Button.FIRE)
-    arcade.shown(RemapPage)
 
 
 @pytest.mark.parametrize("operator", [False, True])
 def test_in_a_kiosk_only_the_operator_changes_the_controls(arcade: Arcade, operator: bool) -> None:
     arcade.context.kiosk = True
-    assert ("remap" in OptionsPage(arcade.context, operator, ease=True).rows) == operator
+    arcade.open(OptionsPage(arcade.context, operator))
+    if not operator:
+        assert "remap" not in rows_of(arcade, operator)
+        return
+    go(arcade, "remap")
+    arcade.press(Button.FIRE)
+    arcade.shown(RemapPage)

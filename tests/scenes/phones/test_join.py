@@ -270,8 +270,8 @@ def test_the_link_follows_the_settings(arcade: Arcade) -> None:
 
 def test_only_the_operator_switches_phones_in_a_kiosk(arcade: Arcade) -> None:
     arcade.context.kiosk = True
-    assert "phones" not in OptionsPage(arcade.context).rows
-    assert "phones" in OptionsPage(arcade.context, operator=True).rows
+    assert "phones" not in OptionsPage(arcade.context, section="controls").rows
+    assert "phones" in OptionsPage(arcade.context, operator=True, section="controls").rows
 
 
 def test_the_operators_page_changes_and_keeps_the_settings(arcade: Arcade, tmp_path: Path) -> None:

@@ -6,13 +6,13 @@ for a set of things, with FINE x FINE rays a px; a picture then only looks up th
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.emulator.objects import BLACK, MARKER, WHITE
-from pigaming_app.hardware.emulator.optics import LAMP, SENSOR, Optics
+from pigaming_app.hardware.emulator.optics import LAMP, SENSOR, Floats, Optics
 from pigaming_app.hardware.emulator.things.prism import TEXELS, Map, Prism, cut, texture
 from pigaming_app.hardware.signals import Image
 
@@ -22,7 +22,8 @@ SIDE_ROOM = 0.65  # share of the room light that reaches a side
 TOUCH = 0.05  # mm above a surface from which on something may shade it
 
 
-class Patch(NamedTuple):
+@dataclass(eq=False)
+class Patch:
     """A part of the sensor with things in it."""
 
     rows: slice
@@ -31,21 +32,26 @@ class Patch(NamedTuple):
     lamp: Map  # reflectance for projected light, fine
     room: Map  # reflectance for room light, a px
     height: Map  # mm, a px
+    _last: tuple[Image, Map] | None = None  # the last projected image, and its light
+
+    def projected(self, image: Image, blur: float) -> Map:
+        """Projected light that the patch returns, as a share of white paper's under full light, (rows, columns)."""
+        if self._last is None or self._last[0] is not image:
+            self._last = image, self._lit_by(image, blur)
+        return self._last[1]
+
+    def _lit_by(self, image: Image, blur: float) -> Map:
+        import cv2
+
+        shown = cv2.remap(image, *self.canvas, cv2.INTER_LINEAR, borderValue=0)
+        light = cv2.multiply(self.lamp, shown, dtype=cv2.CV_32F, scale=1.0 / 255.0)
+        small = cv2.resize(light, self.room.shape[::-1], interpolation=cv2.INTER_AREA)
+        return np.asarray(cv2.GaussianBlur(small, (5, 5), blur))
 
 
 def patches(things: Sequence[Prism], optics: Optics, mat: Map) -> list[Patch]:
     """The patches of a set of things. `mat`: reflectance of the mat at each px of the sensor."""
     return [_patch(window, things, optics, mat) for window in (_window(thing, optics) for thing in things) if window]
-
-
-def projected(patch: Patch, image: Image, blur: float) -> Map:
-    """Projected light that a patch returns, as a share of white paper's under full light, (rows, columns)."""
-    import cv2
-
-    shown = cv2.remap(image, *patch.canvas, cv2.INTER_LINEAR, borderValue=0)
-    light = cv2.multiply(patch.lamp, shown, dtype=cv2.CV_32F, scale=1.0 / 255.0)
-    small = cv2.resize(light, patch.room.shape[::-1], interpolation=cv2.INTER_AREA)
-    return np.asarray(cv2.GaussianBlur(small, (5, 5), blur))
 
 
 def shaded(things: Sequence[Prism], x: Map, y: Map, height: float) -> NDArray[np.bool_]:
@@ -81,6 +87,8 @@ def _patch(window: tuple[slice, slice], things: Sequence[Prism], optics: Optics,
     z, lamp, room = np.zeros_like(x), cloth.copy(), cloth.copy()
     owner = np.full(x.shape, -1, np.int32)
     for number, thing in enumerate(things):
+        if not _may_meet(thing, x, y, 0.0, optics.lens.eye):
+            continue
         low, high, face = cut(thing, x, y, vx, vy)
         top = np.minimum(high, np.float32(thing.height))
         seen = (top > np.maximum(low, 0.0)) & (top > z)
@@ -137,19 +145,19 @@ def _marked(number: int, along: Map, across: Map, plain: Map) -> Map:
 
 def _blocks(thing: Prism, x: Map, y: Map, z: Map) -> NDArray[np.bool_]:
     """True where a thing is between a point and the projector."""
-    if not _may_block(thing, x, y, float(z.min())):
+    if not _may_meet(thing, x, y, float(z.min()), LAMP):
         return np.zeros(x.shape, np.bool_)
     up = np.float32(LAMP[2]) - z
     low, high, _ = cut(thing, x, y, (np.float32(LAMP[0]) - x) / up, (np.float32(LAMP[1]) - y) / up)
     return np.asarray(np.minimum(high, np.float32(thing.height) - z) > np.maximum(low, np.float32(TOUCH)))
 
 
-def _may_block(thing: Prism, x: Map, y: Map, lowest: float) -> bool:
-    """False if no ray from these points to the projector is over a thing before it is above it."""
-    share = max(0.0, (thing.height - lowest) / (float(LAMP[2]) - lowest))
-    for axis, lamp, corners in zip((x, y), LAMP, zip(*thing.outline, strict=True), strict=False):
+def _may_meet(thing: Prism, x: Map, y: Map, lowest: float, source: Sequence[float] | Floats) -> bool:
+    """False if no line from these points, at least `lowest` mm high, to a lamp or an eye meets a thing."""
+    share = max(0.0, (thing.height - lowest) / (float(source[2]) - lowest))
+    for axis, above, corners in zip((x, y), source, zip(*thing.outline, strict=True), strict=False):
         first, last = float(axis.min()), float(axis.max())
-        first, last = min(first, first + share * (lamp - first)), max(last, last + share * (lamp - last))
+        first, last = min(first, first + share * (above - first)), max(last, last + share * (above - last))
         if last < min(corners) or first > max(corners):
             return False
     return True
