@@ -8,9 +8,11 @@ import re
 import tomllib
 from collections.abc import Mapping
 from functools import cache
+from pathlib import Path
 from typing import Any, Protocol
 
 from pigaming_app import ASSETS
+from pigaming_app.storage.plugins.parts import data_folders, leave_out
 
 LANGUAGES = ("en", "pt", "es", "fr", "de")
 DECIMAL = re.compile(r"[+−-]?\d+\.\d+")
@@ -95,8 +97,23 @@ def system_language() -> str:
 
 @cache
 def texts(language: str) -> Mapping[str, str]:
-    """All texts of a language by key, cached. Raises OSError or ValueError for a missing or malformed file."""
-    file = ASSETS / "text" / f"{language}.toml"
+    """All texts of a language by key, cached. Raises OSError or ValueError for a missing or malformed file.
+
+    Plug-ins add texts, but change none; those that they lack in a language are English.
+    """
+    ours = _read(ASSETS / "text" / f"{language}.toml")
+    added: dict[str, str] = {}
+    for game, folder in data_folders("text"):
+        files = [folder / f"{code}.toml" for code in dict.fromkeys(("en", language))]
+        try:
+            for file in files:
+                added |= _read(file) if file.exists() else {}
+        except (OSError, ValueError) as error:
+            leave_out(game, f"text/{file.name}: {error}")
+    return added | ours
+
+
+def _read(file: Path) -> dict[str, str]:
     return dict(_flat(tomllib.loads(file.read_text(encoding="utf-8")), ""))
 
 

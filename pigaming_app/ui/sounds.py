@@ -13,6 +13,7 @@ from threading import Thread
 import pygame
 
 from pigaming_app import ASSETS
+from pigaming_app.storage.plugins.parts import data_folders
 
 FOLDER = ASSETS / "sounds"
 _MAX_VOICES = 24  # simultaneous sounds; more are dropped
@@ -92,9 +93,13 @@ class Sounds:
             self.trouble = f"There is no sound: {error}."
             _log.info(self.trouble)
             return
-        for path in sorted(self._folder.glob("*.ogg")):
-            if path.stem != "music":
-                self._load(path)
+        for folder in (
+            *(folder for _, folder in data_folders("sounds")),
+            self._folder,
+        ):  # plug-ins replace none of ours
+            for path in sorted(folder.glob("*.ogg")):
+                if path.stem != "music":
+                    self._load(path)
         self._set_volumes()
         self._ready = True
         self._follow_music()

@@ -12,7 +12,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
-from pigaming_app.scenes.views.hud_parts import CLOCK
+from pigaming_app.scenes.views.hud.parts import CLOCK
 from pigaming_app.scenes.views.pitanks.view import PiTanksView
 from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.sim.record import from_bytes, to_bytes

@@ -8,7 +8,7 @@ import pygame
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.recordings import store
-from pigaming_app.scenes.views.ai_sign import level_mark
+from pigaming_app.scenes.views.hud.ai_sign import level_mark
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,

@@ -10,7 +10,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.results.headline import headline, winning_color
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands
 from pigaming_app.scenes.results.view import line, signed
-from pigaming_app.scenes.views.ai_sign import ai_mark
+from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,

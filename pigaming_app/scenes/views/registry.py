@@ -1,14 +1,38 @@
 """How each game appears on the screens."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.game_screens import GameScreens
 from pigaming_app.scenes.views.games import factory, pitanks, race
 from pigaming_app.storage.plugins.parts import parts
+from pigaming_app.ui.i18n import english
+
+
+def text_keys(name: str, screens: GameScreens) -> Iterator[str]:
+    """The texts that the screens of a game need."""
+    game = games()[name]
+    yield from (f"games.{name}", f"games.{name}_line", f"events.short_{name}", f"howto.limits_{name}")
+    yield from (f"setup.arena_{name}", f"results.plot_{name}")
+    for variant in game.variants.values():
+        yield from (f"setup.{name}_{variant.name}", f"rules.{name}_{variant.name}")
+        yield from (f"results.{column}" for column in variant.columns or game.columns)
+    for feat in game.record_kinds:
+        yield from (f"results.best_{feat.name}", f"setup.best_{feat.name}")
+    yield from (f"setup.count_{game.goal}", f"setup.{game.goal}") if game.goal else ()
+    yield from (f"howto.{lesson}" for lesson in screens.lessons)
+    yield from (f"howto.{screens.fire}",) if screens.fire else ()
+
+
+def _lacks(name: str, screens: GameScreens) -> str:
+    """The texts that a plug-in lacks, as a reason to leave it out."""
+    missing = [key for key in text_keys(name, screens) if key not in english()]
+    return f"text/en.toml lacks {', '.join(missing)}" if missing else ""
+
 
 SCREENS: Mapping[str, GameScreens] = {
     "pitanks": pitanks.SCREENS,
     "factory": factory.SCREENS,
     "race": race.SCREENS,
-    **parts("screens", "SCREENS", GameScreens),
+    **parts("screens", "SCREENS", GameScreens, _lacks),
 }  # by game

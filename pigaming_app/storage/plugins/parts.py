@@ -43,19 +43,27 @@ def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str
     for plugin in plugins():
         if plugin.name not in _failed and (value := _loaded(plugin, part, attribute)) is not None:
             if not isinstance(value, kind):
-                _fail(plugin, f"{attribute} is no {kind.__name__}")
+                leave_out(plugin.name, f"{attribute} is no {kind.__name__}")
             elif reason := fits(plugin.name, value) if fits else "":
-                _fail(plugin, reason)
+                leave_out(plugin.name, reason)
             else:
                 found[plugin.name] = value
     return found
 
 
 def data_folders(kind: str) -> Iterator[tuple[str, Path]]:
-    """Each plug-in that has not failed, and its folder of this kind: arenas, text, sounds, brains; it may be missing."""
+    """Name and folder of each plug-in that has not failed; `kind`: arenas, text, sounds, brains. It may be missing."""
     for plugin in plugins():
         if plugin.name not in _failed:
             yield plugin.name, plugin.folder / kind
+
+
+def leave_out(name: str, reason: str) -> None:
+    """End a plug-in from here on, with the reason."""
+    plugin = next(plugin for plugin in plugins() if plugin.name == name)
+    sentence = one_line(f"The game {plugin.name} in {plugin.folder} is left out: {reason}.")
+    _failed[plugin.name] = sentence
+    print(f"PiGaming: {sentence}", file=sys.stderr)
 
 
 def rule_sources(name: str) -> tuple[Path, ...]:
@@ -77,10 +85,10 @@ def _loaded(plugin: Plugin, part: str, attribute: str) -> object:
             return None
         module = import_module(name)
     except (Exception, SystemExit) as error:
-        _fail(plugin, f"{_place(plugin, error)}{type(error).__name__}: {error}")
+        leave_out(plugin.name, f"{_place(plugin, error)}{type(error).__name__}: {error}")
         return None
     if not hasattr(module, attribute) and part == RULES:
-        _fail(plugin, f"{Path(module.__file__ or name).name}: {attribute} is missing")
+        leave_out(plugin.name, f"{Path(module.__file__ or name).name}: {attribute} is missing")
     return getattr(module, attribute, None)
 
 
@@ -92,9 +100,3 @@ def _place(plugin: Plugin, error: BaseException) -> str:
         frame for frame in traceback.extract_tb(error.__traceback__) if plugin.folder in Path(frame.filename).parents
     ]
     return f"{Path(frames[-1].filename).relative_to(plugin.folder)}, line {frames[-1].lineno}: " if frames else ""
-
-
-def _fail(plugin: Plugin, reason: str) -> None:
-    sentence = one_line(f"The game {plugin.name} in {plugin.folder} is left out: {reason}.")
-    _failed[plugin.name] = sentence
-    print(f"PiGaming: {sentence}", file=sys.stderr)

@@ -9,7 +9,7 @@ from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.state import OWN_BULLETS
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects, BusyPiTanks
-from pigaming_app.scenes.views.hud_parts import CLOCK
+from pigaming_app.scenes.views.hud.parts import CLOCK
 from pigaming_app.scenes.views.pitanks.banner import CELLS
 from pigaming_app.scenes.views.pitanks.view import PiTanksView
 from pigaming_app.scenes.views.sprites import party as sprites

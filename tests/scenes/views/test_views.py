@@ -7,8 +7,8 @@ import pytest
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, POWERS, SHIELD
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects, BusyPiTanks
+from pigaming_app.scenes.views.hud.score import layout
 from pigaming_app.scenes.views.particles import MAX_PARTICLES
-from pigaming_app.scenes.views.pitanks.hud import layout
 from pigaming_app.scenes.views.preview import walls
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest

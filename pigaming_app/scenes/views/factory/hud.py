@@ -10,12 +10,12 @@ from typing import Any
 import pygame
 
 from pigaming_app.games.factory.state import DELIVERED, ICE, TEAMS, Factory
-from pigaming_app.scenes.views.ai_sign import ai_of
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.factory import order_cards, panels, star_panel
 from pigaming_app.scenes.views.factory.order_cards import Order
 from pigaming_app.scenes.views.factory.panels import EDGE, NUMBER, H, Mate, W, X, Y
-from pigaming_app.scenes.views.hud_parts import CLOCK, HudParts
+from pigaming_app.scenes.views.hud.ai_sign import ai_of
+from pigaming_app.scenes.views.hud.parts import CLOCK, HudParts
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, SUB, Color, GlowCanvas

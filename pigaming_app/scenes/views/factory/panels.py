@@ -5,10 +5,10 @@ from collections.abc import Iterator
 import pygame
 
 from pigaming_app.games.factory.state import ICE as FIRST_TEAM
-from pigaming_app.scenes.views.ai_sign import level_mark
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory.background import draw_lorry
-from pigaming_app.scenes.views.hud_parts import number_bits
+from pigaming_app.scenes.views.hud.ai_sign import level_mark
+from pigaming_app.scenes.views.hud.parts import number_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
 from pigaming_app.ui.draw import ICE, LABEL, LINE, MIST, PLAYERS, SUB, Color, GlowCanvas, badge, cut_box, dim, icon

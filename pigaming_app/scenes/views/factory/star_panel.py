@@ -13,7 +13,7 @@ from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory import panels
 from pigaming_app.scenes.views.factory.order_cards import ORDER
 from pigaming_app.scenes.views.factory.panels import EDGE, MIDDLE, NUMBER, H, Mate, W, X, Y
-from pigaming_app.scenes.views.hud_parts import ALARM_SECONDS, CLOCK, HudParts, number_bits
+from pigaming_app.scenes.views.hud.parts import ALARM_SECONDS, CLOCK, HudParts, number_bits
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, LINE, MIST, STEEL, THIN, TITLE, Color, GlowCanvas, star_points
 from pigaming_app.ui.draw import ICE as WHITE

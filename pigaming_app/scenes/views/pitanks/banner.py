@@ -8,7 +8,7 @@ import pygame
 
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime
 from pigaming_app.scenes.views.background import Bit
-from pigaming_app.scenes.views.hud_parts import ALARM_SECONDS, CLOCK, EDGE, number_bits
+from pigaming_app.scenes.views.hud.parts import ALARM_SECONDS, CLOCK, EDGE, number_bits
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, SUB, GlowCanvas, dim
 from pigaming_app.ui.draw.surface_cache import cached

@@ -1,252 +1,55 @@
-"""HUD of PiTanks: panels and clock, baked into the background when their content changes.
-
-Free-for-all: one panel per seat, two on either side of the clock. Two teams: one on each side, their totals next to the
-clock and linked to their panels.
-"""
+"""HUD of PiTanks: active powers in the panels, and a banner in place of the clock."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-import pygame
-
 from pigaming_app.games.pitanks.scoring import is_overtime
 from pigaming_app.games.pitanks.state import POWERS
-from pigaming_app.scenes.views.ai_sign import ai_of, ai_tab
-from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
-from pigaming_app.scenes.views.hud_parts import CLOCK, EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
+from pigaming_app.scenes.views.background import Background, Bit
+from pigaming_app.scenes.views.hud.parts import CLOCK
+from pigaming_app.scenes.views.hud.score import ScoreHud
 from pigaming_app.scenes.views.pitanks.banner import Banner
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.scenes.views.sprites.pickups import small_icon
-from pigaming_app.ui.draw import (
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    SUB,
-    THIN,
-    WHITE,
-    GlowCanvas,
-    badge,
-    cut_box,
-    dim,
-    icon,
-    mix,
-)
-from pigaming_app.ui.draw.sprites import Sprite, faded
-from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import number_width
+from pigaming_app.ui.draw import FOCUS, THIN
 from pigaming_app.ui.i18n import Words
 
-SUM_W = 116  # px
-CELL = 17.75  # px, pitch of the turbo bar cells
+PITCH = 58  # px between powers
 
 
-@dataclass(frozen=True)
-class SeatPanel:
-    """Panel of a seat."""
-
-    seat: int
-    x: int
-    w: int
-
-
-@dataclass(frozen=True)
-class TeamPanel:
-    """Box with a team's points; `mates`: the panels linked to it."""
-
-    team: int
-    x: int
-    mates: tuple[SeatPanel, ...]
-
-
-def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
-    """Positions of the panels and of the totals of two teams. Empty seats have no panel."""
-    seats = [i for i, robot in enumerate(robots) if robot.present]
-    teams = list(dict.fromkeys(robots[i].team for i in seats))
-    if len(teams) != 2 or len(seats) == 2:
-        places = XS.get(len(seats), ())
-        return [SeatPanel(seat, x, PANEL_W) for seat, x in zip(seats, places, strict=False)], []
-    slots: list[SeatPanel] = []
-    sums: list[TeamPanel] = []
-    for side, team in enumerate(teams):
-        members = [i for i in seats if robots[i].team == team]
-        w = min(PANEL_W, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
-        total = len(members) * w + 8 * (len(members) - 1)
-        first = 692 - 12 - total if side == 0 else 1112 + SUM_W + 12
-        mates = tuple(SeatPanel(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
-        slots += mates
-        sums.append(TeamPanel(team, 692 if side == 0 else 1112, mates))
-    return slots, sums
-
-
-class PiTanksHud:
-    """Keeps the HUD up to date. `players`: driver of each seat; AIs are marked."""
+class PiTanksHud(ScoreHud):
+    """Keeps the HUD up to date."""
 
     def __init__(self, background: Background, state: Any, players: list[str], words: Words | None) -> None:
-        self.background, self.players = background, players
-        self.banner = Banner(words)
-        self.slots, self.sums = layout(state.robots)
-        self.parts = HudParts(background)
-        self.points: dict[int, int] = {}
+        super().__init__(background, state, players, bool(state.rules.turbo))
+        self.state, self.banner = state, Banner(words)
 
-    def show(self, state: Any) -> list[SeatPanel]:
-        """Bake changed parts; returns the panels whose points changed."""
-        points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
-        totals = {panel.team: sum(points[slot.seat] for slot in panel.mates) for panel in self.sums}
-        ahead = _sole_leader(totals or points)
-        changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
-        self.points = points
-        for slot in self.slots:
-            leads = self._leads(state, slot.seat, slot.seat == ahead) and not self.sums
-            content = (
-                points[slot.seat],
-                leads,
-                ai_of(self.players[slot.seat]),
-                _turbo(state, slot.seat),
-                _powers(state, slot.seat),
-            )
-            self.parts.show(slot, content, slot.x - 4, slot.w + 8, partial(panel_bits, slot, *content))
-        for panel in self.sums:
-            total = totals[panel.team], self._leads(state, panel.mates[0].seat, panel.team == ahead)
-            if self.parts.changed(panel, total):
-                self._bake_sum(panel, *total)
-        if phase := self.banner.content(state):
-            self.parts.show("clock", phase, CLOCK.x, CLOCK.w, partial(self.banner.bits, *phase))
-        else:
-            self.parts.countdown(state, 84)
-        return changed
+    def jobs(self) -> Iterator[Callable[[], object]]:
+        yield from self.banner.jobs(self.state)
+        yield from super().jobs()
 
-    def jobs(self, state: Any) -> Iterator[Callable[[], object]]:
-        """Prewarm jobs for the pieces of the panels and of the banner."""
-        yield from self.banner.jobs(state)
-        turbo = bool(state.rules.turbo)
-        for slot in self.slots:
-            for leads in {False, not self.sums}:
-                yield partial(frame, slot.seat, slot.w, leads, ai_of(self.players[slot.seat]), turbo)
-            yield partial(pulse, slot.seat, slot.w)
-            if turbo:
-                yield partial(turbo_bar, slot.seat, slot.w, True)
-                yield partial(turbo_bar, slot.seat, slot.w, False)
-        if self.sums:
-            yield from (partial(sum_frame, leads, second) for leads in (True, False) for second in (True, False))
-
-    def _leads(self, state: Any, seat: int, alone: bool) -> bool:
+    def leads(self, state: Any, seat: int, alone: bool) -> bool:
         """True for the sole leader; in overtime for all who are level at the top."""
         return not state.tanks[seat].barred if is_overtime(state) else alone
 
-    def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
-        text = str(points).replace("-", "−")
-        size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
-        bits: list[Bit] = [(sum_frame(leads, panel is self.sums[1]), (panel.x - EDGE, Y - EDGE), None)]
-        bits += number_bits(text, size, panel.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
-        self.background.bake(pygame.Rect(panel.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
-        inner = panel.x - 12 if panel.x < 960 else panel.x + SUM_W
-        gaps = [inner, *(slot.x + slot.w for slot in panel.mates[:-1])]
-        for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
-            self.background.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
+    def extras(self, state: Any, seat: int) -> tuple[tuple[int, int], ...]:
+        """(remaining 0..48, power) of every active power, soonest to end first."""
+        life = max(1, state.rules.power_life)
+        held = [(min(48, -(-48 * left // life)), i) for i, left in enumerate(state.tanks[seat].powers) if left]
+        return tuple(sorted(held))
 
+    def extra_bits(self, extras: Any, right: int, middle: int, room: int) -> list[Bit]:
+        """Powers with their timers."""
+        bits: list[Bit] = []
+        for i, (left, power) in enumerate(extras[: max(0, room // PITCH)]):
+            cx = right - 42 - PITCH * i
+            for image, dx, dy in (small_icon(POWERS[power], FOCUS, 15), timer_ring(FOCUS, left, 26, THIN)):
+                bits.append((image, (cx + dx, middle - 1 + dy), None))
+        return bits
 
-def _sole_leader(points: dict[int, int]) -> int | None:
-    """The sole leader, if any."""
-    best = max(points.values(), default=0)
-    leaders = [who for who, score in points.items() if score == best]
-    return leaders[0] if len(leaders) == 1 and len(points) > 1 else None
-
-
-def _turbo(state: Any, seat: int) -> int | None:
-    """Turbo level, 0..64, or None without turbo."""
-    return round(64 * state.robots[seat].turbo) if state.rules.turbo else None
-
-
-def _powers(state: Any, seat: int) -> tuple[tuple[int, int], ...]:
-    """(remaining 0..48, power) of every active power, soonest to end first."""
-    life = max(1, state.rules.power_life)
-    held = [(min(48, -(-48 * left // life)), i) for i, left in enumerate(state.tanks[seat].powers) if left]
-    return tuple(sorted(held))
-
-
-def panel_bits(
-    slot: SeatPanel, score: int, leads: bool, brain: str, turbo: int | None, powers: tuple[tuple[int, int], ...]
-) -> list[Bit]:
-    """Pieces of a panel."""
-    x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
-    text = str(score).replace("-", "−")
-    size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
-    bits: list[Bit] = [(frame(slot.seat, slot.w, leads, brain, turbo is not None), (x - EDGE, Y - EDGE), None)]
-    bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
-    if turbo is not None:
-        full = EDGE + round((slot.w - 32) * turbo / 64)
-        at, below = (x + 16 - EDGE, Y + 72 - EDGE), 10 + 2 * EDGE
-        bits.append((turbo_bar(slot.seat, slot.w, True), at, (0, 0, full, below)))
-        bits.append((turbo_bar(slot.seat, slot.w, False), (at[0] + full, at[1]), (full, 0, slot.w, below)))
-    room = int((slot.w - 116 - number_width(text, size)) // 58)
-    for i, (left, power) in enumerate(powers[: max(0, room)]):
-        cx = x + slot.w - 42 - 58 * i
-        for image, dx, dy in (small_icon(POWERS[power], FOCUS, 15), timer_ring(FOCUS, left, 26, THIN)):
-            bits.append((image, (cx + dx, middle - 1 + dy), None))
-    return bits
-
-
-@cached
-def frame(player: int, w: int, leads: bool, brain: str, turbo: bool) -> pygame.Surface:
-    """Outline and badge of a panel, with the leader's crown and the AI mark."""
-    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
-    outline = cut_box(0, 0, w, H)
-    if leads:
-        ink.fill(outline, dim(color, 0.14))
-    ink.line(outline, color, LINE if leads else THIN, True)
-    badge(ink, player, 44, 38 if turbo else H / 2, 24)
-    if leads:
-        ink.solid(cut_box(22, -22, 44, 32, 4))
-        icon(ink, "crown", 44, -6, 16, color, THIN)
-    ai_tab(ink, brain, 100, -4, color)
-    return ink.lit(0.7)
-
-
-@cached
-def pulse(player: int, w: int) -> tuple[Sprite, ...]:
-    """Fade-out of a panel flash after a change of points, relative to its top left."""
-    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
-    ink.fill(cut_box(0, 0, w, H), dim(color, 0.24))
-    whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
-    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
-
-
-@cached
-def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
-    """Cells of a turbo bar, all lit or all dark."""
-    ink = GlowCanvas(w - 32 + 2 * EDGE, 10 + 2 * EDGE).set_transform(EDGE, EDGE)
-    for i in range(int((w - 32) / CELL + 0.01)):
-        x = i * CELL
-        cell = [(x + 3, 0), (x + 16, 0), (x + 13, 10), (x, 10)]
-        ink.fill(cell, PLAYERS[player] if full else dim(PLAYERS[player], 0.18))
-    return ink.lit(0.5) if full else ink.plain()
-
-
-@cached
-def sum_frame(leads: bool, second: bool) -> pygame.Surface:
-    """Box of a team's total, with its team bars: one, or two for the second team."""
-    ink = GlowCanvas(SUM_W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
-    if leads:
-        ink.fill(cut_box(0, 0, SUM_W, H), dim(ICE, 0.10))
-    ink.line(cut_box(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
-    for a, b in ((-24, -5), (5, 24)) if second else ((-18, 18),):
-        ink.line([(SUM_W / 2 + a, H - 13), (SUM_W / 2 + b, H - 13)], ICE, THIN)
-    if leads:
-        ink.solid(cut_box(SUM_W / 2 - 22, -22, 44, 36, 4))
-        icon(ink, "crown", SUM_W / 2, -4, 16, ICE, THIN)
-    return ink.lit(0.7)
-
-
-@cached
-def link() -> pygame.Surface:
-    """Two short bars between linked panels."""
-    ink = GlowCanvas(12 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
-    for y in (30, 62):
-        ink.line([(-6, y), (18, y)], MIST, LINE)
-    return ink.plain()
+    def show_clock(self, state: Any) -> None:
+        if phase := self.banner.content(state):
+            self.parts.show("clock", phase, CLOCK.x, CLOCK.w, partial(self.banner.bits, *phase))
+        else:
+            super().show_clock(state)

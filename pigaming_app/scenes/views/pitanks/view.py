@@ -7,11 +7,12 @@ import pygame
 from pigaming_app.games.pitanks.scoring import is_finale
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.hud_parts import Y as TOP_OF_PANELS
+from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
+from pigaming_app.scenes.views.hud.score import pulse
 from pigaming_app.scenes.views.pitanks.background import WalledBackground
 from pigaming_app.scenes.views.pitanks.effects import ABOVE, react
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
-from pigaming_app.scenes.views.pitanks.hud import PiTanksHud, pulse
+from pigaming_app.scenes.views.pitanks.hud import PiTanksHud
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.rumble import BLOCKED, GIVEN, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import effects, party
@@ -49,7 +50,7 @@ class PiTanksView(MatchView):
         self.flashed = [-1.0] * len(state.robots)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
         self.flying = [0] * len(state.bullets)
-        self.add_prewarm_jobs(self.hud.jobs(state))
+        self.add_prewarm_jobs(self.hud.jobs())
         self.add_prewarm_jobs(jobs(state, len(arena.walls), self.seats))
         self.marked = [slot.seat for event in self.hud.sums for slot in event.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0

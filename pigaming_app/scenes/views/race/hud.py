@@ -9,9 +9,9 @@ from functools import partial
 import pygame
 
 from pigaming_app.games.race.state import LINES, Race
-from pigaming_app.scenes.views.ai_sign import ai_of
 from pigaming_app.scenes.views.background import Background, Bit
-from pigaming_app.scenes.views.hud_parts import CLOCK, XS, H, HudParts, Y, number_bits
+from pigaming_app.scenes.views.hud.ai_sign import ai_of
+from pigaming_app.scenes.views.hud.parts import CLOCK, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import drives_wrong
 from pigaming_app.scenes.views.race.gaps import Gaps, figure

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.scenes.views.ai_sign import ai_tab
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit
-from pigaming_app.scenes.views.hud_parts import CLOCK, PANEL_W, H, Y, number_bits
+from pigaming_app.scenes.views.hud.ai_sign import ai_tab
+from pigaming_app.scenes.views.hud.parts import CLOCK, PANEL_W, H, Y, number_bits
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.ui.draw import (
     ALARM,

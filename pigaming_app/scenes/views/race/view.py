@@ -9,7 +9,7 @@ import pygame
 
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, Race, Racer
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.hud_parts import Y
+from pigaming_app.scenes.views.hud.parts import Y
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import RaceBackground

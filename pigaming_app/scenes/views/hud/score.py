@@ -1,0 +1,232 @@
+"""HUD of a game that is played for points: panels and clock, baked into the background when their content changes.
+
+Free-for-all: one panel per seat, two on either side of the clock. Two teams: one on each side, their totals next to the
+clock and linked to their panels.
+"""
+
+from collections.abc import Callable, Hashable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import pygame
+
+from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
+from pigaming_app.scenes.views.hud.ai_sign import ai_of, ai_tab
+from pigaming_app.scenes.views.hud.parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
+from pigaming_app.ui.draw import (
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    SUB,
+    THIN,
+    WHITE,
+    GlowCanvas,
+    badge,
+    cut_box,
+    dim,
+    icon,
+    mix,
+)
+from pigaming_app.ui.draw.sprites import Sprite, faded
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import number_width
+
+SUM_W = 116  # px
+CELL = 17.75  # px, pitch of the turbo bar cells
+
+
+@dataclass(frozen=True)
+class SeatPanel:
+    """Panel of a seat."""
+
+    seat: int
+    x: int
+    w: int
+
+
+@dataclass(frozen=True)
+class TeamPanel:
+    """Box with a team's points; `mates`: the panels linked to it."""
+
+    team: int
+    x: int
+    mates: tuple[SeatPanel, ...]
+
+
+def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
+    """Positions of the panels and of the totals of two teams. Empty seats have no panel."""
+    seats = [i for i, robot in enumerate(robots) if robot.present]
+    teams = list(dict.fromkeys(robots[i].team for i in seats))
+    if len(teams) != 2 or len(seats) == 2:
+        places = XS.get(len(seats), ())
+        return [SeatPanel(seat, x, PANEL_W) for seat, x in zip(seats, places, strict=False)], []
+    slots: list[SeatPanel] = []
+    sums: list[TeamPanel] = []
+    for side, team in enumerate(teams):
+        members = [i for i in seats if robots[i].team == team]
+        w = min(PANEL_W, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
+        total = len(members) * w + 8 * (len(members) - 1)
+        first = 692 - 12 - total if side == 0 else 1112 + SUM_W + 12
+        mates = tuple(SeatPanel(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
+        slots += mates
+        sums.append(TeamPanel(team, 692 if side == 0 else 1112, mates))
+    return slots, sums
+
+
+class ScoreHud:
+    """Keeps the HUD up to date. `players`: driver of each seat; AIs are marked. `has_turbo`: with turbo bars.
+
+    Subclasses may override `leads`, `extras` and `extra_bits` (more in a panel), and `show_clock`.
+    """
+
+    def __init__(self, background: Background, state: Any, players: list[str], has_turbo: bool = True) -> None:
+        self.background, self.players, self.has_turbo = background, players, has_turbo
+        self.slots, self.sums = layout(state.robots)
+        self.parts = HudParts(background)
+        self.points: dict[int, int] = {}
+
+    def show(self, state: Any) -> list[SeatPanel]:
+        """Bake changed parts; returns the panels whose points changed."""
+        points = {slot.seat: state.robots[slot.seat].score for slot in self.slots}
+        totals = {panel.team: sum(points[slot.seat] for slot in panel.mates) for panel in self.sums}
+        ahead = sole_leader(totals or points)
+        changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
+        self.points = points
+        for slot in self.slots:
+            leads = self.leads(state, slot.seat, slot.seat == ahead) and not self.sums
+            turbo = round(64 * state.robots[slot.seat].turbo) if self.has_turbo else None
+            content = points[slot.seat], leads, ai_of(self.players[slot.seat]), turbo, self.extras(state, slot.seat)
+            self.parts.show(slot, content, slot.x - 4, slot.w + 8, partial(self._panel_bits, slot, *content))
+        for panel in self.sums:
+            total = totals[panel.team], self.leads(state, panel.mates[0].seat, panel.team == ahead)
+            if self.parts.changed(panel, total):
+                self._bake_sum(panel, *total)
+        self.show_clock(state)
+        return changed
+
+    def jobs(self) -> Iterator[Callable[[], object]]:
+        """Prewarm jobs for the pieces of the panels."""
+        for slot in self.slots:
+            for leads in {False, not self.sums}:
+                yield partial(frame, slot.seat, slot.w, leads, ai_of(self.players[slot.seat]), self.has_turbo)
+            yield partial(pulse, slot.seat, slot.w)
+            if self.has_turbo:
+                yield partial(turbo_bar, slot.seat, slot.w, True)
+                yield partial(turbo_bar, slot.seat, slot.w, False)
+        if self.sums:
+            yield from (partial(sum_frame, leads, second) for leads in (True, False) for second in (True, False))
+
+    def leads(self, state: Any, seat: int, alone: bool) -> bool:
+        """True for a seat that is marked as leading; `alone`: it, or its team, has the most points alone."""
+        return alone
+
+    def extras(self, state: Any, seat: int) -> Hashable:
+        """What a panel shows besides points and turbo."""
+        return ()
+
+    def extra_bits(self, extras: Any, right: int, middle: int, room: int) -> list[Bit]:
+        """Pieces for these, leftwards from `right` px, centred on `middle`, within `room` px."""
+        return []
+
+    def show_clock(self, state: Any) -> None:
+        """Bake the clock if it has changed."""
+        self.parts.countdown(state, 84)
+
+    def _panel_bits(
+        self, slot: SeatPanel, score: int, leads: bool, brain: str, turbo: int | None, extras: Hashable
+    ) -> list[Bit]:
+        """Pieces of a panel."""
+        x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
+        text = str(score).replace("-", "−")
+        size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
+        bits: list[Bit] = [(frame(slot.seat, slot.w, leads, brain, turbo is not None), (x - EDGE, Y - EDGE), None)]
+        bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
+        if turbo is not None:
+            full = EDGE + round((slot.w - 32) * turbo / 64)
+            at, below = (x + 16 - EDGE, Y + 72 - EDGE), 10 + 2 * EDGE
+            bits.append((turbo_bar(slot.seat, slot.w, True), at, (0, 0, full, below)))
+            bits.append((turbo_bar(slot.seat, slot.w, False), (at[0] + full, at[1]), (full, 0, slot.w, below)))
+        room = int(slot.w - 116 - number_width(text, size))
+        return bits + self.extra_bits(extras, x + slot.w, middle, room)
+
+    def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
+        text = str(points).replace("-", "−")
+        size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
+        bits: list[Bit] = [(sum_frame(leads, panel is self.sums[1]), (panel.x - EDGE, Y - EDGE), None)]
+        bits += number_bits(text, size, panel.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
+        self.background.bake(pygame.Rect(panel.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
+        inner = panel.x - 12 if panel.x < 960 else panel.x + SUM_W
+        gaps = [inner, *(slot.x + slot.w for slot in panel.mates[:-1])]
+        for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
+            self.background.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
+
+
+def sole_leader(points: dict[int, int]) -> int | None:
+    """The sole leader, if any."""
+    best = max(points.values(), default=0)
+    leaders = [who for who, score in points.items() if score == best]
+    return leaders[0] if len(leaders) == 1 and len(points) > 1 else None
+
+
+@cached
+def frame(player: int, w: int, leads: bool, brain: str, turbo: bool) -> pygame.Surface:
+    """Outline and badge of a panel, with the leader's crown and the AI mark."""
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
+    outline = cut_box(0, 0, w, H)
+    if leads:
+        ink.fill(outline, dim(color, 0.14))
+    ink.line(outline, color, LINE if leads else THIN, True)
+    badge(ink, player, 44, 38 if turbo else H / 2, 24)
+    if leads:
+        ink.solid(cut_box(22, -22, 44, 32, 4))
+        icon(ink, "crown", 44, -6, 16, color, THIN)
+    ai_tab(ink, brain, 100, -4, color)
+    return ink.lit(0.7)
+
+
+@cached
+def pulse(player: int, w: int) -> tuple[Sprite, ...]:
+    """Fade-out of a panel flash after a change of points, relative to its top left."""
+    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
+    ink.fill(cut_box(0, 0, w, H), dim(color, 0.24))
+    whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
+    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
+
+
+@cached
+def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
+    """Cells of a turbo bar, all lit or all dark."""
+    ink = GlowCanvas(w - 32 + 2 * EDGE, 10 + 2 * EDGE).set_transform(EDGE, EDGE)
+    for i in range(int((w - 32) / CELL + 0.01)):
+        x = i * CELL
+        cell = [(x + 3, 0), (x + 16, 0), (x + 13, 10), (x, 10)]
+        ink.fill(cell, PLAYERS[player] if full else dim(PLAYERS[player], 0.18))
+    return ink.lit(0.5) if full else ink.plain()
+
+
+@cached
+def sum_frame(leads: bool, second: bool) -> pygame.Surface:
+    """Box of a team's total, with its team bars: one, or two for the second team."""
+    ink = GlowCanvas(SUM_W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    if leads:
+        ink.fill(cut_box(0, 0, SUM_W, H), dim(ICE, 0.10))
+    ink.line(cut_box(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
+    for a, b in ((-24, -5), (5, 24)) if second else ((-18, 18),):
+        ink.line([(SUM_W / 2 + a, H - 13), (SUM_W / 2 + b, H - 13)], ICE, THIN)
+    if leads:
+        ink.solid(cut_box(SUM_W / 2 - 22, -22, 44, 36, 4))
+        icon(ink, "crown", SUM_W / 2, -4, 16, ICE, THIN)
+    return ink.lit(0.7)
+
+
+@cached
+def link() -> pygame.Surface:
+    """Two short bars between linked panels."""
+    ink = GlowCanvas(12 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    for y in (30, 62):
+        ink.line([(-6, y), (18, y)], MIST, LINE)
+    return ink.plain()
