@@ -340,7 +340,7 @@ class NextMatch:
         assert fixture is not None
         setup = self._setup_of(fixture)
         if setup is None:
-            self.going = False
+            self.going = self.show = False
             self._say("events.failed", "error")
             return None
         if not self.context.preloader.ready(setup.game, setup.arena):
@@ -436,7 +436,7 @@ class NextMatch:
             )
         elif self.quick:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
-        elif self.people and not self.waiting:
+        elif (self.people and not self.waiting) or (self.show and not self.people):
             call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, view.MESSAGE_Y)
         elif self.waiting:
             seat = self.waiting[0]
