@@ -363,8 +363,8 @@ class App:
             self.marker.update(stack.scenes)
 
     def _recover(self) -> bool:
-        """After a scene has failed: clean up and restart at the title, or at the running event of a kiosk; false if that is
-        impossible.
+        """After a scene has failed: clean up and restart at the title, in a kiosk at the running event. False if that
+        is impossible.
         """
         self.context.day_log.note("failure")
         self.context.stop_all_robots()

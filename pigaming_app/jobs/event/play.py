@@ -1,8 +1,8 @@
 """Play an event from where it stopped, in the arcade; with --headless without a window, its AIs at full speed.
 
-An entrant without a brain is played by level3; in the arcade that is a person, and matches of AIs alone follow one another
-by themselves. Every result is in the file before the next match; the event goes on from there after Ctrl-C, a kill or a
-power cut.
+An entrant without a brain is played by level3; in the arcade that is a person, and matches of AIs alone follow one
+another by themselves. Every result is in the file before the next match; the event goes on from there after Ctrl-C, a
+kill or a power cut.
 """
 
 import sys
