@@ -224,7 +224,7 @@ class NextMatch:
         assert fixture is not None
         for seat, name in enumerate(fixture.entrants):
             if self.running.brain(name) and self.running.is_person(name):
-                if self._change(self.running.event.substitute(name, "")):
+                if self._change(lambda event, back=name: event.substitute(back, "")):  # type: ignore[misc]
                     self.claims[seat] = device
                     self.context.sounds.play("join", seat)
                 return
@@ -271,13 +271,13 @@ class NextMatch:
         words = self.context.words
         if name in self._names():
             return words("events.taken", name=name)
+        self.claims.clear()
         try:
-            event = self.running.event.add(Entrant(name))
+            saved = self.running.change(lambda event: event.add(Entrant(name)))
         except ValueError as reason:
             log.warning("%s", reason)
             return words("events.too_late")
-        self.claims.clear()
-        return "" if self.running.change(event) else words("app.unsaved")
+        return "" if saved else words("app.unsaved")
 
     def _postpone(self) -> None:
         fixture = self.fixture
@@ -285,7 +285,7 @@ class NextMatch:
         if len(self.running.event.open) == 1:
             self._say("events.only_one")
             return
-        if self._change(self.running.event.postpone(fixture.number)):
+        if self._change(lambda event: event.postpone(fixture.number)):
             self._say("events.skipped", "move")
 
     def _replace_absent(self) -> None:
@@ -295,21 +295,30 @@ class NextMatch:
         if not self.people:
             self._play_quick()
             return
-        event = self.running.event
-        for seat in self.waiting:
-            event = event.substitute(fixture.entrants[seat], DEFAULT_AI)
-        if event is not self.running.event and self._change(event):
+        absent = [fixture.entrants[seat] for seat in self.waiting]
+
+        def replaced(event: Event) -> Event:
+            for name in absent:
+                event = event.substitute(name, DEFAULT_AI)
+            return event
+
+        if absent and self._change(replaced):
             self._say("events.stand_in", "join")
 
-    def _change(self, event: Event) -> bool:
-        """Save a changed event; false, with a message, if that is impossible."""
-        before, saved = self.fixture, self.running.change(event)
+    def _change(self, change: Callable[[Event], Event]) -> bool:
+        """Change and save the event; false, with a message, if that is impossible."""
+        before, trouble = self.fixture, ""
+        try:
+            trouble = "" if self.running.change(change) else "app.unsaved"
+        except ValueError as reason:  # another process was faster
+            log.warning("%s", reason)
+            trouble = "events.elsewhere"
         if self.fixture != before:
             self.claims.clear()
             self.ready = 0.0
-        if not saved:
-            self._say("app.unsaved", "error")
-        return saved
+        if trouble:
+            self._say(trouble, "error")
+        return not trouble
 
     def _say(self, key: str, sound: str = "refused") -> None:
         self.message, self.message_left = key, MESSAGE_SECONDS
@@ -331,7 +340,7 @@ class NextMatch:
         assert fixture is not None
         setup = self._setup_of(fixture)
         if setup is None:
-            self.going = False
+            self.going = self.show = False
             self._say("events.failed", "error")
             return None
         if not self.context.preloader.ready(setup.game, setup.arena):
@@ -366,7 +375,7 @@ class NextMatch:
     def _record_quick(self, quick: QuickMatches) -> None:
         """Record what has been played in the background; after the last one, those that are open now."""
         if outcome := quick.next_outcome():
-            if not self._change(self.running.event.record(outcome)):
+            if not self._change(lambda event: event.record(outcome)):
                 self._stop_quick()
         elif quick.over:
             self._stop_quick()
@@ -427,7 +436,7 @@ class NextMatch:
             )
         elif self.quick:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
-        elif self.people and not self.waiting:
+        elif (self.people and not self.waiting) or (self.show and not self.people):
             call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, view.MESSAGE_Y)
         elif self.waiting:
             seat = self.waiting[0]
@@ -452,5 +461,9 @@ def after_match(running: RunningEvent, fixture: Fixture, scene: MatchScene) -> A
         return NextMatch(scene.context, running, "events.unplayed")
     scene.names = fixture.entrants
     outcome = outcome_of(fixture, scene.match.outcome().rows)
-    saved = running.change(running.event.record(outcome))
-    return NextMatch(scene.context, running, "" if saved else "app.unsaved", show=not scene.humans)
+    try:
+        said = "" if running.change(lambda event: event.record(outcome)) else "app.unsaved"
+    except ValueError as reason:  # another process has played this match
+        log.warning("%s", reason)
+        said = "events.elsewhere"
+    return NextMatch(scene.context, running, said, show=not scene.humans)

@@ -84,4 +84,10 @@ def test_a_poster_is_a_picture_and_a_pdf(arcade: Arcade, form: Format, count: in
 def test_without_pillow_a_poster_is_a_picture_only(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(poster, "can_pdf", lambda: False)
     run = running(played(an_event(count=3)))
-    assert poster.poster(run.event, run.path, Words("en")) == [run.path.with_suffix(".png")]
+    job = PosterJob(run.event, run.path, Words("en"))
+    while not job.work():
+        pass
+    assert job.saved
+    assert job.name == "event.png"
+    assert run.path.with_suffix(".png").is_file()
+    assert not run.path.with_suffix(".pdf").exists()
