@@ -1,6 +1,6 @@
 """An event: a spec and a journal. Everything else follows from these two, so they are all that a file holds."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from pigaming_app.events import standings
@@ -77,29 +77,36 @@ class Event:
 
     def record(self, outcome: Outcome) -> "Event":
         """With the result of an open match."""
-        return self._with(Recorded(outcome))
+        return self.after(Recorded(outcome))
 
     def correct(self, outcome: Outcome) -> "Event":
         """With another result of a match that has been played; its note gives the reason."""
-        return self._with(Corrected(outcome))
+        return self.after(Corrected(outcome))
 
     def add(self, entrant: Entrant) -> "Event":
         """With a late entrant, before a match of round two has been played."""
-        return self._with(Added(entrant))
+        return self.after(Added(entrant))
 
     def withdraw(self, name: str) -> "Event":
         """Without an entrant, whose open matches are walkovers; those of three or four are played by the others."""
-        return self._with(Withdrawn(name))
+        return self.after(Withdrawn(name))
 
     def postpone(self, fixture: int) -> "Event":
         """With others before this open match."""
-        return self._with(Postponed(fixture))
+        return self.after(Postponed(fixture))
 
     def substitute(self, name: str, brain: str) -> "Event":
         """With an AI in the place of an entrant, under the same name; an empty brain: a person again."""
-        return self._with(Substituted(name, brain))
+        return self.after(Substituted(name, brain))
 
-    def _with(self, entry: Entry) -> "Event":
+    def renamed(self, title: str) -> "Event":
+        """Under another title."""
+        event = Event(replace(self.spec, title=title), self.journal)
+        check_spec(event.spec)
+        return event
+
+    def after(self, entry: Entry) -> "Event":
+        """With one more entry."""
         event = Event(self.spec, (*self.journal, entry))
         event.__dict__["progress"] = self.progress.after(entry)  # the cached value: no replay from the beginning
         return event

@@ -7,10 +7,12 @@
 A file is replaced in one step (temporary file, fsync, rename) and has a backup, the version before.
 """
 
+import contextlib
 import json
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import takewhile
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -20,7 +22,7 @@ from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Reco
 from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Outcome
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.parsing import describe_error, parse_json, quote, read_text
-from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
+from pigaming_app.storage.safe_files import NotSaved, backup_of, read_or_restore, write_with_backup
 
 FOLDER = "events"  # below the data folder
 FORMAT = 1
@@ -53,7 +55,7 @@ def load(path: Path) -> tuple[Event | None, list[str]]:
     except FileNotFoundError:
         return None, []
     except (OSError, ValueError) as error:
-        if _readable(path.with_name(f"{path.name}.bak") if path.name else path) is None:
+        if _readable(backup_of(path) if path.name else path) is None:
             return None, [f"{path} cannot be read ({describe_error(error)})."]
     return read_or_restore(path, parse, MAX_BYTES)
 
@@ -67,17 +69,51 @@ def save(path: Path, event: Event) -> None:
 def update(path: Path, change: Callable[[Event], Event], known: Event | None = None) -> Event:
     """Change the event in the file, also while another process does. Raises NotSaved, or ValueError of the change.
 
-    `known`: the event as it was last saved, which spares parsing the file if nobody else has changed it.
+    `known`: the event as this process has it. It spares parsing the file if nobody else has changed it, takes the place
+    of a file that is gone or damaged, and what a full disk has kept out of the file is added.
     """
     with locked(path):
-        event = known if known is not None and _is_saved(path, known) else None
-        if event is None:
-            event, problems = load(path)
-            if event is None:
-                raise ValueError(problems[-1] if problems else f"{path}: no such event")
-        event = change(event)
+        event = change(latest(path, known))
         write_with_backup(path, to_text(event))
     return event
+
+
+def latest(path: Path, known: Event | None = None) -> Event:
+    """The event in the file with what only `known` has, see `update`. Raises ValueError if there is none."""
+    if known is not None and _is_saved(path, known):
+        return known
+    event, problems = load(path)
+    if event is None:
+        if known is None:
+            raise ValueError(problems[-1] if problems else f"{path}: no such event")
+        return known
+    return _joined(path, event, known) if known is not None else event
+
+
+def _joined(path: Path, event: Event, known: Event) -> Event:
+    """An event with the entries that only `known` has, as far as they are still possible."""
+    if replace(event.spec, title=known.spec.title) != known.spec:
+        raise ValueError(f"{path}: another event")
+    pairs = zip(event.journal, known.journal, strict=False)
+    common = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
+    others = event.journal[common:]
+    for entry in known.journal[common:]:
+        if entry not in others:
+            with contextlib.suppress(ValueError):  # the other process was faster
+                event = event.after(entry)
+    return event
+
+
+def delete(path: Path) -> None:
+    """Delete an event and its backup. Raises NotSaved if it is still there."""
+    with locked(path):
+        try:
+            for file in (backup_of(path), path):
+                file.unlink(missing_ok=True)
+        except OSError as error:
+            raise NotSaved(f"{path} was not deleted: {describe_error(error)}.") from error
+    with contextlib.suppress(OSError):
+        path.with_name(f".{path.name}.lock").unlink(missing_ok=True)
 
 
 def _is_saved(path: Path, event: Event) -> bool:

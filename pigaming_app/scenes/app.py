@@ -25,6 +25,7 @@ from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
+from pigaming_app.scenes.events.resume import EventMarker
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.operator.desk import OperatorDesk
@@ -168,6 +169,7 @@ class App:
         self.shown, self.unfinished = False, 0  # whether a picture was shown yet; frames since the last one
         self.failures, self.failed_at = 0, -FAILURE_WINDOW
         self.code = 0
+        self.marker = EventMarker(folders().data) if options.kiosk and not options.without_title else None
         self.stack = self._first_stack()
         self.previous_ids = self._scene_ids()  # ids of the scenes on the stack in the last frame
         self.to_free = False  # a removed scene is still to be freed
@@ -200,7 +202,14 @@ class App:
         stack = Stack(_title(self.context))
         if self.options.first_scene:
             stack.apply(Push(self.options.first_scene(self.context)))
+        else:
+            self._resume(stack)
         return stack
+
+    def _resume(self, stack: Stack) -> None:
+        """Show the event that was running before a crash, a hang or a power cut."""
+        if self.marker and (page := self.marker.page(self.context)):
+            stack.apply(Push(page))
 
     def _pin(self) -> None:
         """Apply the corner pin of the settings."""
@@ -350,9 +359,13 @@ class App:
             stack.apply(stack.top.update(seconds))
         self.desk.update(seconds, stack)
         self.phones.update(stack.scenes)
+        if self.marker and stack.scenes:
+            self.marker.update(stack.scenes)
 
     def _recover(self) -> bool:
-        """After a scene has failed: clean up and restart at the title; false if that is impossible."""
+        """After a scene has failed: clean up and restart at the title, in a kiosk at the running event. False if that
+        is impossible.
+        """
         self.context.day_log.note("failure")
         self.context.stop_all_robots()
         self.failures = self.failures + 1 if self.seconds - self.failed_at < FAILURE_WINDOW else 1
@@ -374,6 +387,8 @@ class App:
         self._pin()
         try:
             self.stack = Stack(_title(self.context))
+            if self.failures == 1:
+                self._resume(self.stack)
         except Exception:
             log.exception("a scene failed")
             return False

@@ -120,7 +120,7 @@ def write_with_backup(path: Path, text: str) -> None:
     with _as_not_saved(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         with contextlib.suppress(FileNotFoundError):
-            _replace(_backup(path), read(path, MAX_BACKUP))
+            _replace(backup_of(path), read(path, MAX_BACKUP))
         _replace(path, text.encode())
 
 
@@ -136,7 +136,7 @@ def read_or_restore(path: Path, parse: Callable[[str], T], limit: int = MAX_BYTE
         return None, []
     except (OSError, ValueError) as error:
         message = f"{path} cannot be read ({describe_error(error)}); {_put_aside(path)}"
-    backup = _backup(path)
+    backup = backup_of(path)
     try:
         restored = parse(read_text(backup, limit))
     except (OSError, ValueError):
@@ -241,7 +241,8 @@ def _sync_folder(folder: Path) -> None:
             os.close(handle)
 
 
-def _backup(path: Path) -> Path:
+def backup_of(path: Path) -> Path:
+    """The previous version of a file."""
     return path.with_name(f"{path.name}.bak")
 
 

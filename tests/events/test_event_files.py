@@ -9,7 +9,7 @@ import time
 import pytest
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.event_files import load, parse, path_of, save, saved_events, to_text, update
+from pigaming_app.events.event_files import delete, load, parse, path_of, save, saved_events, to_text, update
 from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Outcome
 from tests.events.examples import best_seed_wins, new_event, played
 
@@ -79,6 +79,36 @@ def test_a_change_is_made_to_what_is_in_the_file(tmp_path):
         update(file, lambda saved: saved.record(best_seed_wins(one)))
     with pytest.raises(ValueError, match="no such event"):
         update(tmp_path / "b.json", lambda saved: saved)
+
+
+def test_what_is_known_takes_the_place_of_a_file_that_is_gone_or_damaged(tmp_path):
+    file = tmp_path / "a.json"
+    event = new_event(Format.ROUND_ROBIN, 4)
+    known = event.record(best_seed_wins(event.open[0]))
+    save(file, event)
+    later = update(file, lambda saved: saved.record(best_seed_wins(saved.open[0])), known)
+    assert [len(one.outcomes) for one in (later, load(file)[0])] == [2, 2]
+    for content in ("{", None):
+        delete(file)
+        if content:
+            file.write_text(content)
+        assert update(file, lambda saved: saved.postpone(6), later) == load(file)[0] == later.postpone(6)
+    save(file, new_event(Format.SWISS, 4))
+    with pytest.raises(ValueError, match="another event"):
+        update(file, lambda saved: saved, later)
+
+
+def test_a_deleted_event_leaves_no_backup_and_a_new_title_keeps_the_results(tmp_path):
+    file = tmp_path / "a.json"
+    event = new_event(Format.SWISS, 4)
+    save(file, event)
+    other = update(file, lambda saved: saved.renamed("Another"), event)
+    assert (other.spec.title, other.journal) == ("Another", event.journal)
+    assert update(file, lambda saved: saved.record(best_seed_wins(saved.open[0])), event).spec.title == "Another"
+    with pytest.raises(ValueError, match="1 to 60"):
+        update(file, lambda saved: saved.renamed(""))
+    delete(file)
+    assert [*tmp_path.iterdir()] == []
 
 
 def test_a_new_event_never_has_the_name_of_another(tmp_path):

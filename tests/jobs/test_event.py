@@ -106,6 +106,46 @@ def test_exports(capsys):
     ]
 
 
+def test_a_poster_needs_no_display(capsys, monkeypatch):
+    pytest.importorskip("PIL")
+    from PIL import Image
+
+    monkeypatch.setenv("SDL_VIDEODRIVER", "none of these")
+    assert new(form="knockout") == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    assert main(["event", "export", "cup.json", "--poster", "a.png"]) == 0
+    assert main(["event", "export", "cup.json", "--poster", "b.pdf", "--csv", "b.csv"]) == 0
+    assert sorted(path.name for path in Path().glob("a*.png")) == ["a-2.png", "a-3.png", "a.png"]
+    with Image.open("a.png") as picture:
+        assert picture.size == (2480, 3508)
+    assert Path("b.pdf").read_bytes().startswith(b"%PDF")
+    assert Path("b.csv").is_file()
+    capsys.readouterr()
+    assert main(["event", "export", "cup.json", "--poster", "a.jpg"]) == 2
+    assert main(["event", "export", "cup.json", "--poster", "a.png", "--csv", "a-2.png"]) == 2
+    assert capsys.readouterr().err.count("\n") == 2
+
+
+def test_in_a_kiosk_the_supervisor_marks_the_event_and_the_arcade_opens_what_is_marked(monkeypatch):
+    from pigaming_app.jobs import arcade
+    from pigaming_app.jobs.kiosk import child
+    from pigaming_app.storage import resume
+    from pigaming_app.storage.settings import folders
+
+    shown, commands = [], []
+    monkeypatch.setattr(arcade, "show", lambda options: shown.append(options) or 0)
+    monkeypatch.setattr(arcade, "supervised", lambda arguments: commands.append(arguments.words) or 0)
+    assert new() == 0
+    words = ["event", "run", "cup.json", "--kiosk", "--display", "2"]
+    assert main(words) == 0
+    assert commands == [words]
+    assert resume.marked(folders().data) == Path("cup.json").absolute()
+    monkeypatch.setenv(child.VARIABLE, "a file")
+    assert main(words) == 0
+    assert (shown[0].kiosk, shown[0].display, shown[0].first_scene) == (True, 1, None)
+    assert main([*words, "--headless"]) == 2
+
+
 def test_a_cell_is_never_a_formula(capsys):
     assert new(entrants="=1+2,+1,CCC") == 2
     assert new(entrants="@x,-1,CCC") == 2
@@ -191,7 +231,7 @@ def test_every_value_is_used_or_refused_in_one_line(tmp_path, monkeypatch, seed)
     cases += [["event", *words, value] for words in (["show"], ["run", "--headless"], [], ["export"]) for value in ANY]
     cases += [["event", "new", value, *basic[3:]] for value in ANY]
     assert main(["event", "new", "kept.json", *basic[3:]]) == 0
-    targets = ("--csv", "--matches", "--json")
+    targets = ("--csv", "--matches", "--json", "--poster")
     cases += [["event", "export", "kept.json", option, value] for option in targets for value in ANY]
     faults = {}
     for case in random.Random(seed).sample(cases, 120):

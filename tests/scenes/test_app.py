@@ -4,7 +4,9 @@ import json
 import os
 import signal
 from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import pygame
 import pytest
@@ -17,6 +19,8 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
 from tests.scenes.arcade import Floor, setup
+
+NEEDS_OPENCV = pytest.mark.skipif(find_spec("cv2") is None, reason="OpenCV is not installed")
 
 pytestmark = pytest.mark.usefixtures("_cache_of_its_own")
 
@@ -214,3 +218,21 @@ def test_the_second_screen_follows_a_match(home: Path, monkeypatch: pytest.Monke
     assert run(options) == 0
     assert painted[0] == 0
     assert painted[-1] > 0
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"kiosk": True},
+        {"display": 0},
+        {"display": 1},
+        {"display": 63, "kiosk": True},
+        pytest.param({"emulator_seed": 1, "kiosk": True}, marks=NEEDS_OPENCV),
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("number", [1, 2, 16])
+def test_the_second_screen_goes_with_every_other_option(home: Path, number: int, more: dict[str, Any]) -> None:
+    assert run(Options(headless=True, scoreboard=number, frames=80, step=STEP, **more)) == 0
+    (file,) = (home / "data" / "days").iterdir()
+    assert "failure" not in file.read_text()

@@ -11,7 +11,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.sim.kernel import inlined_kernel
-from pigaming_app.sim.record import dtype, packed, record
+from pigaming_app.sim.record import packed, record
 from pigaming_app.sim.world import ROBOTS
 
 Think = Callable[[Any, int, Any, Any], None]
@@ -49,13 +49,20 @@ class Cast:
 
     def minds(self, line_ups: Sequence[Sequence[tuple[BrainKind, int]]]) -> Any:
         """Minds by match and seat, from the brain and seed of each: NumPy (n, 4) if fast, else nested lists."""
-        minds = [[self.mind_of(kind, seed) for kind, seed in line_up] for line_up in line_ups]
         if not self.fast:
-            return minds
+            return [[self.mind_of(kind, seed) for kind, seed in line_up] for line_up in line_ups]
         import numpy as np
 
-        flat = [mind for row in minds for mind in row]
-        return (packed(flat) if flat else np.zeros(0, dtype(self.mind))).reshape(-1, ROBOTS)
+        flat = [seated for line_up in line_ups for seated in line_up]
+        minds = np.repeat(packed([self.mind()]), len(flat))
+        for kind in {kind for kind, _ in flat}:
+            places = [i for i, (seated, _) in enumerate(flat) if seated is kind]
+            own = [kind.mind() for _ in places]
+            for mind, i in zip(own, places, strict=True):
+                kind.reset(mind, flat[i][1])
+            family, row = self._place[kind]
+            minds["family"][places], minds["row"][places], minds[f"mind{family}"][places] = family, row, packed(own)
+        return minds.reshape(-1, ROBOTS)
 
 
 def family_of(kind: BrainKind) -> Family:

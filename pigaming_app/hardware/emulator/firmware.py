@@ -7,6 +7,7 @@ before it, is ignored. With version 1 the robot has the former firmware: `D0 seq
 `D4 addr seq flags mvLo7 mvHi7 chk`, checked by the lower seven bits of a CRC-8.
 """
 
+import re
 from typing import NamedTuple
 
 from pigaming_app.hardware.emulator.robots import EmulatedRobot
@@ -26,6 +27,7 @@ class Packets(NamedTuple):
     check: int  # bytes of them for the check
 
 
+PARTS = re.compile(rb"[\x80-\xff][\x00-\x7f]*|[\x00-\x7f]+")  # from each first byte of a packet on
 LAYOUTS = {1: Packets(0xD0, 0xD4, 12, 1), 2: Packets(0xD1, 0xD5, 18, 5)}
 
 
@@ -55,15 +57,14 @@ class Firmware:
         """Receive bytes from the radio at `now` (s)."""
         if not self.robot.alive:
             return
-        for byte in data:
-            if byte >= 0x80:
+        layout = LAYOUTS[self.version]
+        for part in PARTS.findall(data):
+            if part[0] >= 0x80:
                 self._packet.clear()
-                if byte == LAYOUTS[self.version].drive:
-                    self._packet.append(byte)
-            elif self._packet:
-                self._packet.append(byte)
-                if len(self._packet) == LAYOUTS[self.version].length:
-                    self._obey(bytes(self._packet), now)
+            if self._packet or part[0] == layout.drive:
+                self._packet += part
+                if len(self._packet) >= layout.length:
+                    self._obey(bytes(self._packet[: layout.length]), now)
                     self._packet.clear()
 
     def tick(self, now: float) -> bytes:

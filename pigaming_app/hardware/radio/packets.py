@@ -94,7 +94,8 @@ def _is_valid(packet: bytes) -> bool:
     """True if the check at the end of a whole packet holds."""
     if packet[0] == OLD_REPORT:
         return crc8(packet[:-1]) & 0x7F == packet[-1]
-    return with_crc(packet[:-CRC_BYTES]) == packet
+    one, two, three, four, five = packet[-CRC_BYTES:]
+    return crc32(packet[:-CRC_BYTES]) == one | two << 7 | three << 14 | four << 21 | five << 28
 
 
 class PacketDecoder:
@@ -106,19 +107,19 @@ class PacketDecoder:
 
     def feed(self, received: bytes) -> list[bytes]:
         """Packets that these bytes complete, in order."""
-        self._buffer += received
-        complete = []
-        while self._buffer:
-            length = LENGTHS.get(self._buffer[0], 0)
-            following = START.search(self._buffer, 1)
-            end = following.start() if following else len(self._buffer)
-            if following is None and end < length:
+        buffer, begin, complete = self._buffer, 0, []
+        buffer += received
+        while begin < len(buffer):
+            length = LENGTHS.get(buffer[begin], 0)
+            following = START.search(buffer, begin + 1)
+            end = following.start() if following else len(buffer)
+            if following is None and end - begin < length:
                 break
-            packet = bytes(self._buffer[:length])
-            if 0 < length <= end and _is_valid(packet):
+            if 0 < length <= end - begin and _is_valid(packet := bytes(buffer[begin : begin + length])):
                 complete.append(packet)
-                end = length
+                end = begin + length
             else:
-                self.garbage += end
-            del self._buffer[:end]
+                self.garbage += end - begin
+            begin = end
+        del buffer[:begin]
         return complete

@@ -1,11 +1,13 @@
 """Play an event from where it stopped, in the arcade; with --headless without a window, its AIs at full speed.
 
-An entrant without a brain is played by level3. Every result is in the file before the next match; the event goes on
-from there after Ctrl-C, a kill or a power cut.
+An entrant without a brain is played by level3; in the arcade that is a person, and matches of AIs alone follow one
+another by themselves. Every result is in the file before the next match; the event goes on from there after Ctrl-C, a
+kill or a power cut.
 """
 
 import sys
 from argparse import ArgumentParser, Namespace
+from dataclasses import replace
 from functools import partial
 from math import inf
 from time import perf_counter, sleep
@@ -20,14 +22,17 @@ from pigaming_app.jobs import arcade
 from pigaming_app.jobs.event.files import file_option, loaded
 from pigaming_app.jobs.event.headless import HeadlessRun, seconds_of
 from pigaming_app.jobs.event.show import print_event
-from pigaming_app.jobs.terminal.options import decimal
+from pigaming_app.jobs.terminal.options import decimal, display, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.storage import resume
 from pigaming_app.storage.safe_files import require_writable
+from pigaming_app.storage.settings import folders
 
 
 def options(parser: ArgumentParser) -> None:
     file_option(parser)
+    shared(parser, "--kiosk", "--display", "--scoreboard")
     parser.add_argument("--headless", action="store_true", help="no window, no sound")
     parser.add_argument(
         "--speed", type=_speed, default=inf, help="with --headless: times real time, or max; default max"
@@ -40,6 +45,8 @@ def run(arguments: Namespace) -> int:
     event = loaded(arguments.file)
     if not arguments.headless:
         return _in_window(arguments, event)
+    if arguments.kiosk or arguments.display or arguments.scoreboard:
+        raise Refusal("event run: --kiosk, --display and --scoreboard open a window; they go without --headless")
     require_writable(arguments.file)
     require_for_brains(entrant.brain for entrant in event.entrants)
     began, before = perf_counter(), len(event.outcomes)
@@ -63,14 +70,22 @@ def run(arguments: Namespace) -> int:
 
 
 def _in_window(arguments: Namespace, event: Event) -> int:
-    """The arcade on the page of the next match. Raises Refusal."""
+    """The arcade on the page of the next match; in a kiosk under a supervisor. Raises Refusal or NotSaved."""
+    if arguments.json or arguments.speed < inf:
+        raise Refusal("event run: --json and --speed need --headless")
+    if arcade.needs_supervisor(arguments):
+        resume.mark(folders().data, arguments.file)
+        return arcade.supervised(arguments)
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.events.choice import page_of
     from pigaming_app.scenes.events.running import RunningEvent
 
-    if arguments.json or arguments.speed < inf:
-        raise Refusal("event run: --json and --speed need --headless")
-    return arcade.show(Options(first_scene=lambda context: page_of(context, RunningEvent(arguments.file, event))))
+    options = Options(display=display(arguments), scoreboard=arguments.scoreboard, kiosk=arguments.kiosk)
+    if arguments.kiosk:  # which opens the event that is marked, until somebody leaves it
+        return arcade.show(options)
+    return arcade.show(
+        replace(options, first_scene=lambda context: page_of(context, RunningEvent(arguments.file, event)))
+    )
 
 
 def _recorded(outcomes: list[Outcome], event: Event) -> Event:

@@ -9,6 +9,7 @@ from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.ui.i18n import english
 
 EXTRAS = {  # a module, and the package's name
+    "events": ("PIL", "Pillow"),
     "hardware": ("cv2", "OpenCV"),
     "onnx": ("onnxruntime", "onnxruntime"),
     "phones": ("aiohttp", "aiohttp"),

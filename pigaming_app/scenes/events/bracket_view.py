@@ -1,6 +1,6 @@
 """The bracket of an event: the matches of each round as boxes in columns, on as many pages as needed."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 
@@ -46,6 +46,7 @@ class Column:
 
 
 Page = tuple[Column, ...]
+Render = Callable[[tuple[str, ...], tuple[bool, ...], str], LitImage]
 
 
 def lines_of(names: int) -> int:
@@ -75,18 +76,21 @@ def page_with(pages: Sequence[Page], number: int | None) -> int:
     return len(pages) - 1
 
 
-def draw_bracket(screen: pygame.Surface, page: Page, heads: Sequence[str]) -> None:
-    """Draw a page. `heads`: one for each column."""
+def draw_bracket(
+    screen: pygame.Surface, page: Page, heads: Sequence[str], dx: int = 0, dy: int = 0, render: Render | None = None
+) -> None:
+    """Draw a page, moved by (dx, dy) px. `heads`: one for each column; `render`: draws a match; None: `match_box`."""
+    render = render or match_box
     places = {box: place for i, column in enumerate(page) for box, place in placed(column, i)}
     for before, after in pairwise(page):
         if (before.stage, before.round) != (after.stage, after.round):
             for start, end in _ways(before, after, places):
-                way(end[0] - start[0], end[1] - start[1]).draw(screen, start[0], min(start[1], end[1]))
+                way(end[0] - start[0], end[1] - start[1]).draw(screen, dx + start[0], dy + min(start[1], end[1]))
     for i, (column, head) in enumerate(zip(page, heads, strict=True)):
         x = LEFT + i * (W + GAP)
-        text(head, BODY, MIST, "body", "l", W).draw(screen, x, HEADS_Y)
+        text(head, BODY, MIST, "body", "l", W).draw(screen, dx + x, dy + HEADS_Y)
         for box in column.boxes:
-            match_box(box.names, box.through, box.state).draw(screen, *places[box].topleft)
+            render(box.names, box.through, box.state).draw(screen, dx + places[box].x, dy + places[box].y)
 
 
 def placed(column: Column, index: int) -> Iterator[tuple[Box, pygame.Rect]]:
@@ -100,9 +104,7 @@ def placed(column: Column, index: int) -> Iterator[tuple[Box, pygame.Rect]]:
         y += box.height + gap
 
 
-@cached
-@resumable
-def match_box(names: tuple[str, ...], through: tuple[bool, ...], state: str) -> Steps[LitImage]:
+def match_box_steps(names: tuple[str, ...], through: tuple[bool, ...], state: str) -> Steps[LitImage]:
     """A match; top left at (0, 0)."""
     h = 2 * PAD + LINE_H * lines_of(len(names))
     layer = Layer(0, 0, W, h)
@@ -118,6 +120,9 @@ def match_box(names: tuple[str, ...], through: tuple[bool, ...], state: str) -> 
         layer.canvas.text(name, fit_size(name, LABEL, room, "hero"), x + (40 if best else 0), y, color, "hero")
     yield
     return (yield from layer.render_steps())
+
+
+match_box = cached(resumable(match_box_steps))
 
 
 @cached

@@ -108,7 +108,7 @@ class EventsPage:
         except (NotSaved, OSError) as reason:
             log.warning("%s", reason)
             return words("app.unsaved")
-        return Home(NextMatch(self.context, running))
+        return Home(page_of(self.context, running))
 
     def _row(self, listed: event_files.Listed, hot: bool) -> LitImage:
         words, event = self.context.words, listed.event
@@ -120,8 +120,10 @@ class EventsPage:
 
 
 def page_of(context: Context, running: RunningEvent) -> Scene:
-    """The page with which an event goes on."""
-    return PodiumPage(context, running) if running.event.over else NextMatch(context, running)
+    """The page with which an event goes on; one of AIs alone does so by itself."""
+    if running.event.over:
+        return PodiumPage(context, running)
+    return NextMatch(context, running, show=all(entrant.brain for entrant in running.event.entrants))
 
 
 def row_box(i: int) -> pygame.Rect:

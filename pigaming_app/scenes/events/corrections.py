@@ -225,13 +225,13 @@ class Correction:
     def _save(self) -> StackOperation:
         words = self.context.words
         try:
-            event = self.running.event.correct(self.outcome)
+            saved = self.running.change(lambda event: event.correct(self.outcome))
         except ValueError as reason:
             log.warning("%s", reason)
             self.navigation.show_message(words("events.uncorrectable"))
             self.context.sounds.play("refused")
             return None
-        if not self.running.change(event):
+        if not saved:
             self.navigation.show_message(words("app.unsaved"))
             self.context.sounds.play("error")
             return None

@@ -7,18 +7,20 @@ once in the background.
 
 import logging
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from itertools import takewhile
 
 import pygame
 
-from pigaming_app.ai.registry import find_brain, level_of
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.events import next_view as view
+from pigaming_app.scenes.events.drivers import driver_label, people_of, suggested
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
@@ -87,7 +89,7 @@ class NextMatch:
     def people(self) -> list[int]:
         """Seats of people who play themselves."""
         fixture = self.fixture
-        return [i for i, name in enumerate(fixture.entrants) if not self.running.brain(name)] if fixture else []
+        return people_of(self.running, fixture) if fixture else []
 
     @property
     def waiting(self) -> list[int]:
@@ -224,7 +226,7 @@ class NextMatch:
         assert fixture is not None
         for seat, name in enumerate(fixture.entrants):
             if self.running.brain(name) and self.running.is_person(name):
-                if self._change(self.running.event.substitute(name, "")):
+                if self._change(lambda event, back=name: event.substitute(back, "")):  # type: ignore[misc]
                     self.claims[seat] = device
                     self.context.sounds.play("join", seat)
                 return
@@ -248,9 +250,7 @@ class NextMatch:
         self.claims = {seat: other for seat, other in self.claims.items() if other != device}
 
     def _suggested(self, seat: int) -> Device | None:
-        """The device for the seat of a person: the first pad for the first one, and so on; then the keyboard."""
-        players, index = self.context.controls.players(), self.people.index(seat)
-        return players[index] if index < len(players) else None
+        return suggested(self.context.controls, self.people, seat)
 
     def _last(self, seat: int) -> Device | None:
         """What the entrant on a seat has driven with before."""
@@ -271,13 +271,13 @@ class NextMatch:
         words = self.context.words
         if name in self._names():
             return words("events.taken", name=name)
+        self.claims.clear()
         try:
-            event = self.running.event.add(Entrant(name))
+            saved = self.running.change(lambda event: event.add(Entrant(name)))
         except ValueError as reason:
             log.warning("%s", reason)
             return words("events.too_late")
-        self.claims.clear()
-        return "" if self.running.change(event) else words("app.unsaved")
+        return "" if saved else words("app.unsaved")
 
     def _postpone(self) -> None:
         fixture = self.fixture
@@ -285,7 +285,7 @@ class NextMatch:
         if len(self.running.event.open) == 1:
             self._say("events.only_one")
             return
-        if self._change(self.running.event.postpone(fixture.number)):
+        if self._change(lambda event: event.postpone(fixture.number)):
             self._say("events.skipped", "move")
 
     def _replace_absent(self) -> None:
@@ -295,21 +295,30 @@ class NextMatch:
         if not self.people:
             self._play_quick()
             return
-        event = self.running.event
-        for seat in self.waiting:
-            event = event.substitute(fixture.entrants[seat], DEFAULT_AI)
-        if event is not self.running.event and self._change(event):
+        absent = [fixture.entrants[seat] for seat in self.waiting]
+
+        def replaced(event: Event) -> Event:
+            for name in absent:
+                event = event.substitute(name, DEFAULT_AI)
+            return event
+
+        if absent and self._change(replaced):
             self._say("events.stand_in", "join")
 
-    def _change(self, event: Event) -> bool:
-        """Save a changed event; false, with a message, if that is impossible."""
-        before, saved = self.fixture, self.running.change(event)
+    def _change(self, change: Callable[[Event], Event]) -> bool:
+        """Change and save the event; false, with a message, if that is impossible."""
+        before, trouble = self.fixture, ""
+        try:
+            trouble = "" if self.running.change(change) else "app.unsaved"
+        except ValueError as reason:  # another process was faster
+            log.warning("%s", reason)
+            trouble = "events.elsewhere"
         if self.fixture != before:
             self.claims.clear()
             self.ready = 0.0
-        if not saved:
-            self._say("app.unsaved", "error")
-        return saved
+        if trouble:
+            self._say(trouble, "error")
+        return not trouble
 
     def _say(self, key: str, sound: str = "refused") -> None:
         self.message, self.message_left = key, MESSAGE_SECONDS
@@ -331,14 +340,14 @@ class NextMatch:
         assert fixture is not None
         setup = self._setup_of(fixture)
         if setup is None:
-            self.going = False
+            self.going = self.show = False
             self._say("events.failed", "error")
             return None
         if not self.context.preloader.ready(setup.game, setup.arena):
             return None
         devices = [self.claims.get(seat) for seat in range(4)]
         real = [seat - 1 for seat in self.context.settings.real] if self.context.robots else []
-        after = partial(after_match, self.running, fixture)
+        after = EventMatch(self.running, fixture)
         return Swap(match_of(self.context, setup, devices, real, after=after))
 
     def _setup_of(self, fixture: Fixture) -> Setup | None:
@@ -366,7 +375,7 @@ class NextMatch:
     def _record_quick(self, quick: QuickMatches) -> None:
         """Record what has been played in the background; after the last one, those that are open now."""
         if outcome := quick.next_outcome():
-            if not self._change(self.running.event.record(outcome)):
+            if not self._change(lambda event: event.record(outcome)):
                 self._stop_quick()
         elif quick.over:
             self._stop_quick()
@@ -398,7 +407,7 @@ class NextMatch:
         taken = seat in self.claims
         state = view.AI if brain else view.TAKEN if taken else view.WANTED
         view.frame(seat, name, *self._driver(seat, brain), state).draw(screen, x, y)
-        view.draw_robot(screen, seat, x, self.clock, taken)
+        view.draw_robot(screen, seat, x, y, self.clock, taken)
         if brain:
             fixture = self.fixture
             assert fixture is not None
@@ -410,14 +419,9 @@ class NextMatch:
             ask_bar(label, words("events.press"), pulse(self.clock, 5)).draw(screen, x, y)
 
     def _driver(self, seat: int, brain: str) -> tuple[str, str]:
-        """Icon and name of who or what drives: a numbered pad, a part of the keyboard, an AI."""
-        words, controls = self.context.words, self.context.controls
-        if brain:
-            return "ai", words("events.ai" if level_of(brain) else "events.robot")
-        device, pads = self.claims.get(seat) or self._suggested(seat), controls.pads()
-        if device and device.kind == "pad":
-            return "pad", words("events.pad", number=1 + pads.index(device) if device in pads else 1)
-        return "keys", "".join(controls.moves(device).split()) if device else ""
+        """Icon and name of who or what drives."""
+        device = None if brain else self.claims.get(seat) or self._suggested(seat)
+        return driver_label(self.context.words, self.context.controls, device, brain)
 
     def _draw_message(self, screen: pygame.Surface, fixture: Fixture) -> None:
         words = self.context.words
@@ -427,7 +431,7 @@ class NextMatch:
             )
         elif self.quick:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
-        elif self.people and not self.waiting:
+        elif (self.people and not self.waiting) or (self.show and not self.people):
             call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, view.MESSAGE_Y)
         elif self.waiting:
             seat = self.waiting[0]
@@ -446,11 +450,22 @@ class NextMatch:
             yield partial(view.frame, seat, name, *self._driver(seat, brain), view.AI if brain else view.WANTED)
 
 
-def after_match(running: RunningEvent, fixture: Fixture, scene: MatchScene) -> AfterMatch:
-    """The next page after a match, whose result is on the disk by then. One that was ended by hand is still open."""
-    if not scene.match.over:
-        return NextMatch(scene.context, running, "events.unplayed")
-    scene.names = fixture.entrants
-    outcome = outcome_of(fixture, scene.match.outcome().rows)
-    saved = running.change(running.event.record(outcome))
-    return NextMatch(scene.context, running, "" if saved else "app.unsaved", show=not scene.humans)
+@dataclass(frozen=True)
+class EventMatch:
+    """A match of an event. Called after it, it returns the next page; the result is on the disk by then."""
+
+    running: RunningEvent
+    fixture: Fixture
+
+    def __call__(self, scene: MatchScene) -> AfterMatch:
+        """A match that was ended by hand is still open."""
+        if not scene.match.over:
+            return NextMatch(scene.context, self.running, "events.unplayed")
+        scene.names = self.fixture.entrants
+        outcome = outcome_of(self.fixture, scene.match.outcome().rows)
+        try:
+            notice = "" if self.running.change(lambda event: event.record(outcome)) else "app.unsaved"
+        except ValueError as reason:  # another process has played this match
+            log.warning("%s", reason)
+            notice = "events.elsewhere"
+        return NextMatch(scene.context, self.running, notice, show=not scene.humans)

@@ -42,9 +42,7 @@ def card_rect(index: int, count: int) -> pygame.Rect:
     return pygame.Rect(960 - (PITCH * count - 24) // 2 + PITCH * index, TOP, W, H)
 
 
-@cached
-@resumable
-def frame(seat: int, name: str, sign: str, driver: str, state: str) -> Steps[LitImage]:
+def frame_steps(seat: int, name: str, sign: str, driver: str, state: str) -> Steps[LitImage]:
     """A card with its seat, the name of the entrant, and icon and name of their device; keys with arrows are drawn."""
     layer, color = Layer(0, 0, W, H), PLAYERS[seat]
     if state == WANTED:
@@ -63,6 +61,9 @@ def frame(seat: int, name: str, sign: str, driver: str, state: str) -> Steps[Lit
     return (yield from layer.render_steps())
 
 
+frame = cached(resumable(frame_steps))
+
+
 @cached
 def note_bar(sentence: str) -> LitImage:
     """The bar of an AI: its stars, or its name."""
@@ -71,13 +72,13 @@ def note_bar(sentence: str) -> LitImage:
     return layer.render()
 
 
-def draw_robot(screen: pygame.Surface, seat: int, x: int, clock: float, taken: bool) -> None:
-    """Draw the robot of a seat on its turntable; it hops once the seat is taken."""
+def draw_robot(screen: pygame.Surface, seat: int, x: int, y: int, clock: float, taken: bool) -> None:
+    """Draw the robot of a seat on its turntable, on a card at (x, y); it hops once the seat is taken."""
     turn = int(clock * (14 if taken else 3)) % seat_card.TURNS
-    seat_card.turntable(seat, turn, taken, TABLE_R).draw(screen, round(x + MIDDLE), TOP + ROBOT_Y)
+    seat_card.turntable(seat, turn, taken, TABLE_R).draw(screen, round(x + MIDDLE), y + ROBOT_Y)
     hop = 8 * abs(math.sin(clock * 7 + seat)) if taken else 0.0
     sprite = seat_card.robot(seat, step(seat_card.UP, HEADINGS), SCALE)
-    blit_sprite(screen, sprite, x + MIDDLE, TOP + ROBOT_Y - hop)
+    blit_sprite(screen, sprite, x + MIDDLE, y + ROBOT_Y - hop)
 
 
 def following(sentence: Callable[[str], str], matches: Sequence[str], room: float) -> str:

@@ -1,6 +1,6 @@
 """The end of an event: the robots of the first three on the podium, with their names, and confetti."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import partial
 
 import pygame
@@ -35,8 +35,7 @@ class PodiumPage:
         self.best = podium_rows(running)
         steps = [Stand(row.place, (i,)) for i, row in enumerate(self.best)]
         self.rest = places_below(running)
-        self.x = 600 if self.rest else 960
-        self.podium = Podium(self.x, FOOT, steps)
+        self.podium = Podium(centre(self.rest), FOOT, steps)
         seats = list(range(len(self.best)))
         self.celebration = Celebration("pitanks", seats, [PLAYERS[seat] for seat in seats])
         self.volleys = [*VOLLEYS]
@@ -86,16 +85,8 @@ class PodiumPage:
         heading(self.running.event.spec.title, self.context.words("events.over"), FOCUS).draw(screen)
         self.celebration.draw(screen)
         self.podium.draw(screen, self.age)
-        for i, row in enumerate(self.best):
-            if self.age >= REVEALS[i] + RISE:
-                size = fit_size(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
-                x = self.x + (STEP_W + APART) * (ORDER.index(i) - 1)
-                word(row.entrant, size, FOCUS if i == 0 else ICE).draw(screen, x, NAME_Y)
-        if self.age >= FIRST + RISE:
-            for i, row in enumerate(self.rest):
-                y = REST_Y + REST_PITCH * i
-                text(str(row.place), SUB, MIST, "head", "r").draw(screen, REST_X, y)
-                text(row.entrant, SUB, ICE, "hero", "l", RIGHT - REST_X - 40).draw(screen, REST_X + 40, y)
+        shown = {i for i in range(len(self.best)) if self.age >= REVEALS[i] + RISE}
+        draw_names(screen, self.podium.x, self.best, self.rest if self.age >= FIRST + RISE else [], shown)
         if self.age >= SKIP:
             self.prompts.draw(screen)
 
@@ -107,6 +98,34 @@ class PodiumPage:
                 for size in SIZES:
                     for tumble in range(TUMBLES):
                         yield partial(confetti, "pitanks", shape, color, size, tumble)
+
+
+def centre(rest: Sequence[Standing]) -> int:
+    """x of the podium, px: further left with places beside it."""
+    return 600 if rest else 960
+
+
+def draw_names(
+    screen: pygame.Surface,
+    middle: float,
+    best: Sequence[Standing],
+    rest: Sequence[Standing],
+    shown: Collection[int],
+    dx: int = 0,
+    dy: int = 0,
+) -> None:
+    """Draw the names below the steps `shown`, by index, of a podium at x = `middle`, and the places beside it, all
+    moved by (dx, dy) px.
+    """
+    for i, row in enumerate(best):
+        if i in shown:
+            size = fit_size(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
+            x = dx + middle + (STEP_W + APART) * (ORDER.index(i) - 1)
+            word(row.entrant, size, FOCUS if i == 0 else ICE).draw(screen, x, dy + NAME_Y)
+    for i, row in enumerate(rest):
+        y = dy + REST_Y + REST_PITCH * i
+        text(str(row.place), SUB, MIST, "head", "r").draw(screen, dx + REST_X, y)
+        text(row.entrant, SUB, ICE, "hero", "l", RIGHT - REST_X - 40).draw(screen, dx + REST_X + 40, y)
 
 
 def podium_rows(running: RunningEvent) -> list[Standing]:

@@ -12,6 +12,7 @@ from itertools import groupby
 from pathlib import Path
 from threading import Thread
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import pygame
 
@@ -19,13 +20,17 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
 from pigaming_app.events.spec import Fixture, Format, Standing
 from pigaming_app.scenes.events.running import stage_name
-from pigaming_app.storage.safe_files import NotSaved, write_atomic
+from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
 from pigaming_app.ui.draw import Color, cut_box, font
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.draw.theme import line_image
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.png import png_of
 
+if TYPE_CHECKING:
+    from PIL import Image
+
+PDF = ".pdf"
 SIZE = W, H = 2480, 3508  # px
 DPI = 300
 MARGIN = 160  # px
@@ -66,18 +71,10 @@ class PosterJob:
 
     def _save(self) -> None:
         try:
-            save(self._pages, self.png, self.pdf)
+            write_all_atomic(encoded(self._pages, self.png) | (encoded(self._pages, self.pdf) if can_pdf() else {}))
             self.saved = True
         except NotSaved as reason:
             log.warning("%s", reason)
-
-
-def poster(event: Event, path: Path, words: Words) -> list[Path]:
-    """Draw and save the poster beside the file of an event; returns the files. Raises NotSaved."""
-    pages: list[pygame.Surface] = []
-    for _ in draw_pages(event, words, pages):
-        pass
-    return save(pages, path.with_suffix(".png"), path.with_suffix(".pdf"))
 
 
 def can_pdf() -> bool:
@@ -85,24 +82,38 @@ def can_pdf() -> bool:
     return find_spec("PIL") is not None
 
 
-def save(pages: Sequence[pygame.Surface], png: Path, pdf: Path) -> list[Path]:
-    """Save the pages: a PNG file each, and all in one PDF file. Returns the files. Raises NotSaved."""
-    files = [png if i == 0 else png.with_stem(f"{png.stem}-{i + 1}") for i in range(len(pages))]
+def drawn(event: Event, words: Words) -> list[pygame.Surface]:
+    """All pages. Needs no display."""
+    pygame.font.init()
+    pages: list[pygame.Surface] = []
+    for _ in draw_pages(event, words, pages):
+        pass
+    return pages
+
+
+def encoded(pages: Sequence[pygame.Surface], path: Path) -> dict[Path, bytes]:
+    """The files of the pages: one PDF if `path` ends so, else a PNG each, NAME.png, NAME-2.png …"""
+    if path.suffix.lower() == PDF:
+        images = [_image(page) for page in pages]
+        packed = BytesIO()
+        images[0].save(packed, "PDF", resolution=DPI, save_all=True, append_images=images[1:], quality=92)
+        return {path: packed.getvalue()}
+    files = [path if i == 0 else path.with_stem(f"{path.stem}-{i + 1}") for i in range(len(pages))]
+    return {file: _png(page) for file, page in zip(files, pages, strict=True)}
+
+
+def _png(page: pygame.Surface) -> bytes:
     if not can_pdf():
-        for path, page in zip(files, pages, strict=True):
-            write_atomic(path, png_of(page))
-        return files
+        return png_of(page)
+    packed = BytesIO()
+    _image(page).save(packed, "PNG")  # Pillow, unlike pygame, lets other threads run meanwhile
+    return packed.getvalue()
+
+
+def _image(page: pygame.Surface) -> "Image.Image":
     from PIL import Image
 
-    images = [Image.frombytes("RGB", page.get_size(), pygame.image.tobytes(page, "RGB")) for page in pages]
-    for path, image in zip(files, images, strict=True):  # Pillow, unlike pygame, lets other threads run meanwhile
-        packed = BytesIO()
-        image.save(packed, "PNG")
-        write_atomic(path, packed.getvalue())
-    packed = BytesIO()
-    images[0].save(packed, "PDF", resolution=DPI, save_all=True, append_images=images[1:], quality=92)
-    write_atomic(pdf, packed.getvalue())
-    return [*files, pdf]
+    return Image.frombytes("RGB", page.get_size(), pygame.image.tobytes(page, "RGB"))
 
 
 def draw_pages(event: Event, words: Words, pages: list[pygame.Surface]) -> Iterator[None]:

@@ -1,6 +1,7 @@
 """A running event and its file. A change is on the disk before any page shows it."""
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -22,14 +23,21 @@ class RunningEvent:
     event: Event
     devices: dict[str, Device] = field(default_factory=dict)
 
-    def change(self, event: Event) -> bool:
-        """Take the event over and save it; false if it cannot be saved, and is lost when the arcade ends."""
-        self.event = event
+    def change(self, change: Callable[[Event], Event]) -> bool:
+        """Change the event and its file, which another process may have changed meanwhile.
+
+        False if it cannot be saved now; it is saved with the next change, or lost when the arcade ends. Raises
+        ValueError if the change is not possible any more.
+        """
         try:
-            event_files.save(self.path, event)
+            self.event = event_files.update(self.path, change, self.event)
         except NotSaved as reason:
             log.warning("%s", reason)
+            self.event = change(self.event)
             return False
+        except ValueError:
+            self.event = event_files.latest(self.path, self.event)
+            raise
         return True
 
     @property

@@ -4,19 +4,15 @@ import logging
 
 import pygame
 
-from pigaming_app.events.formats import knockout
-from pigaming_app.events.spec import WALKOVER, Fixture, Format, Outcome, Standing
 from pigaming_app.scenes.events import bracket_view, table_view
-from pigaming_app.scenes.events.bracket_view import NEXT, OPEN, PLAYED, Box
 from pigaming_app.scenes.events.corrections import ResultsList
+from pigaming_app.scenes.events.overview import BRACKET, overview
 from pigaming_app.scenes.events.poster import PosterJob
-from pigaming_app.scenes.events.running import RunningEvent, progress_line, stage_name
-from pigaming_app.scenes.events.table_view import TableRow
+from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.draw.layers import backdrop
-from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import Arrows, as_direction, draw_arrows
 from pigaming_app.ui.widgets.caption import caption
@@ -26,7 +22,6 @@ IDLE = 60.0  # s without input before the return to the next match
 TURN = 10.0  # s without input after which the next page is shown
 MESSAGE_SECONDS = 5.0
 ARROWS: Arrows = {Button.LEFT: (56, 592), Button.RIGHT: (1864, 592)}
-TABLE, TEAMS, BRACKET = "table", "teams", "bracket"  # kinds of pages
 
 log = logging.getLogger("pigaming")
 
@@ -55,7 +50,7 @@ class TablePage:
 
     def handle(self, event: InputEvent) -> StackOperation:
         """LEFT and RIGHT turn the page, X shows the results, Y makes the poster, BACK and FIRE leave."""
-        event = as_direction(self.prompts.as_button(event), ARROWS if len(self.pages) > 1 else {})
+        event = as_direction(self.prompts.as_button(event), ARROWS if len(self.overview.pages) > 1 else {})
         self.idle = 0.0
         match event.button:
             case Button.LEFT | Button.RIGHT:
@@ -82,24 +77,21 @@ class TablePage:
         if self.poster and self.poster.work():
             self._posted(self.poster)
             self.poster = None
-        if len(self.pages) > 1 and self.idle > TURN and self.age > TURN:
+        if len(self.overview.pages) > 1 and self.idle > TURN and self.age > TURN:
             self._turn(1)
         return Pop() if self.idle > IDLE and not self.running.event.over else None
 
     def draw(self, screen: pygame.Surface) -> None:
         words, event = self.context.words, self.running.event
-        kind, number = self.pages[self.page]
+        kind, number = self.overview.pages[self.page]
         screen.blit(backdrop(), (0, 0))
         line = words("events.over") if event.over else progress_line(words, event)
         heading(event.spec.title, line).draw(screen)
         if kind == BRACKET:
-            columns = self.bracket[number]
-            stages = [stage_name(words, column.stage, column.round) for column in columns]
-            bracket_view.draw_bracket(screen, columns, stages)
+            bracket_view.draw_bracket(screen, self.overview.bracket[number], self.overview.stages(number))
         else:
-            rows, heads = (self.rows, self.heads) if kind == TABLE else (self.teams, self.heads[:2])
-            table_view.draw_table(screen, rows, heads, number, self.age)
-        if len(self.pages) > 1:
+            table_view.draw_table(screen, *self.overview.table(kind), number, self.age)
+        if len(self.overview.pages) > 1:
             draw_arrows(screen, ARROWS)
         if self.poster:
             caption(words("events.drawing"), FOCUS).draw(screen, 960, self.prompts.y)
@@ -112,35 +104,11 @@ class TablePage:
 
     def _read(self) -> None:
         """Derive the pages from the event, and open the one with the next match."""
-        event, words = self.running.event, self.context.words
-        self.heads = heads_of(words, event.spec.format)
-        self.rows = rows_of(words, event.standings, {entrant.name for entrant in event.entrants if entrant.brain})
-        self.teams = rows_of(words, event.team_standings, set())
-        upcoming = event.open[0].number if event.open else None
-        self.bracket = bracket_view.pages_of([self._box(fixture, upcoming) for fixture in event.fixtures])
-        table = [(TABLE, i) for i in range(table_view.pages_of(len(self.rows)))]
-        table += [(TEAMS, i) for i in range(table_view.pages_of(len(self.teams))) if self.teams]
-        rounds = [(BRACKET, i) for i in range(len(self.bracket))]
-        knocked = event.spec.format is Format.KNOCKOUT
-        self.pages = [*rounds, *table] if knocked else [*table, *rounds]
-        self.page = bracket_view.page_with(self.bracket, upcoming) if knocked else 0
-
-    def _box(self, fixture: Fixture, upcoming: int | None) -> Box:
-        event = self.running.event
-        outcome = event.outcomes.get(fixture.number)
-        state = PLAYED if outcome else NEXT if fixture.number == upcoming else OPEN
-        best = through(self.running, fixture, outcome) if outcome else ()
-        return Box(
-            fixture.number,
-            fixture.stage,
-            fixture.round,
-            fixture.entrants,
-            tuple(name in best for name in fixture.entrants),
-            state,
-        )
+        self.overview = overview(self.context.words, self.running.event)
+        self.page = self.overview.first
 
     def _turn(self, by: int) -> None:
-        self.page = (self.page + by) % len(self.pages)
+        self.page = (self.page + by) % len(self.overview.pages)
         self.age = 0.0
 
     def _posted(self, poster: PosterJob) -> None:
@@ -150,39 +118,3 @@ class TablePage:
         )
         self.message_left = MESSAGE_SECONDS
         self.context.sounds.play("error" if self.wrong else "ready")
-
-
-def through(running: RunningEvent, fixture: Fixture, outcome: Outcome) -> tuple[str, ...]:
-    """Who goes on from a match of a knock-out, or has won another."""
-    event = running.event
-    if event.spec.format is Format.KNOCKOUT:
-        names = tuple(entrant.name for entrant in event.entrants)
-        return tuple(knockout.through(fixture, outcome, names, event.spec.advance))
-    return outcome.places[0] if len(outcome.places) > 1 or outcome.note == WALKOVER else ()
-
-
-def rows_of(words: Words, standings: tuple[Standing, ...], ais: set[str]) -> tuple[TableRow, ...]:
-    """The rows of a table: points, wins, matches, and the first tie-break."""
-    first = [row.entrant for row in standings if row.place == 1]
-    return tuple(
-        TableRow(row.place, row.entrant, figures_of(words, row), row.entrant in ais, first == [row.entrant])
-        for row in standings
-    )
-
-
-def figures_of(words: Words, row: Standing) -> tuple[str, ...]:
-    """Points, wins, matches and the first tie-break of a row."""
-    first = next(iter(row.tie_breaks.values()), None)
-    figures = [number(words, row.points), str(row.wins), str(row.played)]
-    return (*figures, *([number(words, first)] if first is not None else []))
-
-
-def number(words: Words, value: float) -> str:
-    """A number with at most one decimal."""
-    return words.decimal(f"{round(value, 1):g}")
-
-
-def heads_of(words: Words, form: Format) -> tuple[str, ...]:
-    """Headings of the figures of a row."""
-    tie = {Format.ROUND_ROBIN: "head_to_head", Format.SWISS: "buchholz", Format.GRAND_PRIX: "first"}.get(form)
-    return tuple(words(f"events.{name}") for name in ("points", "wins", "played", *([tie] if tie else [])))

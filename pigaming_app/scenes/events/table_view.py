@@ -1,6 +1,6 @@
 """The table of an event: places, names, points, in one to three columns that can be read from five metres."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import pygame
@@ -30,6 +30,9 @@ class TableRow:
     leads: bool = False
 
 
+Render = Callable[[TableRow, int, int, int], LitImage]
+
+
 @dataclass(frozen=True)
 class Grid:
     """How many columns, and rows in each, a table has on one page."""
@@ -53,32 +56,42 @@ def pages_of(count: int) -> int:
     return max(1, -(-count // grid_of(count).size))
 
 
-def draw_table(screen: pygame.Surface, rows: Sequence[TableRow], heads: Sequence[str], page: int, age: float) -> None:
-    """Draw a page of a table. `heads`: of the values; `age`: s since it was opened."""
+def draw_table(
+    screen: pygame.Surface,
+    rows: Sequence[TableRow],
+    heads: Sequence[str],
+    page: int,
+    age: float,
+    dx: int = 0,
+    dy: int = 0,
+    render: Render | None = None,
+) -> None:
+    """Draw a page of a table, moved by (dx, dy) px. `heads`: of the values; `age`: s since it was opened;
+    `render`: draws a row; None: `table_row`.
+    """
+    render = render or table_row
     grid = grid_of(len(rows))
     pitch = (BOTTOM - TOP) // grid.rows
     wide = (RIGHT - LEFT - GAP * (grid.columns - 1)) // grid.columns
     shown = rows[page * grid.size : (page + 1) * grid.size]
     used = -(-len(shown) // grid.rows)
     for column in range(used):
-        _heads(screen, heads, LEFT + column * (wide + GAP), wide, grid.columns)
+        _heads(screen, heads, dx + LEFT + column * (wide + GAP), dy + HEADS_Y, wide, grid.columns)
     for i, row in enumerate(shown):
         share = (age - APART * i) / WIPE
         if share > 0.0:
             x, y = LEFT + (i // grid.rows) * (wide + GAP), TOP + (i % grid.rows) * pitch
-            whole = table_row(row, wide, pitch - 10, grid.columns)
-            whole.draw(screen, x, y, share=1 - (1 - min(1.0, share)) ** 2)
+            whole = render(row, wide, pitch - 10, grid.columns)
+            whole.draw(screen, dx + x, dy + y, share=1 - (1 - min(1.0, share)) ** 2)
 
 
-def _heads(screen: pygame.Surface, heads: Sequence[str], x: int, w: int, columns: int) -> None:
+def _heads(screen: pygame.Surface, heads: Sequence[str], x: int, y: int, w: int, columns: int) -> None:
     cell = CELL[columns]
     for k, head in enumerate(heads[: FIGURES[columns]]):
-        text(head, BODY, MIST, "body", "r", cell - 16).draw(screen, x + w - 28 - k * cell, HEADS_Y)
+        text(head, BODY, MIST, "body", "r", cell - 16).draw(screen, x + w - 28 - k * cell, y)
 
 
-@cached
-@resumable
-def table_row(row: TableRow, w: int, h: int, columns: int) -> Steps[LitImage]:
+def table_row_steps(row: TableRow, w: int, h: int, columns: int) -> Steps[LitImage]:
     """A row; top left at (0, 0)."""
     layer = Layer(0, 0, w, h)
     best = row.leads
@@ -112,3 +125,6 @@ def table_row(row: TableRow, w: int, h: int, columns: int) -> Steps[LitImage]:
         )
     yield
     return (yield from layer.render_steps())
+
+
+table_row = cached(resumable(table_row_steps))

@@ -2,6 +2,7 @@
 of a group.
 """
 
+import logging
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -18,9 +19,12 @@ from pigaming_app.ui.widgets.notices import MAX_WIDTH, Notices
 if TYPE_CHECKING:
     from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
 
+LOOK = 1.0  # s between two looks for displays
 HOLD, HOLD_IN_KIOSK = 1.0, 5.0  # s for which F10 is held
 SIZE, SENTENCE_Y = 34, 1047  # px, of what a group is told: below the row of prompts
 MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
+
+log = logging.getLogger("pigaming")
 
 
 class OperatorDesk:
@@ -34,6 +38,11 @@ class OperatorDesk:
         self.held: float | None = None  # s for which F10 has been held
         self.window: ScoreboardWindow | None = None
         self.applied = context.settings.scoreboard
+        self.displays: list[tuple[int, int]] = []  # their sizes, px
+        self.arena_moved = False  # by the system, as its display is gone
+        self.looked = 0.0  # s since the last look at them
+        self.dismissed = False  # closed by its close button
+        self.number = 0  # of the display of the second screen; 0: none
         self._open(context.settings.scoreboard if scoreboard is None else scoreboard)
 
     def filter(self, events: Sequence[pygame.Event], scenes: Sequence[Scene]) -> list[pygame.Event]:
@@ -71,12 +80,20 @@ class OperatorDesk:
         if self.context.settings.scoreboard != self.applied:
             self.applied = self.context.settings.scoreboard
             self._open(self.applied)
+        self.looked += seconds
+        if self.number and not self.dismissed and self.looked >= LOOK:
+            self._follow_displays()
         if self.window and scenes:
+            whole = not self.window.trouble
             self.window.update(seconds, left, self.context.board_page, scenes)
+            if whole and self.window.trouble:
+                self.notices.add(self.context.words("scoreboard.none"))
 
     def close_if_requested(self, event: pygame.Event) -> bool:
         """Close the second screen if an event requests it; true if so."""
-        return self.window is not None and self.window.close_if_requested(event)
+        closed = self.window is not None and self.window.close_if_requested(event)
+        self.dismissed = self.dismissed or closed
+        return closed
 
     def close(self) -> None:
         if self.window:
@@ -85,9 +102,10 @@ class OperatorDesk:
     def _open(self, number: int) -> None:
         """Open the second screen on a display, from 1, in place of the one before; 0: none."""
         self.close()
-        self.window = None
+        self.window, self.number, self.dismissed = None, number, False
         if not number:
             return
+        self.displays = pygame.display.get_desktop_sizes()
         from pigaming_app.scenes.scoreboard.pages import complete
         from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
 
@@ -97,8 +115,31 @@ class OperatorDesk:
         if self.window.trouble:
             self.notices.add(self.context.words("scoreboard.none"))
 
+    def _follow_displays(self) -> None:
+        """After a display was plugged or unplugged: fill the own one, or close rather than cover the arena."""
+        self.looked = 0.0
+        canvas, displays = self.context.canvas, pygame.display.get_desktop_sizes()
+        if displays == self.displays or canvas.headless:
+            return
+        self.displays = displays
+        there = canvas.display < len(displays)
+        if there and self.arena_moved:
+            canvas.show(canvas.display, canvas.fullscreen)
+        self.arena_moved = not there
+        from pigaming_app.scenes.scoreboard.window import has_display
+
+        if has_display(self.number, canvas.display, canvas.headless):
+            self._open(self.number)
+        elif self.window and self.window.window and self.window.fills:
+            log.warning("The display of the second screen is gone.")
+            self.window.close()
+            self.notices.add(self.context.words("scoreboard.none"))
+
     def _next_page(self, scenes: Sequence[Scene]) -> None:
-        """Choose the next page that has something to show."""
+        """Choose the next page that has something to show. A window that was closed opens again, with the same page."""
+        if self.window and self.window.window is None:
+            self._open(self.number)
+            return
         pages = [page for page in self.context.board_pages if page.parts(scenes) is not None]
         names = [page.name for page in pages]
         if self.window is None or self.window.window is None or not names:

@@ -23,7 +23,7 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 CLEAR = 2.0  # seconds for which a button is held to clear the high scores
 FLASHES = ("off", "soft", "full")
 ROWS = ("language", "picture", "controls", "ease", "robots", "day", "reset")
-SECTIONS = {
+SECTIONS: dict[str, tuple[str, ...]] = {
     "picture": ("music", "sounds", "display", "fullscreen"),
     "controls": ("rumble", "padtest", "remap", "phones"),
     "ease": ("calm", "flashes", "shake", "large"),

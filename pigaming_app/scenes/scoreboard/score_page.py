@@ -46,7 +46,7 @@ def match_parts(context: Context, shown: MatchSnapshot) -> list[Part]:
     parts = [
         Part(HEAD, head, partial(_head, *head)),
         Part(CLOCK, (shown.clock, shown.alarm), partial(_clock, shown.clock, ALARM if shown.alarm else ICE)),
-        Part(STATE, state, partial(_state, state)),
+        Part(STATE, (state, shown.round), partial(_state, state, shown.round)),
     ]
     pitch = min(ROW_MAX, (BOTTOM - TOP) // max(1, len(shown.sides)))
     for i, side in enumerate(shown.sides):
@@ -61,25 +61,26 @@ def color_of(side: Side) -> Color:
 
 
 def paint_side(side: Side, place: int, surface: pygame.Surface) -> None:
-    """A row: badges, driver and score; a crown for the leader."""
+    """A row: badges with the icons of their drivers, name and score; a crown for the leader."""
     w, h = surface.get_size()
     color, middle = color_of(side), h / 2
     surface.blit(text.outline(w, h, color if side.leads else STEEL), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     r, size = min(84, round(0.3 * h)), min(112, max(SUB, round(0.36 * h)))
     x = 40 + 1.5 * r
-    for seat in side.seats:
+    for seat, sign in zip(side.seats, side.signs, strict=True):
         text.put(surface, text.player_badge(seat, r), x, middle)
-        x += 2.7 * r
-    x += -0.9 * r
-    if side.sign:
-        text.put(surface, text.symbol(side.sign, size // 2, MIST), x + size // 2, middle)
-        x += 1.4 * size
+        x += 1.6 * r
+        text.put(surface, text.symbol(sign, round(0.7 * r), MIST), x + 0.7 * r, middle)
+        x += 3.1 * r
+    x -= 1.3 * r
     end = w - 60 - 3 * min(240, round(0.86 * h)) * 0.7
     if side.leads:
         text.put(surface, text.symbol("crown", 46, FOCUS), end - 60, middle)
         end -= 130
-    if side.driver:
-        text.write(surface, side.driver, size, x, middle, ICE, "head", "l", round(end - x - 30))
+    if side.name:
+        x += text.write(surface, side.name, size, x, middle, ICE, "head", "l", round(end - x - 30)) + 40
+    if side.driver and end - x > 200:
+        text.write(surface, side.driver, LABEL, x, middle, MIST, "body", "l", round(end - x - 30))
     text.write_number(surface, side.score, min(240, round(0.86 * h)), w - 48, middle, color, "r")
 
 
@@ -94,7 +95,10 @@ def _clock(clock: str, color: Color, surface: pygame.Surface) -> None:
     text.write_number(surface, clock, CLOCK_SIZE, w / 2, h / 2, color, "c")
 
 
-def _state(state: str, surface: pygame.Surface) -> None:
+def _state(state: str, round_line: str, surface: pygame.Surface) -> None:
+    """State and round; a state alone in the middle."""
     w, h = surface.get_size()
     if state:
-        text.write(surface, state, SUB, w, h / 2, FOCUS, "head", "r", w)
+        text.write(surface, state, SUB, w, h / 2 - (34 if round_line else 0), FOCUS, "head", "r", w)
+    if round_line:
+        text.write(surface, round_line, LABEL, w, h / 2 + 62, MIST, "body", "r", w)

@@ -11,6 +11,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.headline import is_allied, team_name
+from pigaming_app.scenes.scoreboard.event_now import event_match
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
 
@@ -39,24 +40,30 @@ class ShownMatch(Protocol):
 
 @dataclass(frozen=True)
 class Side:
-    """A robot, or a team. `driver`: name and icon; `score`: as shown; `leads`: alone at the top."""
+    """A robot, or a team. `name`: of a team, a driver, or an entrant of an event, whose device is `driver`; `signs`:
+    icons of the drivers, one for each seat; `score`: as shown; `leads`: alone at the top.
+    """
 
     seats: tuple[int, ...]
+    name: str
     driver: str
-    sign: str
+    signs: tuple[str, ...]
     score: str
     leads: bool
 
 
 @dataclass(frozen=True)
 class MatchSnapshot:
-    """A match now. `sides`: best first; `alarm`: time is running out; `state`: "", "waiting", "paused" or "over"."""
+    """A match now. `sides`: best first; `alarm`: time is running out; `state`: "", "waiting", "paused" or "over";
+    `round`: where it stands in an event; empty: it is no match of one.
+    """
 
     game: str
     arena: str
     clock: str
     alarm: bool
     state: str
+    round: str
     sides: tuple[Side, ...]
 
 
@@ -84,13 +91,14 @@ def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
         f"{seconds // 60}:{seconds % 60:02}",
         not counts_up and left <= ALARM_SECONDS and not match.over,
         state,
+        round_line(scene, words),
         sides(scene, words),
     )
 
 
 def sides(scene: ShownMatch, words: Words) -> tuple[Side, ...]:
     """The robots of a match, or its teams, best first; robots of equal rank by seat."""
-    match, setup = scene.match, scene.setup
+    match, setup, event = scene.match, scene.setup, event_match(scene)
     keys, _winners = standings(match.game, match.state)
     robots = match.state.robots
     groups: dict[int, list[int]] = {}
@@ -105,11 +113,26 @@ def sides(scene: ShownMatch, words: Words) -> tuple[Side, ...]:
     found = []
     for team, seats in sorted(groups.items(), key=lambda group: (-keys[group[1][0]], group[0])):
         total = sum(robots[seat].score for seat in seats)
-        driver, sign = scene.runner.driver(seats[0], scene.devices[seats[0]])
+        drivers = [scene.runner.driver(seat, scene.devices[seat]) for seat in seats]
+        name, driver = drivers[0][0], ""
         if teams:
-            driver, sign = ("", "") if is_allied(setup) else (team_name(words, setup, team), "")
-        found.append(Side(tuple(seats), driver, sign, score_text(setup, total), alone and keys[seats[0]] == best))
+            name = "" if is_allied(setup) else team_name(words, setup, team)
+        if event and (entrants := [event.fixture.entrants[i] for i in seats if i < len(event.fixture.entrants)]):
+            name, driver = "  ".join(entrants), name
+        signs = tuple(sign for _, sign in drivers)
+        leads = alone and keys[seats[0]] == best
+        found.append(Side(tuple(seats), name, driver, signs, score_text(setup, total), leads))
     return tuple(found)
+
+
+def round_line(scene: ShownMatch, words: Words) -> str:
+    """Round or stage of a match of an event, and its number; empty for another."""
+    match = event_match(scene)
+    if match is None:
+        return ""
+    fixtures = match.running.event.fixtures
+    at = next((i for i, one in enumerate(fixtures, 1) if one.number == match.fixture.number), len(fixtures))
+    return words("events.progress", round=match.fixture.round, match=at, of=len(fixtures))
 
 
 def score_text(setup: Setup, score: int) -> str:

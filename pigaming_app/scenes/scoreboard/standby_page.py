@@ -7,17 +7,19 @@ import pygame
 
 from pigaming_app.events.day_log import now
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.board_page import Part
+from pigaming_app.scenes.flow.board_page import Box, Part
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.high_score_tables import format_score
 from pigaming_app.scenes.scoreboard import text
+from pigaming_app.scenes.scoreboard.event_now import event_now, next_line
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
 from pigaming_app.ui.i18n import Words
 
 ROWS = 4
 TOP, H, GAP, LEFT, W = 420, 600, 36, 60, 1800
+FOOT: Box = (LEFT, 930, W, 110)
 Best = tuple[tuple[str, str], ...]  # initials and result
 
 
@@ -30,19 +32,25 @@ class StandbyPage:
         self.context = context
 
     def parts(self, scenes: Sequence[Scene]) -> Sequence[Part]:
-        """Name, time and a column for each game."""
+        """Name, time and a column for each game; of a running event, who is next."""
         words, clock = self.context.words, f"{now():%H:%M}"
         parts = [
             Part((LEFT, 50, 1180, 220), "name", _name),
             Part((1260, 50, 600, 220), clock, partial(_clock, clock)),
             Part((LEFT, 290, W, 110), words("scoreboard.today"), partial(_headline, words("scoreboard.today"))),
         ]
+        event = event_now(self.context, scenes)
+        following = next_line(words, event) if event else ""
+        if following:
+            parts.append(Part(FOOT, following, partial(_foot, following)))
+        rows, h = (ROWS - 1, H - FOOT[3]) if following else (ROWS, H)
         names = list(games())
         w = (W - GAP * (len(names) - 1)) // len(names)
         for i, game in enumerate(names):
             content = (words(f"games.{game}"), *best_today(self.context.scores, game, words))
-            column = partial(_column, words(f"games.{game}"), content[1], content[2], words("best.first"))
-            parts.append(Part((LEFT + i * (w + GAP), TOP, w, H), (*content, words.language), column))
+            best = content[2][:rows]
+            column = partial(_column, words(f"games.{game}"), content[1], best, words("best.first"))
+            parts.append(Part((LEFT + i * (w + GAP), TOP, w, h), (*content, words.language), column))
         return parts
 
 
@@ -73,6 +81,11 @@ def _headline(title: str, surface: pygame.Surface) -> None:
     w, h = surface.get_size()
     text.write(surface, title, SUB, 0, h / 2 - 12, ICE, "head", "l", w)
     text.rule(surface, h - 8)
+
+
+def _foot(line: str, surface: pygame.Surface) -> None:
+    w, h = surface.get_size()
+    text.write(surface, line, SUB, 0, h / 2 + 10, FOCUS, "head", "l", w)
 
 
 def _column(game: str, feat: str, rows: Best, empty: str, surface: pygame.Surface) -> None:

@@ -27,14 +27,15 @@ class ScoreboardWindow:
     """
 
     def __init__(self, number: int, arena_display: int, pages: Sequence[BoardPage], headless: bool = False) -> None:
-        self.number, self.board = number, Board(pages)
+        self.board = Board(pages)
+        self.fills = has_display(number, arena_display, headless)  # a display of its own
         self.window: pygame.Window | None = None
         self.trouble = ""
         self._age, self._waited = PERIOD, 0.0
         self._complete = True  # the picture in the window is that of the board
         self._size = (0, 0)
         try:
-            self.window = _open(number - 1, arena_display, headless)
+            self.window = _open(number - 1 if self.fills else None)
             self.window.get_surface()
             _focus_arcade()
         except pygame.error as reason:
@@ -96,13 +97,22 @@ class ScoreboardWindow:
         self.close()
 
 
-def _open(display: int, arena_display: int, headless: bool) -> pygame.Window:
-    """A window that fills a display of its own, else a small one. Raises pygame.error."""
-    sizes = pygame.display.get_desktop_sizes()
+def has_display(number: int, arena_display: int, headless: bool) -> bool:
+    """True if display `number`, from 1, is connected and free: the arena's is another one, and connected as well.
+
+    Without its own display, the system moves the arena to one of the others.
+    """
+    count = len(pygame.display.get_desktop_sizes())
+    return not headless and arena_display != number - 1 < count and 0 <= arena_display < count
+
+
+def _open(display: int | None) -> pygame.Window:
+    """A window that fills a display; None: a small one. Raises pygame.error."""
     title = "PiGaming: scores"
-    if headless or display == arena_display or not 0 <= display < len(sizes):
+    if display is None:
         return pygame.Window(title, WINDOWED, position=(24, 24), resizable=True)
-    window = pygame.Window(title, sizes[display], position=pygame.WINDOWPOS_CENTERED | display, borderless=True)
+    size = pygame.display.get_desktop_sizes()[display]
+    window = pygame.Window(title, size, position=pygame.WINDOWPOS_CENTERED | display, borderless=True)
     window.set_fullscreen(desktop=True)
     return window
 

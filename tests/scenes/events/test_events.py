@@ -237,7 +237,7 @@ def test_a_late_entrant_joins_before_round_two_only(arcade: Arcade) -> None:
     for button in (Button.DOWN, Button.DOWN, Button.START, Button.BACK):
         arcade.press(button)
     assert "CAA" in [entrant.name for entrant in saved(run).entrants]
-    run.change(played(run.event, 3))
+    run.change(lambda event: played(event, 3))
     assert not run.accepts_late
     arcade.press(Button.DOWN)
     assert isinstance(arcade.stack.top, NextMatch)
@@ -327,17 +327,43 @@ def test_an_event_goes_on_after_a_restart_and_a_damaged_one_is_listed(arcade: Ar
 
 
 def test_a_result_that_cannot_be_saved_is_said_and_kept(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(path: Path, event: object) -> None:
+    def full(path: Path, text: str) -> None:
         raise NotSaved("the disk is full")
 
-    run = running(an_event(brains="level1"))
+    run = running(an_event(Format.ROUND_ROBIN, brains="level1"))
     at_next(arcade, run)
     arcade.press(Button.FIRE)
-    monkeypatch.setattr(event_files, "save", full)
-    finish(arcade, (3, 1))
-    arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
+    with monkeypatch.context() as disk:
+        disk.setattr(event_files, "write_with_backup", full)
+        finish(arcade, (3, 1))
+        arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
     assert arcade.shown(NextMatch).message == "app.unsaved"
     assert len(run.event.outcomes) == 1
+    assert saved(run).outcomes == {}
+    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.press(Button.X)
+    assert saved(run).outcomes == run.event.outcomes, "saved with the next change"
+
+
+def test_two_processes_on_one_event_lose_and_double_nothing(arcade: Arcade) -> None:
+    run = running(an_event(Format.ROUND_ROBIN, brains="level1"))
+    other = RunningEvent(run.path, saved(run))
+    at_next(arcade, run)
+    arcade.press(Button.FIRE)
+    second = other.event.open[1]
+    assert other.change(lambda event: event.record(result_of(second)))
+    assert run.event.outcomes == {}, "this process has read less"
+    finish(arcade, (3, 1))
+    assert sorted(saved(run).outcomes) == [1, second.number]
+    arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
+    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.press(Button.FIRE)
+    third = run.event.open[0]
+    assert other.change(lambda event: event.record(result_of(third)))
+    finish(arcade, (3, 1))
+    arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
+    assert arcade.shown(NextMatch).message == "events.elsewhere"
+    assert saved(run) == run.event == other.event
 
 
 def test_a_robot_that_is_gone_is_said_and_its_match_skipped(arcade: Arcade) -> None:

@@ -37,9 +37,9 @@ def test_a_table_has_room_for_everybody(count: int) -> None:
 def test_every_match_is_on_one_page_of_the_bracket_and_inside_of_it(arcade: Arcade, count: int, seats: int) -> None:
     run = running(played(an_event(Format.KNOCKOUT, count, seats)))
     page = TablePage(arcade.context, run)
-    boxes = [box.number for columns in page.bracket for column in columns for box in column.boxes]
+    boxes = [box.number for columns in page.overview.bracket for column in columns for box in column.boxes]
     assert sorted(boxes) == sorted(fixture.number for fixture in run.event.fixtures)
-    for columns in page.bracket:
+    for columns in page.overview.bracket:
         assert len(columns) <= COLUMNS
         for i, column in enumerate(columns):
             places = [place for _, place in placed(column, i)]
@@ -51,9 +51,9 @@ def test_every_match_is_on_one_page_of_the_bracket_and_inside_of_it(arcade: Arca
 def test_those_who_go_on_are_marked_and_lead_to_the_next_match(arcade: Arcade) -> None:
     run = running(played(an_event(Format.KNOCKOUT, 8), 4))
     page = TablePage(arcade.context, run)
-    first = [box for columns in page.bracket for column in columns for box in column.boxes if box.round == 1]
+    first = [box for columns in page.overview.bracket for column in columns for box in column.boxes if box.round == 1]
     assert [box.through.count(True) for box in first] == [1, 1, 1, 1]
-    columns = page.bracket[0]
+    columns = page.overview.bracket[0]
     places = {box: place for i, column in enumerate(columns) for box, place in placed(column, i)}
     assert len([*bracket_view._ways(columns[0], columns[1], places)]) == 4
 
@@ -84,4 +84,10 @@ def test_a_poster_is_a_picture_and_a_pdf(arcade: Arcade, form: Format, count: in
 def test_without_pillow_a_poster_is_a_picture_only(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(poster, "can_pdf", lambda: False)
     run = running(played(an_event(count=3)))
-    assert poster.poster(run.event, run.path, Words("en")) == [run.path.with_suffix(".png")]
+    job = PosterJob(run.event, run.path, Words("en"))
+    while not job.work():
+        pass
+    assert job.saved
+    assert job.name == "event.png"
+    assert run.path.with_suffix(".png").is_file()
+    assert not run.path.with_suffix(".pdf").exists()

@@ -1,0 +1,169 @@
+"""The page of a running event: the call for the next match, bracket and tables by turns, and the podium at the end."""
+
+import math
+from collections.abc import Callable, Hashable, Sequence
+from functools import partial
+from time import monotonic
+
+import pygame
+
+from pigaming_app.events.event import Event
+from pigaming_app.scenes.events import bracket_view, next_view, podium_page, table_view
+from pigaming_app.scenes.events.overview import BRACKET, Overview, overview
+from pigaming_app.scenes.events.running import progress_line
+from pigaming_app.scenes.flow.board_page import Box, Part
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.results.podium import FIRST, Podium, Stand
+from pigaming_app.scenes.scoreboard import text
+from pigaming_app.scenes.scoreboard.event_now import Called, EventNow, event_now, next_line, now_line
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, TITLE
+from pigaming_app.ui.draw.frame_budget import resumable
+from pigaming_app.ui.draw.layers import LEFT, RIGHT
+
+TURN = 10.0  # s until the next page
+CALL, PODIUM = "call", "podium"  # kinds of pages, besides those of an overview
+HEAD: Box = (60, 34, 1800, 150)
+FOOT: Box = (60, 944, 1800, 112)
+TOP, H = 196, 744  # px: of what lies between them
+EDGE = 12  # px of glow round a card or a column
+STILL = FIRST + math.pi / 5  # s: age of a podium that stands, its winner on the step
+
+match_box = text.CACHE.cached(resumable(bracket_view.match_box_steps))
+table_row = text.CACHE.cached(resumable(table_view.table_row_steps))
+card = text.CACHE.cached(resumable(next_view.frame_steps))
+
+
+class EventPage:
+    """Shows the event on the stack. `clock`: time, s, by which its pages turn."""
+
+    name = "event"
+
+    def __init__(self, context: Context, clock: Callable[[], float] = monotonic) -> None:
+        self.context, self.clock = context, clock
+        self._of: tuple[Event, int | None, str] | None = None  # of `_overview`: event, match, language
+        self._overview: Overview | None = None
+        self._since = 0.0
+
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+        """Head and foot, and one of the pages between them; None without an event."""
+        now = event_now(self.context, scenes)
+        if now is None:
+            self._of = self._overview = None
+            return None
+        shown = self._read(now)
+        pages = self._pages(now, shown)
+        kind, number = pages[int((self.clock() - self._since) / TURN) % len(pages)]
+        words, event = self.context.words, now.running.event
+        title = words("events.next") if kind == CALL else event.spec.title
+        right = words("events.over") if event.over else progress_line(words, event)
+        parts = [Part(HEAD, (title, right), partial(_head, title, right)), self._foot(now, kind)]
+        if kind == CALL:
+            parts += [_card(one, len(now.called)) for one in now.called]
+        elif kind == PODIUM:
+            parts.append(_podium(now))
+        elif kind == BRACKET:
+            parts += _bracket(shown, number)
+        else:
+            parts += _table(shown, kind, number)
+        return parts
+
+    def _read(self, now: EventNow) -> Overview:
+        """The overview of the event, derived again when it has changed."""
+        event, playing = now.running.event, now.playing.number if now.playing else None
+        of = (event, playing, self.context.words.language)
+        if self._overview is None or self._of is None or self._of[0] is not event or self._of[1:] != of[1:]:
+            self._overview, self._of = overview(self.context.words, event, playing), of
+            self._since = self.clock()
+        return self._overview
+
+    def _pages(self, now: EventNow, shown: Overview) -> list[tuple[str, int]]:
+        """The pages by turns: the call or the podium, then bracket and tables, beginning with the next match."""
+        first = [(CALL, 0)] if now.called else [(PODIUM, 0)] if now.running.event.over else []
+        return [*first, *shown.pages[shown.first :], *shown.pages[: shown.first]]
+
+    def _foot(self, now: EventNow, kind: str) -> Part:
+        words = self.context.words
+        lines = [line for line in (now_line(words, now), "" if kind == CALL else next_line(words, now)) if line]
+        if kind == CALL and len(now.coming) > 1:
+            names = [" ".join(fixture.entrants) for fixture in now.coming[1:4]]
+            lines.append(next_view.following(lambda those: words("events.then", names=those), names, FOOT[2] - 72))
+        content = (*lines, now.playing is not None)
+        return Part(FOOT, content, partial(_foot, tuple(lines), now.playing is not None))
+
+
+def _head(title: str, right: str, surface: pygame.Surface) -> None:
+    h = surface.get_height()
+    wide = text.write(surface, title, TITLE, LEFT - HEAD[0], 72, ICE, "head", "l", 1000)
+    room = RIGHT - LEFT - wide - 60
+    text.write(surface, right, LABEL, RIGHT - HEAD[0], 72, MIST, "head", "r", room)
+    text.rule(surface.subsurface((LEFT - HEAD[0], 0, RIGHT - LEFT, h)), h - 10)
+
+
+def _foot(lines: Sequence[str], playing: bool, surface: pygame.Surface) -> None:
+    """One or two lines; the match that is being played is brighter."""
+    for i, line in enumerate(lines):
+        y = surface.get_height() / 2 + 56 * (i - (len(lines) - 1) / 2)
+        color = FOCUS if i == 0 and (playing or len(lines) == 1) else ICE
+        text.write(surface, line, LABEL, LEFT - FOOT[0], y, color, "head", "l", RIGHT - LEFT)
+
+
+def _card(one: Called, count: int) -> Part:
+    place = next_view.card_rect(one.seat, count).inflate(2 * EDGE, 2 * EDGE)
+    return Part((place.x, place.y, place.w, place.h), one, partial(_paint_card, one))
+
+
+def _paint_card(one: Called, surface: pygame.Surface) -> None:
+    state = next_view.AI if one.brain else next_view.TAKEN
+    card(one.seat, one.name, one.sign, one.driver, state).draw(surface, EDGE, EDGE)
+    next_view.draw_robot(surface, one.seat, EDGE, EDGE, 0.0, False)
+    if one.brain or one.device:
+        next_view.note_bar(one.brain or one.device).draw(surface, EDGE, EDGE)
+
+
+def _podium(now: EventNow) -> Part:
+    best, rest = podium_page.podium_rows(now.running), podium_page.places_below(now.running)
+    box = (60, TOP, 1800, H)
+    content = tuple((row.place, row.entrant) for row in (*best, *rest))
+
+    def paint(surface: pygame.Surface) -> None:
+        dx, dy, middle = -box[0], -box[1], podium_page.centre(rest)
+        steps = [Stand(row.place, (i,)) for i, row in enumerate(best)]
+        Podium(dx + middle, dy + podium_page.FOOT, steps).draw(surface, STILL)
+        podium_page.draw_names(surface, middle, best, rest, range(len(best)), dx, dy)
+
+    return Part(box, content, paint)
+
+
+def _bracket(shown: Overview, number: int) -> list[Part]:
+    """A part for each column; all are drawn in each of them, as their lines and glow cross its border."""
+    page, heads = shown.bracket[number], shown.stages(number)
+    pitch = bracket_view.W + bracket_view.GAP
+    parts = []
+    for i in range(len(page)):
+        x = LEFT + i * pitch - bracket_view.GAP // 2
+        content: Hashable = (page[max(0, i - 1) : i + 2], heads[i])
+
+        def paint(surface: pygame.Surface, x: int = x) -> None:
+            bracket_view.draw_bracket(surface, page, heads, -x, -TOP, match_box)
+
+        parts.append(Part((x, TOP, pitch, H), content, paint))
+    return parts
+
+
+def _table(shown: Overview, kind: str, number: int) -> list[Part]:
+    """A part for each column of a table."""
+    rows, heads = shown.table(kind)
+    grid = table_view.grid_of(len(rows))
+    page = rows[number * grid.size : (number + 1) * grid.size]
+    pitch = (RIGHT - LEFT + table_view.GAP) // grid.columns
+    parts = []
+    for i in range(-(-len(page) // grid.rows)):
+        x = LEFT + i * pitch - EDGE
+
+        def paint(surface: pygame.Surface, x: int = x) -> None:
+            table_view.draw_table(surface, rows, heads, number, math.inf, -x, -TOP, table_row)
+
+        content: Hashable = (page[i * grid.rows : (i + 1) * grid.rows], heads, grid)
+        parts.append(Part((x, TOP, pitch, H), content, paint))
+    return parts
