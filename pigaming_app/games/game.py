@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pigaming_app.games import simple
 from pigaming_app.sim.arena import Arena, Layout
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.toml_table import TomlTable
@@ -96,32 +97,35 @@ Reroute = Callable[[Arena, Any, tuple[ThingSpec, ...]], Callable[[Any], None]]
 be called with the match, between two ticks. Raises FieldError if robots cannot pass the things."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Game:
-    """The functions and properties of one game. `judge` and `observe` are kernels: they run plain and compiled."""
+    """The functions and properties of one game. `judge` and `observe` are kernels: they run plain and compiled.
+
+    The defaults are those of a simple game: walls, robots, points.
+    """
 
     name: str
     state: type
-    senses: type  # record with the parameters of an observation
-    observation: type
     variants: Mapping[str, Variant]  # by name; the first is the default
-    columns: tuple[str, ...]  # keys of `stats`, in the order of the results table
-    record_kinds: tuple[RecordKind, ...]
-    read: Callable[[TomlTable], Layout]  # parse an arena file, except its title; raises FieldError
     start: Callable[[Any, Arena, Setup], None]  # fill a fresh state
-    judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, request speeds
-    observe: Callable[[Any, int, Any, Any], None]  # observe(match, seat, senses, observation)
-    ranking_key: Callable[[Any, int], float]  # of a seat, with its team; higher ranks first; allies win above 0
-    stats: Callable[[Any, int], Mapping[str, float]]
-    records: Callable[[Any, int], Mapping[str, int]]  # by names of `record_kinds`; only those achieved
-    times: Callable[[Any, int], tuple[float, ...]]
     rules: Callable[[Setup], Any]  # the rule record of a match
+    judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, request speeds
+    senses: type = simple.Senses  # record with the parameters of an observation
+    observation: type = simple.Observation
+    observe: Callable[[Any, int, Any, Any], None] = simple.observe  # observe(match, seat, senses, observation)
+    read: Callable[[TomlTable], Layout] = simple.read  # parse an arena file, except its title; raises FieldError
+    ranking_key: Callable[[Any, int], float] = simple.team_points  # of a seat, with its team; allies win above 0
+    columns: tuple[str, ...] = ()  # keys of `stats`, in the order of the results table
+    stats: Callable[[Any, int], Mapping[str, float]] = simple.no_stats
+    record_kinds: tuple[RecordKind, ...] = (RecordKind("points"),)
+    records: Callable[[Any, int], Mapping[str, int]] = simple.own_points  # by `record_kinds`; only those achieved
+    times: Callable[[Any, int], tuple[float, ...]] = simple.no_times
     goal: str = ""  # unit of `goals`: laps, pallets
     rounds: tuple[int, ...] = (1,)  # the choices: the number of rounds of which most decide a match
     surprise: Callable[[int], str] | None = None  # the text of an arena file, from a seed
     reroute: Reroute | None = None  # for AIs that do not plan from the walls alone
     timed: bool = False  # the fastest wins: the clock counts up, and results compare the stages' times
-    scored: bool = False  # the results table begins with the score
+    scored: bool = True  # the results table begins with the score
     ladder: LadderMatches | None = None
 
     def records_of(self, variant: str) -> tuple[RecordKind, ...]:

@@ -3,7 +3,7 @@
 from pigaming_app.games.factory.layout import read
 from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.games.factory.rules import judge
-from pigaming_app.games.factory.start import VARIANTS, ranking_key, records, rules_of, start, stats, times
+from pigaming_app.games.factory.start import VARIANTS, ranking_key, records, rules_of, start, stats
 from pigaming_app.games.factory.state import Factory
 from pigaming_app.games.game import Game, LadderMatches, RecordKind
 
@@ -22,8 +22,8 @@ FACTORY = Game(
     ranking_key=ranking_key,
     stats=stats,
     records=records,
-    times=times,
     rules=rules_of,
     goal="pallets",
+    scored=False,
     ladder=LadderMatches(2.0, 0, ("hall", "lines", "yard", "hall", "lines"), 3.0),
 )

@@ -20,7 +20,8 @@ from pigaming_app.games.factory.state import (
     Rules,
 )
 from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant, named
-from pigaming_app.sim.arena import Arena, build
+from pigaming_app.games.simple import seat_robots
+from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
@@ -46,12 +47,10 @@ STEPS_PER_DELIVERY = 1000.0  # steps of work that weigh as much as one delivery:
 
 def start(match: Factory, arena: Arena, setup: Setup) -> None:
     """Fill a fresh match: walls, machines, people, robots on their team's starts, pallets, rules, random seed."""
-    build(match, arena)
+    seat_robots(match, arena, setup)
     floor: Floor = arena.plan
     match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
-    for seat, robot in zip(setup.seats, match.robots, strict=True):
-        robot.present, robot.team = int(seat.brain != "off"), seat.team
     if match.rules.allies:
         expected = expected_time(floor, sum(robot.present for robot in match.robots), match.rules.pallets)
         match.rules.three_stars, match.rules.two_stars = (
@@ -167,8 +166,3 @@ def records(match: Factory, seat: int) -> Mapping[str, int]:
         return {"points": match.points[match.robots[seat].team]}
     done = match.delivered[match.robots[seat].team] == match.rules.pallets
     return {"time": round(1000 * DT * match.tick)} if done else {}
-
-
-def times(match: Factory, seat: int) -> tuple[float, ...]:
-    """Always empty: the game has no laps."""
-    return ()

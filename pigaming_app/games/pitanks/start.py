@@ -1,15 +1,12 @@
 """PiTanks: initial state of a match, its variants, and its statistics."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from pigaming_app.games.game import Setup, Variant, named
 from pigaming_app.games.pitanks.state import PiTanks, Rules
-from pigaming_app.games.starts import clear_starts
-from pigaming_app.sim.arena import Arena, Layout, build, read_starts, read_walls
+from pigaming_app.games.simple import seat_robots
+from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.rng import seeded
-from pigaming_app.sim.things.spec import read_things
-from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HZ
 
 MINUTES, DEFAULT_MINUTES = (1, 2, 3, 5), 2
@@ -22,20 +19,10 @@ VARIANTS = named(
 )
 
 
-def read(table: TomlTable) -> Layout:
-    """Parse an arena: walls and starts. Raises FieldError."""
-    table.only("title", "start", "wall", "thing")
-    layout = Layout(read_walls(table), read_starts(table), things=read_things(table))
-    return replace(layout, starts=clear_starts(layout))
-
-
 def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
     """Fill a fresh match: walls, robots on their starts, rules, random seed."""
-    build(match, arena)
+    seat_robots(match, arena, setup)
     match.random = seeded(setup.seed)
-    for robot, seat in zip(match.robots, setup.seats, strict=True):
-        robot.present = int(seat.brain != "off")
-        robot.team = seat.team
     set_rules(match.rules, setup)
     match.next_pickup = match.rules.pickup_every // 2
 
@@ -73,19 +60,3 @@ def stats(match: PiTanks, seat: int) -> Mapping[str, float]:
         "taken": tank.taken,
         "aim": tank.landed / tank.shots if tank.shots else 0.0,
     }
-
-
-def ranking_key(match: PiTanks, seat: int) -> float:
-    """The points of a seat's team."""
-    team = match.robots[seat].team
-    return float(sum(robot.score for robot in match.robots if robot.present and robot.team == team))
-
-
-def records(match: PiTanks, seat: int) -> Mapping[str, int]:
-    """The seat's own points."""
-    return {"points": match.robots[seat].score}
-
-
-def times(match: PiTanks, seat: int) -> tuple[float, ...]:
-    """Always empty: the game has no goal."""
-    return ()

@@ -26,5 +26,6 @@ RACE = Game(
     goal="laps",
     reroute=reroute,
     timed=True,
+    scored=False,
     ladder=LadderMatches(10.0, 3, ("classic", "kidney", "hairpin", "technical", "classic"), 5.0),
 )
