@@ -22,6 +22,8 @@ JOBS = {  # modules of `jobs`
     "league": "a round robin of AIs, with ratings",
     "event": "tournaments and Grand Prix of AIs and people",
     "train": "train an AI from nothing",
+    "new-game": "a package for a game of your own",
+    "games": "games from elsewhere: list, on, off",
     "bench": "performance on this machine",
     "calibrate": "calibration of projector, mat and camera",
     "robots": "status of robots, radios and cameras; pairing, latency",
@@ -82,7 +84,7 @@ def _refused_in_one_line(words: list[str]) -> int:
 def _run(name: str, words: list[str]) -> int:
     if name not in JOBS:
         raise Refusal(f"no job '{name}'; there are {', '.join(JOBS)}")
-    job = import_module(f"pigaming_app.jobs.{name}")
+    job = import_module(f"pigaming_app.jobs.{name.replace('-', '_')}")
     parser = Parser(
         prog=PROGRAM if name == "arcade" else f"{PROGRAM} {name}",
         description=textwrap.fill((job.__doc__ or "").partition("\n\n")[0], 80),

@@ -57,7 +57,7 @@ def company(game):
 def with_things(game, folder):
     """The file of the game's first arena with a box, mud and a line on it."""
     path = folder / "things.toml"
-    path.write_text(load(game, arenas(game)[0]).source + written(THINGS[game]), encoding="utf-8")
+    path.write_text(load(game, arenas(game)[0]).source + written(THINGS.get(game, THINGS["pitanks"])), encoding="utf-8")
     return path
 
 

@@ -7,7 +7,7 @@ from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Outcome
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import ALLIES, ALONE, FREE, Row, Setup, Variant
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import PEOPLE, ChoiceError, make_setup, require_one_of
+from pigaming_app.games.setup import PEOPLE, ChoiceError, make_setup, require_game, require_one_of
 
 
 def setup_of(event: Event, fixture: Fixture, person: str = "human") -> Setup:
@@ -50,7 +50,7 @@ def check_playable(spec: EventSpec, find_brain: Callable[[str, str], object]) ->
 
 def variant_of(spec: EventSpec, game: str) -> Variant:
     """The rules of a game of the event. Raises ChoiceError."""
-    require_one_of("game", game, list(games()))
+    require_game(game)
     variants = games()[game].variants
     name = spec.variants.get(game) or games()[game].default.name
     require_one_of("variant", name, list(variants))

@@ -6,6 +6,8 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALLIES, ALONE, PAIRS, Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.plugins.consent import is_on
+from pigaming_app.storage.plugins.found import found
 
 PEOPLE = ("human", "off")
 MIN_MINUTES, MAX_MINUTES = 0.05, 60.0
@@ -27,7 +29,7 @@ def make_setup(
     goal: int | None = None,
 ) -> Setup:
     """A validated setup; None selects the game's default. `known`: names of its brains. Raises ChoiceError."""
-    require_one_of("game", game, list(games()))
+    require_game(game)
     rules = games()[game]
     for brain in brains:
         require_one_of("seat", brain, [*PEOPLE, *known])
@@ -70,6 +72,16 @@ def check_teams(rules: Game, variant: Variant, playing: Sequence[int]) -> None:
         raise ChoiceError(f"{rules.name} knows no teams")
     if variant.team_mode == PAIRS and (not {*playing} <= {0, 1} or max(playing.count(0), playing.count(1)) > 2):
         raise ChoiceError(f"{rules.name} is played by two teams, 0 and 1, of at most two robots each")
+
+
+def require_game(name: str) -> None:
+    """Raises ChoiceError for a game that there is not, or that the operator has not switched on."""
+    plugin = next((plugin for plugin in found() if plugin.name == name), None)
+    if plugin and name not in games():
+        state = {None: "is new, and runs code of its own", False: "is switched off", True: "is left out"}[is_on(plugin)]
+        advice = "see above" if is_on(plugin) else f"main.py games on {name}"
+        raise ChoiceError(f"the game {name} in {plugin.folder} {state}: {advice}")
+    require_one_of("game", name, list(games()))
 
 
 def require_one_of(noun: str, name: str, choices: Sequence[str]) -> None:

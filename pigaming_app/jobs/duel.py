@@ -6,8 +6,7 @@ from dataclasses import asdict
 
 from pigaming_app.ai.experiments import league
 from pigaming_app.ai.registry import find_brain
-from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, require_one_of
+from pigaming_app.games.setup import ChoiceError, require_game
 from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal
 from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
@@ -33,7 +32,7 @@ def run(arguments: Namespace) -> int:
 
 
 def _play(arguments: Namespace) -> league.Duel:
-    require_one_of("game", arguments.game, list(games()))
+    require_game(arguments.game)
     for brain in (arguments.left, arguments.right):
         find_brain(arguments.game, brain)
     return league.duel(

@@ -19,7 +19,7 @@ from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, find_brain, known_brains
 from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
+from pigaming_app.games.setup import ChoiceError, make_setup, require_game, require_one_of
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ, ROBOTS
 
@@ -109,7 +109,7 @@ def league(
 
     `progress(number, count, left, right)` is called before each duel; `number` counts from 0.
     """
-    require_one_of("game", game, list(games()))
+    require_game(game)
     check_brains(game, brains)
     began = perf_counter()
     duels, shares = [], {}
@@ -215,7 +215,7 @@ def _setups(
     goal: int | None,
 ) -> list[Setup]:
     """Setups of a duel, two per seed; among allies, one. Raises ChoiceError or ArenaError."""
-    require_one_of("game", game, list(games()))
+    require_game(game)
     if not 1 <= matches <= MAX_MATCHES:
         raise ChoiceError(f"--matches: {matches}; possible are 1 to {MAX_MATCHES}")
     variants = games()[game].variants

@@ -26,7 +26,7 @@ from pigaming_app.events.spec import (
     Format,
 )
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, require_one_of
+from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
 from pigaming_app.jobs.event.files import file_option
 from pigaming_app.jobs.event.show import print_event
 from pigaming_app.jobs.terminal.options import DEFAULT_GAME, decimal, integer, word
@@ -89,7 +89,7 @@ def run(arguments: Namespace) -> int:
 def _spec(arguments: Namespace) -> EventSpec:
     played = tuple(name.strip() for name in arguments.game.split(","))
     for name in played:
-        require_one_of("game", name, list(games()))
+        require_game(name)
     require_one_of("format", arguments.format, list(Format))
     require_one_of("choice for --advance:", arguments.advance, list(Advance))
     form = Format(arguments.format)

@@ -23,8 +23,7 @@ from pigaming_app.ai.ppo.task import SHARDS, Task
 from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
 from pigaming_app.ai.ppo.win_rates import Score
 from pigaming_app.ai.registry import find_brain
-from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, require_one_of
+from pigaming_app.games.setup import ChoiceError, require_game
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.jobs.train.outputs import csv_of, png_of, two_plots
 from pigaming_app.jobs.train.progress import bar, end_line, interrupts, note, show
@@ -62,7 +61,7 @@ def train_and_save(arguments: Namespace, beside: Path) -> int:
 
 def _begin(arguments: Namespace, beside: Path) -> Training:
     """A fresh training, or the saved one. Raises Refusal, ChoiceError or BrainFileError."""
-    require_one_of("game", arguments.game, list(games()))
+    require_game(arguments.game)
     if arguments.game not in TASKS:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
     if arguments.workers > SHARDS:

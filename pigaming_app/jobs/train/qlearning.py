@@ -13,8 +13,7 @@ from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
-from pigaming_app.games.registry import games
-from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_one_of
+from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_game
 from pigaming_app.jobs.terminal.options import decimal, game_option, integer, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.jobs.train.outputs import check_outputs, csv_of, output_options, png_of, two_plots
@@ -83,7 +82,7 @@ def _train_and_save(arguments: Namespace) -> int:
 
 def _check(arguments: Namespace) -> None:
     """Check before the training whatever would fail after it. Raises Refusal, ChoiceError, ArenaError or NotSaved."""
-    require_one_of("game", arguments.game, list(games()))
+    require_game(arguments.game)
     if arguments.game != training.GAME:
         raise Refusal(f"train {arguments.learner}: learns {training.GAME} only, not {arguments.game}")
     if not 1 <= arguments.matches <= 1_000_000:

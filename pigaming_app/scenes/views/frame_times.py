@@ -7,7 +7,9 @@ from time import perf_counter
 
 import pygame
 
+from pigaming_app.scenes.views.benchmark.drivers import BusyDrivers
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+from pigaming_app.scenes.views.game_screens import BenchmarkMatch
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.i18n import Words
@@ -17,12 +19,18 @@ FPS = 60
 FIRST = 60  # warm-up frames, not counted
 
 
+def busy_match(game: str, variant: str) -> BenchmarkMatch:
+    """The most laborious match of a game."""
+    busy = SCREENS[game].busy
+    return busy(variant) if busy else BusyDrivers(game, variant)
+
+
 def frame_times(game: str, variant: str, frames: int) -> list[float]:
     """Times of `frames` warm frames at 60 per second, ms. The caller has selected the dummy video driver."""
     pygame.display.init()
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))
-    scene = SCREENS[game].busy(variant)
+    scene = busy_match(game, variant)
     view = SCREENS[game].view(scene.arena, scene.state, ["human", "human", "easy", "hard"], AllEffects(), Words("en"))
     while not view.prewarm(1000.0):
         pass

@@ -45,7 +45,7 @@ class GameScreens:
 
     - `view(arena, state, players, options, words)`: the view of a match.
     - `tile(canvas, x, y)`: the picture on the title, in 560 x 284 px below and right of (x, y).
-    - `busy(variant)`: its most laborious match, for the benchmark of frame times.
+    - `busy(variant)`: its most laborious match, for the benchmark of frame times; None: a match of four AIs.
     - `fire`: text key (table `howto`) of what FIRE does; empty: nothing.
     - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.
     - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
@@ -56,7 +56,7 @@ class GameScreens:
 
     view: Callable[[Arena, Any, list[str], ViewOptions, Words | None], MatchView]
     tile: Callable[[GlowCanvas, float, float], None]
-    busy: Callable[[str], BenchmarkMatch]
+    busy: Callable[[str], BenchmarkMatch] | None = None
     fire: str = ""
     preview: Callable[[Arena, int, int, bool], Steps[pygame.Surface]] = walls
     confetti: Callable[[GlowCanvas, Placed, float, int, Color], None] = player_shape

@@ -13,7 +13,7 @@ def text_keys(name: str, screens: GameScreens) -> Iterator[str]:
     """The texts that the screens of a game need."""
     game = games()[name]
     yield from (f"games.{name}", f"games.{name}_line", f"events.short_{name}", f"howto.limits_{name}")
-    yield from (f"setup.arena_{name}", f"results.plot_{name}")
+    yield from (f"setup.arena_{name}", f"results.plot_{name}", f"highlights.last_{name}")
     for variant in game.variants.values():
         yield from (f"setup.{name}_{variant.name}", f"rules.{name}_{variant.name}")
         yield from (f"results.{column}" for column in variant.columns or game.columns)

@@ -5,6 +5,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.views.frame_times import busy_match
 from pigaming_app.scenes.views.particles import CALM_BURSTS, Particles
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.view import ShownEffects
@@ -22,7 +23,7 @@ def filmed(game: str, variant: str, calm: bool) -> list[Cells]:
     """The cells of a match at peak load, after its first second."""
     pygame.display.init()
     screen = pygame.display.set_mode((1920, 1080))
-    scene = SCREENS[game].busy(variant)
+    scene = busy_match(game, variant)
     effects = ShownEffects(Settings(calm=calm))
     view = SCREENS[game].view(scene.arena, scene.state, ["human", "human", "easy", "hard"], effects, Words("en"))
     film = []

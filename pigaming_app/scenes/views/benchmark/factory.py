@@ -1,28 +1,20 @@
 """The busiest match of Robot Factory."""
 
-from pigaming_app.ai.registry import new_match
-from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.state import OUTPUT
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.registry import games
+from pigaming_app.scenes.views.benchmark.drivers import BusyDrivers
 from pigaming_app.sim.world import HZ
 
 
-class BusyFactory:
-    """Factory match with as many pallets as possible and frantic drivers. One robot is always frozen, every output
-    counts down, and in party every second order is a rush order.
+class BusyFactory(BusyDrivers):
+    """Factory match with as many pallets as possible. One robot is always frozen, every output counts down, and in
+    party every second order is a rush order.
     """
 
     def __init__(self, variant: str) -> None:
-        rules = games()["factory"].variants[variant]
-        one, two, three, four = (Seat("hard", team) for team in rules.teams)
-        goal = max(rules.goals, default=0)
-        setup = Setup("factory", arenas("factory")[0], (one, two, three, four), 8.0, 1, variant, goal)
-        self.match = new_match(setup)
-        self.arena, self.state = self.match.arena, self.match.state
+        super().__init__("factory", variant)
 
     def tick(self) -> None:
-        self.match.tick()
+        super().tick()
         state = self.state
         frozen = state.loads[3]
         frozen.frozen = frozen.frozen or state.rules.freeze

@@ -1,0 +1,14 @@
+"""New Game: drive over the coin before the others do."""
+
+from pigaming_app.games.game import Game, Variant, named
+
+from .rules import NewGame, judge, rules_of, start
+
+GAME = Game(
+    name="new_game",
+    state=NewGame,
+    variants=named(Variant("standard", minutes=(1, 2, 3), default_minutes=2)),
+    start=start,
+    rules=rules_of,
+    judge=judge,
+)

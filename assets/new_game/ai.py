@@ -1,0 +1,34 @@
+"""The AI of New Game: along the shortest way to the coin. The same for all levels, until there are better ones."""
+
+from typing import Any
+
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.steering import follow
+from pigaming_app.ai.game_ai import GameAI, every_level
+from pigaming_app.sim.flow_field import Route
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+
+PERIOD = 5  # ticks between decisions
+
+
+@record
+class Mind:
+    """What it keeps between decisions."""
+
+    route: Route
+
+
+@kernel
+def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+    """Set the seat's action."""
+    if match.tick % PERIOD == seat:
+        mind.route.active, mind.route.goal_x, mind.route.goal_y = 1, match.coin_x, match.coin_y
+        follow(match, seat, mind.route, PERIOD)
+
+
+def reset(mind: Any, seed: int) -> None:
+    """Nothing to draw by lot."""
+
+
+AI = GameAI(every_level(BrainKind("collector", Mind, think, reset)))

@@ -1,0 +1,52 @@
+"""A new game: a working package of about 100 lines in the user's folder of games, which plays at once."""
+
+import re
+import shutil
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
+from pigaming_app import ASSETS
+from pigaming_app.games.registry import OURS
+from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.storage.parsing import describe_error, quote
+from pigaming_app.storage.plugins.consent import switch
+from pigaming_app.storage.plugins.found import NAME, found, user_folder
+from pigaming_app.storage.safe_files import NotSaved
+
+TEMPLATE = ASSETS / "new_game"
+
+
+def options(parser: ArgumentParser) -> None:
+    parser.add_argument("name", metavar="NAME", help="lower-case letters, digits and _, at most 24, such as tag")
+
+
+def run(arguments: Namespace) -> int:
+    """Write the package and switch it on. Raises Refusal, NotSaved."""
+    name = arguments.name
+    if not NAME.fullmatch(name):
+        raise Refusal(f"{quote(name)} is no name: lower-case letters, digits and _, at most 24, a letter first")
+    if name in (*OURS, *(plugin.name for plugin in found())):
+        raise Refusal(f"there is a game {name} already")
+    folder = user_folder() / name
+    write(folder, name)
+    switch(name, True)
+    print(f"{folder}\nplay it: main.py play {name}; test it: main.py test tests/test_every_game.py -k {name}")
+    return 0
+
+
+def write(folder: Path, name: str) -> None:
+    """Write the package of a game. Raises NotSaved; then there is no folder."""
+    title = " ".join(word.capitalize() for word in name.split("_") if word)
+    names = {"new_game": name, "NewGame": re.sub(r"\W", "", title), "New Game": title}
+    try:
+        for source in sorted(TEMPLATE.rglob("*")):
+            if source.is_file() and source.suffix in (".py", ".toml"):
+                text = source.read_text(encoding="utf-8")
+                for old, new in names.items():
+                    text = text.replace(old, new)
+                target = folder / source.relative_to(TEMPLATE)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_text(text, encoding="utf-8")
+    except OSError as error:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise NotSaved(f"{folder} was not written: {describe_error(error)}.") from error

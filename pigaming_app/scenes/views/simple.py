@@ -1,0 +1,87 @@
+"""View of a game with walls, robots and points, for other games to extend."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import pygame
+
+from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
+from pigaming_app.scenes.views.hud.score import ScoreHud, pulse
+from pigaming_app.scenes.views.pitanks.background import WalledBackground
+from pigaming_app.scenes.views.rumble import GIVEN
+from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.scenes.views.view import MatchView, SoundCue, ViewOptions
+from pigaming_app.sim.arena import Arena
+from pigaming_app.ui.draw import PLAYERS
+from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
+from pigaming_app.ui.i18n import Words
+
+ABOVE = 66  # px from a robot up to the points that it has just made
+
+
+class SimpleView(MatchView):
+    """Walls, robots, points. Subclasses may override `marks`, `sprites` and `events`."""
+
+    def __init__(
+        self, arena: Arena, state: Any, players: list[str], options: ViewOptions, words: Words | None = None
+    ) -> None:
+        seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        starts = tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats)
+        self.walls = WalledBackground(state, len(arena.walls), starts)
+        super().__init__(state, players, options, words, self.walls, arena.things)
+        self.hud = ScoreHud(self.background, state, players)
+        self.scores = [robot.score for robot in state.robots]
+        self.add_prewarm_jobs(self.hud.jobs())
+        self.add_prewarm_jobs(self.sprites())
+
+    def sprites(self) -> Iterator[Job]:
+        """Prewarm jobs for sprites of its own."""
+        return iter(())
+
+    def marks(self, under: Batch, over: Batch, state: Any, blend: float) -> None:
+        """Append what lies on the floor, as light (`under` robots) or opaque sprites (`over` the light)."""
+
+    def events(self, state: Any) -> list[SoundCue]:
+        """Particles and sounds of the last tick; here those of points."""
+        cues: list[SoundCue] = []
+        self.rumbles = {}
+        for seat in self.seats:
+            robot = state.robots[seat]
+            if robot.score > self.scores[seat]:
+                x, y, _ = self.current_poses[seat]
+                self.particles.score(x, y - self.reach(seat, ABOVE), f"+{robot.score - self.scores[seat]}", seat)
+                self.particles.burst(x, y, PLAYERS[seat], 16, 46, 60)
+                self.rumbles[seat] = GIVEN
+                cues.append(("pickup", seat, robot.x))
+            self.scores[seat] = robot.score
+        return cues
+
+    def watch(self, state: Any) -> list[SoundCue]:
+        self.record_poses(state)
+        return self.events(state)
+
+    def draw(self, screen: pygame.Surface, state: Any, blend: float, seconds: float) -> None:
+        self.particles.advance(seconds)
+        self.walls.show_walls(state)
+        for slot in self.hud.show(state):
+            if self.options.flashes != "off":
+                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, pulse(slot.seat, slot.w))
+        under: Batch = []
+        over: Batch = []
+        light: Batch = []
+        top: Batch = []
+        self.marks(under, over, state, blend)
+        for seat in self.seats:
+            pose = self.pose(seat, blend)
+            self.light_up(under, seat, pose, bool(state.robots[seat].boosting))
+            put(over, tank.tank(seat, step(pose[2], HEADINGS)), pose[0], pose[1])
+        self.particles.draw_light(light)
+        self.particles.draw_scores(top)
+        self.paint(screen, under, over, light, top)
+
+
+def on_canvas(x: float, y: float) -> tuple[float, float]:
+    """Canvas px of a point in arena px."""
+    return LEFT + x, TOP + y
