@@ -22,7 +22,8 @@ from pigaming_app.scenes.events.corrections import Correction, ResultsList
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.events.setup.draft import Draft
+from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
+from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
@@ -218,6 +219,13 @@ def event_setup(form: Format, row: str) -> Callable[[Arcade], Scene]:
     return opened
 
 
+def event_arenas(arcade: Arcade) -> Scene:
+    scene = ArenasPage(arcade.context, Draft(game=BY_TURNS))
+    for name in ("race hairpin", "race kidney", "pitanks islands"):
+        scene.draft.toggle_arena(*scene.cells[name])
+    return scene
+
+
 def entrants(count: int) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         found = [Entrant(name, "level3" * (i % 3 == 1), "D" * (i % 2)) for i, name in enumerate(drawn.names(count))]
@@ -315,6 +323,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "events": events,
     **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
     "event setup order": event_setup(Format.GRAND_PRIX, "order"),
+    "event setup arenas": event_arenas,
     "no entrants": lambda arcade: EntrantsPage(arcade.context, Draft(), lambda draft: ""),
     "entrants": entrants(64),
     "event letters": lambda arcade: LettersPage(arcade.context, lambda name: "", lambda: drawn.names(20)),

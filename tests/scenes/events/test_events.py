@@ -17,6 +17,7 @@ from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextM
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
@@ -87,6 +88,42 @@ def test_an_event_is_set_up_by_pad_and_saved_before_its_first_match(arcade: Arca
     page = arcade.shown(NextMatch)
     assert [entrant.name for entrant in saved(page.running).entrants] == ["BAA", "ZAA", "AAA", "BOT3"]
     assert len(page.running.event.fixtures) == 6
+
+
+def test_games_and_arenas_take_turns_in_the_order_that_is_chosen(arcade: Arcade) -> None:
+    """By pad and mouse: a Grand Prix of race, PiTanks and factory, the race on two tracks."""
+    arcade.open(EventsPage(arcade.context))
+    arcade.press(Button.FIRE)
+    page = arcade.shown(SetupPage)
+    while page.draft.format is not Format.GRAND_PRIX:
+        arcade.press(Button.RIGHT)
+    arcade.press(Button.DOWN)
+    assert page.focus.name == "order"
+    while page.draft.order[:2] != ("race", "pitanks"):
+        arcade.press(Button.RIGHT)
+    page.draft.choose("rounds", 6)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
+    arenas = arcade.shown(ArenasPage)
+    assert arenas.focus.name == "race classic"
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.UP)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE)
+    assert page.draft.arenas("race") == ("hairpin", "classic")
+    arcade.click(*arenas.focus.rect("factory hall").center)
+    assert page.draft.arenas("factory") == ("hall",), "the only one stays"
+    arcade.press(Button.BACK)
+    page.draft.entrants += [Entrant(name) for name in ("ANA", "BEA", "EVA")]
+    arcade.shown(SetupPage)
+    arcade.press(Button.START)
+    arcade.press(Button.START)
+    event = saved(arcade.shown(NextMatch).running)
+    assert [(one.game, one.arena) for one in event.fixtures[:6]] == [
+        ("race", "hairpin"), ("pitanks", "classic"), ("factory", "hall"),
+        ("race", "classic"), ("pitanks", "classic"), ("factory", "hall"),
+    ]  # fmt: skip
 
 
 def test_hammering_fire_enters_no_name(arcade: Arcade) -> None:
@@ -390,6 +427,7 @@ def test_every_page_survives_every_press(arcade: Arcade) -> None:
     pages = (
         lambda: EventsPage(arcade.context),
         lambda: SetupPage(arcade.context, Draft(), lambda draft: "no"),
+        lambda: ArenasPage(arcade.context, Draft(game=BY_TURNS)),
         lambda: EntrantsPage(arcade.context, Draft(entrants=[Entrant("ANA")]), lambda draft: "no"),
         lambda: LettersPage(arcade.context, lambda name: "", list),
         lambda: NextMatch(arcade.context, run),
