@@ -83,7 +83,8 @@ def can_pdf() -> bool:
 
 
 def drawn(event: Event, words: Words) -> list[pygame.Surface]:
-    """All pages. Needs pygame.font, but no display."""
+    """All pages. Needs no display."""
+    pygame.font.init()
     pages: list[pygame.Surface] = []
     for _ in draw_pages(event, words, pages):
         pass

@@ -12,7 +12,9 @@ from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.scenes.events import choice, next_page
 from pigaming_app.scenes.events.choice import EventsPage
-from pigaming_app.scenes.events.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.event_page import EventPage
+from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
@@ -23,6 +25,7 @@ from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.flow.stack import Pop
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
@@ -197,7 +200,7 @@ def test_people_take_the_seats_of_their_names_and_the_result_is_on_disk_at_once(
     fixture = page.fixture
     assert fixture
     arcade.press(Button.FIRE, KEYS[0])
-    assert page.claims == {0: KEYS[0]}
+    assert page.seats.claims == {0: KEYS[0]}
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(ALL_READY + 0.2, draw=True)
     scene = arcade.shown(MatchScene)
@@ -218,11 +221,11 @@ def test_each_pad_takes_its_own_seat_first(arcade: Arcade) -> None:
         pads = arcade.context.controls.pads()
         assert {pad.number for pad in pads} == {one.number, two.number}
         arcade.press(Button.FIRE, pads[1])
-        assert page.claims == {1: pads[1]}
+        assert page.seats.claims == {1: pads[1]}
         arcade.press(Button.LEFT, pads[1])
-        assert page.claims == {0: pads[1]}
+        assert page.seats.claims == {0: pads[1]}
         arcade.press(Button.BACK, pads[1])
-        assert page.claims == {}
+        assert page.seats.claims == {}
 
 
 def test_a_match_ended_by_hand_is_still_to_be_played(arcade: Arcade) -> None:
@@ -258,10 +261,10 @@ def test_absent_people_are_skipped_or_replaced_and_may_come_back(arcade: Arcade)
     arcade.press(Button.START)
     assert isinstance(arcade.stack.top, NextMatch), "somebody is missing"
     arcade.press(Button.Y)
-    assert (page.claims, page.waiting) == ({0: KEYS[0]}, [])
+    assert (page.seats.claims, page.seats.waiting) == ({0: KEYS[0]}, [])
     assert run.brain(second.entrants[1]) == "level3"
     arcade.press(Button.FIRE, KEYS[1])
-    assert page.claims == {0: KEYS[0], 1: KEYS[1]}
+    assert page.seats.claims == {0: KEYS[0], 1: KEYS[1]}
     assert saved(run).entrants == run.event.spec.entrants
 
 
@@ -434,6 +437,9 @@ def test_every_page_survives_every_press(arcade: Arcade) -> None:
         lambda: TablePage(arcade.context, run),
         lambda: ResultsList(arcade.context, run),
         lambda: Correction(arcade.context, run, run.event.fixtures[0]),
+        lambda: EventPage(arcade.context, run.path, run, Pop()),
+        lambda: EventPage(arcade.context, run.path, None, Pop()),
+        lambda: TextPage(arcade.context, "Title", "Cup", 5, lambda text: ""),
         lambda: PodiumPage(arcade.context, running(played(an_event(count=3)), "over")),
     )
     for make in pages:
