@@ -18,11 +18,14 @@ from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.events.choice import EventsPage
-from pigaming_app.scenes.events.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.event_page import EventPage
+from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.events.setup.draft import Draft
+from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
+from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
@@ -218,6 +221,13 @@ def event_setup(form: Format, row: str) -> Callable[[Arcade], Scene]:
     return opened
 
 
+def event_arenas(arcade: Arcade) -> Scene:
+    scene = ArenasPage(arcade.context, Draft(game=BY_TURNS))
+    for name in ("race hairpin", "race kidney", "pitanks islands"):
+        scene.draft.toggle_arena(*scene.cells[name])
+    return scene
+
+
 def entrants(count: int) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         found = [Entrant(name, "level3" * (i % 3 == 1), "D" * (i % 2)) for i, name in enumerate(drawn.names(count))]
@@ -250,9 +260,19 @@ def event_podium(arcade: Arcade) -> Scene:
     return scene
 
 
-def correction(arcade: Arcade) -> Scene:
+def correction(arcade: Arcade, reason: str = "") -> Scene:
     run = event(Format.KNOCKOUT, 16, 4, 3)
-    return Correction(arcade.context, run, run.event.fixtures[0])
+    scene = Correction(arcade.context, run, run.event.fixtures[0])
+    if reason:
+        scene._write(reason)
+    return scene
+
+
+def event_managed(arcade: Arcade, row: str) -> Scene:
+    run = event(Format.SWISS, 12, 4, 1)
+    scene = EventPage(arcade.context, run.path, run, None)
+    scene.focus.move_to(row)
+    return scene
 
 
 def events(arcade: Arcade) -> Scene:
@@ -315,6 +335,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "events": events,
     **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
     "event setup order": event_setup(Format.GRAND_PRIX, "order"),
+    "event setup arenas": event_arenas,
     "no entrants": lambda arcade: EntrantsPage(arcade.context, Draft(), lambda draft: ""),
     "entrants": entrants(64),
     "event letters": lambda arcade: LettersPage(arcade.context, lambda name: "", lambda: drawn.names(20)),
@@ -328,6 +349,11 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     },
     "event results": lambda arcade: ResultsList(arcade.context, event(Format.KNOCKOUT, 64, 4, 12)),
     "correction": correction,
+    "correction in own words": lambda arcade: correction(arcade, 80 * "W"),
+    "event managed": lambda arcade: event_managed(arcade, "rename"),
+    "event withdrawal": lambda arcade: event_managed(arcade, "withdraw"),
+    "event deletion": lambda arcade: event_managed(arcade, "delete"),
+    "event title": lambda arcade: TextPage(arcade.context, arcade.context.words("events.rename"), 20 * "W", 60, str),
     "event podium": event_podium,
     "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
     "ladder resumed": ladder("", rung=5, wins=1, losses=1, beaten=4, lost=999),

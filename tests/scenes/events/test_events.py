@@ -12,16 +12,20 @@ from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.scenes.events import choice, next_page
 from pigaming_app.scenes.events.choice import EventsPage
-from pigaming_app.scenes.events.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.event_page import EventPage
+from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.flow.stack import Pop
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
@@ -87,6 +91,42 @@ def test_an_event_is_set_up_by_pad_and_saved_before_its_first_match(arcade: Arca
     page = arcade.shown(NextMatch)
     assert [entrant.name for entrant in saved(page.running).entrants] == ["BAA", "ZAA", "AAA", "BOT3"]
     assert len(page.running.event.fixtures) == 6
+
+
+def test_games_and_arenas_take_turns_in_the_order_that_is_chosen(arcade: Arcade) -> None:
+    """By pad and mouse: a Grand Prix of race, PiTanks and factory, the race on two tracks."""
+    arcade.open(EventsPage(arcade.context))
+    arcade.press(Button.FIRE)
+    page = arcade.shown(SetupPage)
+    while page.draft.format is not Format.GRAND_PRIX:
+        arcade.press(Button.RIGHT)
+    arcade.press(Button.DOWN)
+    assert page.focus.name == "order"
+    while page.draft.order[:2] != ("race", "pitanks"):
+        arcade.press(Button.RIGHT)
+    page.draft.choose("rounds", 6)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
+    arenas = arcade.shown(ArenasPage)
+    assert arenas.focus.name == "race classic"
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.UP)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE)
+    assert page.draft.arenas("race") == ("hairpin", "classic")
+    arcade.click(*arenas.focus.rect("factory hall").center)
+    assert page.draft.arenas("factory") == ("hall",), "the only one stays"
+    arcade.press(Button.BACK)
+    page.draft.entrants += [Entrant(name) for name in ("ANA", "BEA", "EVA")]
+    arcade.shown(SetupPage)
+    arcade.press(Button.START)
+    arcade.press(Button.START)
+    event = saved(arcade.shown(NextMatch).running)
+    assert [(one.game, one.arena) for one in event.fixtures[:6]] == [
+        ("race", "hairpin"), ("pitanks", "classic"), ("factory", "hall"),
+        ("race", "classic"), ("pitanks", "classic"), ("factory", "hall"),
+    ]  # fmt: skip
 
 
 def test_hammering_fire_enters_no_name(arcade: Arcade) -> None:
@@ -160,7 +200,7 @@ def test_people_take_the_seats_of_their_names_and_the_result_is_on_disk_at_once(
     fixture = page.fixture
     assert fixture
     arcade.press(Button.FIRE, KEYS[0])
-    assert page.claims == {0: KEYS[0]}
+    assert page.seats.claims == {0: KEYS[0]}
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(ALL_READY + 0.2, draw=True)
     scene = arcade.shown(MatchScene)
@@ -181,11 +221,11 @@ def test_each_pad_takes_its_own_seat_first(arcade: Arcade) -> None:
         pads = arcade.context.controls.pads()
         assert {pad.number for pad in pads} == {one.number, two.number}
         arcade.press(Button.FIRE, pads[1])
-        assert page.claims == {1: pads[1]}
+        assert page.seats.claims == {1: pads[1]}
         arcade.press(Button.LEFT, pads[1])
-        assert page.claims == {0: pads[1]}
+        assert page.seats.claims == {0: pads[1]}
         arcade.press(Button.BACK, pads[1])
-        assert page.claims == {}
+        assert page.seats.claims == {}
 
 
 def test_a_match_ended_by_hand_is_still_to_be_played(arcade: Arcade) -> None:
@@ -221,10 +261,10 @@ def test_absent_people_are_skipped_or_replaced_and_may_come_back(arcade: Arcade)
     arcade.press(Button.START)
     assert isinstance(arcade.stack.top, NextMatch), "somebody is missing"
     arcade.press(Button.Y)
-    assert (page.claims, page.waiting) == ({0: KEYS[0]}, [])
+    assert (page.seats.claims, page.seats.waiting) == ({0: KEYS[0]}, [])
     assert run.brain(second.entrants[1]) == "level3"
     arcade.press(Button.FIRE, KEYS[1])
-    assert page.claims == {0: KEYS[0], 1: KEYS[1]}
+    assert page.seats.claims == {0: KEYS[0], 1: KEYS[1]}
     assert saved(run).entrants == run.event.spec.entrants
 
 
@@ -390,12 +430,16 @@ def test_every_page_survives_every_press(arcade: Arcade) -> None:
     pages = (
         lambda: EventsPage(arcade.context),
         lambda: SetupPage(arcade.context, Draft(), lambda draft: "no"),
+        lambda: ArenasPage(arcade.context, Draft(game=BY_TURNS)),
         lambda: EntrantsPage(arcade.context, Draft(entrants=[Entrant("ANA")]), lambda draft: "no"),
         lambda: LettersPage(arcade.context, lambda name: "", list),
         lambda: NextMatch(arcade.context, run),
         lambda: TablePage(arcade.context, run),
         lambda: ResultsList(arcade.context, run),
         lambda: Correction(arcade.context, run, run.event.fixtures[0]),
+        lambda: EventPage(arcade.context, run.path, run, Pop()),
+        lambda: EventPage(arcade.context, run.path, None, Pop()),
+        lambda: TextPage(arcade.context, "Title", "Cup", 5, lambda text: ""),
         lambda: PodiumPage(arcade.context, running(played(an_event(count=3)), "over")),
     )
     for make in pages:
