@@ -65,11 +65,13 @@ frame = cached(resumable(frame_steps))
 
 
 @cached
-def note_bar(sentence: str) -> LitImage:
-    """The bar of an AI: its stars, or its name."""
+@resumable
+def note_bar(sentence: str) -> Steps[LitImage]:
+    """The bar of an AI: its stars, or its name; or that of a device."""
     layer = Layer(*BAR)
     layer.canvas.text(sentence, fit_size(sentence, LABEL, W - 72), MIDDLE, BAR_Y, ICE, "head", "c")
-    return layer.render()
+    yield
+    return (yield from layer.render_steps())
 
 
 def draw_robot(screen: pygame.Surface, seat: int, x: int, y: int, clock: float, taken: bool) -> None:
