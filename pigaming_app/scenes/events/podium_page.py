@@ -15,7 +15,7 @@ from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REV
 from pigaming_app.ui.draw import FOCUS, ICE, MIST, PLAYERS, SUB, TITLE
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
 from pigaming_app.ui.draw.layers import RIGHT, backdrop
-from pigaming_app.ui.draw.text import fit_size, text, word
+from pigaming_app.ui.draw.text import fit_text, text, word
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 
@@ -88,9 +88,9 @@ class PodiumPage:
         self.podium.draw(screen, self.age)
         for i, row in enumerate(self.best):
             if self.age >= REVEALS[i] + RISE:
-                size = fit_size(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
+                name, size = fit_text(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
                 x = self.x + (STEP_W + APART) * (ORDER.index(i) - 1)
-                word(row.entrant, size, FOCUS if i == 0 else ICE).draw(screen, x, NAME_Y)
+                word(name, size, FOCUS if i == 0 else ICE).draw(screen, x, NAME_Y)
         if self.age >= FIRST + RISE:
             for i, row in enumerate(self.rest):
                 y = REST_Y + REST_PITCH * i
