@@ -58,7 +58,8 @@ class Words:
 
     def moment(self, at: datetime) -> str:
         """A day of this year and its time in this language's notation."""
-        return f"{at:{self._texts['numbers.moment']}}"
+        day = self._texts["numbers.date"].removesuffix("%Y").rstrip("/")
+        return f"{at:{day} %H:%M}"
 
     def switch(self, language: str) -> None:
         """Change the language."""
