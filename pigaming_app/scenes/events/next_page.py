@@ -34,7 +34,7 @@ from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.text import fit_text, text
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
@@ -159,7 +159,8 @@ class NextMatch:
         if then:
             room = RIGHT - LEFT - 48 - text_width(line, BODY, "body")
             said = view.following(lambda names: words("events.then", names=names), then, room)
-            text(said, LABEL, MIST, "head", "l", round(room)).draw(screen, LEFT, view.THEN_Y)
+            said, size = fit_text(said, LABEL, room)
+            text(said, size, MIST, "head", "l").draw(screen, LEFT, view.THEN_Y)
         self.prompts.draw(screen)
 
     @property

@@ -16,13 +16,14 @@ from pigaming_app.scenes.views.fault_icons import sign
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
 from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import fit_size, write_lines
+from pigaming_app.ui.draw.text import LINE_PITCH, SMALLEST, fit_lines, fit_paragraphs, fit_size
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import Caption, caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, ICON, PROMPTS, ROOM, TEXT_X, W, X, overlay
 
 IDLE = 600.0  # s without input before the return to the title
+GAP = 8  # px between two sentences
 HOLD = 1.0  # s, hold time of FIRE to release the stop
 RING = X + 150, FOOT - 96
 
@@ -134,17 +135,32 @@ class FaultPage:
         title = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
         sheet_title(layer, first.robot, title, ICE)
         sign(layer.glow, first.name, *ICON, 76, ALARM)
-        if not self.match.plant.safety.latched:
+        if not self.match.plant.safety.latched and not cause_of(self.match.plant.rig, first.name):
             ending = words("mat.goes_on")
             layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
+        y = HEAD + 56.0
+        size, paragraphs = self._paragraphs(first)
+        for i, lines in enumerate(paragraphs):
+            for line in lines:
+                layer.canvas.body(line, TEXT_X, y, MIST if i else ICE, "l", size)
+                y += LINE_PITCH * size
+            y += GAP
+
+    def _paragraphs(self, first: Fault) -> tuple[int, list[list[str]]]:
+        """A fault, its cause and another fault, as far as there is room: size in px, and the lines of each."""
+        words, latched = self.context.words, self.match.plant.safety.latched
         fire = words.key_name(self.context.controls.label(self.match.access.hint_device, Button.FIRE))
-        y = write_lines(layer, fault_sentence(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         cause = cause_of(self.match.plant.rig, first.name)
-        if cause:
-            y = write_lines(layer, words.sentence(cause), TEXT_X, y + 8, ROOM, MIST)
         others = [fault for fault in self.faults[1:] if fault.name != first.name or fault.robot != first.robot]
-        if others and y < FOOT - 130:
-            write_lines(layer, words("mat.also", other=fault_sentence(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
+        said = [fault_sentence(first, words, fire)]
+        said += [words.sentence(cause)] if cause else []
+        more = [words("mat.also", other=fault_sentence(others[0], words, ""))] if others else []
+        height = FOOT - HEAD - 56 - (72 if latched else 20 if cause else 60)  # above the prompts, or the last sentence
+        for sentences, smallest in (([*said, *more], 36), (said, SMALLEST), (said[:1], SMALLEST)):
+            if fitting := fit_paragraphs(sentences, ROOM, height, GAP, range(BODY, smallest - 1, -2)):
+                return fitting
+        size, lines = fit_lines(said[0], ROOM, 3)
+        return size, [lines]
 
 
 def fault_sentence(fault: Fault, words: Words, button: str) -> str:

@@ -34,6 +34,7 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets import setting_row
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events.drawn import an_event, played, result_of, running, saved
 from tests.ui.input.virtual_pad import VirtualPad
@@ -177,6 +178,37 @@ def test_too_few_entrants_do_not_begin(arcade: Arcade) -> None:
     arcade.open(page)
     arcade.press(Button.START)
     assert page.navigation.sentence == arcade.context.words("events.few", fewest=3)
+
+
+def test_only_what_can_be_done_now_is_offered(arcade: Arcade) -> None:
+    page = EntrantsPage(arcade.context, Draft(Format.GRAND_PRIX), lambda draft: "")
+    arcade.open(page)
+    page.draw(arcade.screen)
+    assert page.navigation.prompts.buttons == [Button.FIRE, Button.BACK]
+    page.add_list("AAA\nBBB\nCCC")
+    page.navigation.update(9.0)
+    page.draw(arcade.screen)
+    assert page.navigation.prompts.buttons == [Button.FIRE, Button.START, Button.BACK]
+    arcade.press(Button.UP)
+    page.draw(arcade.screen)
+    assert page.navigation.prompts.buttons == [Button.X, Button.Y, Button.START, Button.BACK]
+
+
+@pytest.mark.parametrize("form", Format)
+def test_every_row_of_the_set_up_has_a_picture_of_its_value(arcade: Arcade, form: Format) -> None:
+    draft = Draft()
+    draft.choose("format", form)
+    page = SetupPage(arcade.context, draft, lambda draft: "")
+    arcade.open(page)
+    pictures = set()
+    for _ in page.focus.spots:
+        page.update(1.0)
+        page.draw(arcade.screen)
+        inner = setting_row.PANEL.inflate(-40, -40)
+        pictures.add(arcade.screen.subsurface(inner.x, inner.y, inner.w, 320).copy().get_buffer().raw)
+        arcade.press(Button.DOWN)
+    shared = len({"game", "order", "arena"} & set(draft.rows))
+    assert len(pictures) == len(page.focus.spots) - max(0, shared - 1), "game and arena share one"
 
 
 def test_every_draft_makes_an_event_that_can_be_played(arcade: Arcade) -> None:

@@ -20,7 +20,7 @@ from pigaming_app.scenes.scoreboard.standby_page import StandbyPage, best_today
 from pigaming_app.scenes.scoreboard.window import PERIOD, ScoreboardWindow
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
@@ -146,7 +146,7 @@ def test_the_result_stays_until_the_next_match_but_not_that_of_a_match_left(arca
     assert page.parts([arcade.title]) is None
 
 
-@pytest.mark.parametrize("language", ["en", "pt"])
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_every_part_can_be_painted_and_lies_on_the_canvas(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
     scene = MatchScene(arcade.context, setup("human easy q1 fsm"), [KEYS[0]])

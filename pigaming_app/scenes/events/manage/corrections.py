@@ -15,7 +15,7 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.caption import caption
@@ -281,7 +281,8 @@ def result_row(where: str, line: str, noted: bool, hot: bool) -> LitImage:
     layer.glow.line(cut_box(0, 0, w, HIGH, 16), FOCUS if hot else STEEL, THIN, True)
     layer.canvas.body(where, 32, HIGH / 2, MIST, "l", fit_size(where, BODY, 400, "body"))
     room = w - 480 - (90 if noted else 30)
-    layer.canvas.text(line, fit_size(line, LABEL, room), 470, HIGH / 2, FOCUS if hot else ICE, "head")
+    line, size = fit_text(line, LABEL, room)
+    layer.canvas.text(line, size, 470, HIGH / 2, FOCUS if hot else ICE, "head")
     if noted:
         icon(layer.glow, "wheel", w - 56, HIGH / 2, 22, FOCUS, 4)
     return layer.render()

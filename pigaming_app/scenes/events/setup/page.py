@@ -6,11 +6,12 @@ from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft, variant_of
 from pigaming_app.scenes.events.setup.entrants_page import Begin, EntrantsPage
-from pigaming_app.scenes.events.setup.format_pictures import picture
+from pigaming_app.scenes.events.setup.format_pictures import picture, row_picture
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.views import game_tile
 from pigaming_app.ui.draw import BODY, text_width
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -70,7 +71,7 @@ class SetupPage:
         values = {spot.name: self._value(spot.name) for spot in self.focus.spots}
         setting_row.draw(screen, words, self.focus, "events", values)
         frame(*setting_row.PANEL.size).draw(screen, *setting_row.PANEL.topleft)
-        picture(self.draft.format).draw(screen, *setting_row.CENTRE)
+        self._draw_picture(screen, focus, values[focus].chosen)
         if focus == "format":
             name = self.draft.format.value
             setting_row.describe(screen, words(f"events.{name}"), words(f"events.{name}_line"))
@@ -92,6 +93,17 @@ class SetupPage:
         if row == ARENA:
             return Push(ArenasPage(self.context, self.draft))
         return Push(EntrantsPage(self.context, self.draft, self.begin))
+
+    def _draw_picture(self, screen: pygame.Surface, row: str, chosen: int) -> None:
+        """Draw the picture of a row: of its value, else of the game or the format."""
+        draft, panel = self.draft, setting_row.PANEL
+        if row in ("game", "order", "arena"):
+            game_tile.picture(draft.games[0]).draw(screen, panel.x, panel.y + 48)
+        elif row == "format":
+            picture(draft.format).draw(screen, *setting_row.CENTRE)
+        else:
+            number = {"rounds": draft.rounds, "seats": draft.seats}.get(row, chosen)
+            row_picture(row, number).draw(screen, *setting_row.CENTRE)
 
     def _step(self, row: str, by: int, cyclic: bool) -> None:
         """Step the value of a row; `cyclic`: after the last one comes the first."""
