@@ -1,7 +1,8 @@
 """Fault page: the match waits while a real robot has a fault; shows the fault in one sentence and the available
 actions.
 
-The page closes as soon as the fault is gone. The person who pressed the stop button holds FIRE to release it.
+The page closes as soon as the fault is gone. The person who pressed the stop button holds FIRE to release it. If robots
+do not follow their commands because a thing was pushed in their way, the page of moved things takes its place.
 """
 
 import pygame
@@ -12,6 +13,7 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.pause import Pause, sheet_title
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
+from pigaming_app.scenes.things.moved_page import MovedPage
 from pigaming_app.scenes.views.fault_icons import sign
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
@@ -47,7 +49,7 @@ class FaultPage:
         """Play the alert."""
         self.context.hush()
         self.context.sounds.play("error")
-        self.held, self.picture = 0.0, None
+        self.held, self.picture, self.faults = 0.0, None, []
 
     def handle(self, event: InputEvent) -> StackOperation:
         """X replaces the robots concerned with simulated ones; START and BACK open the menu. After disobedience, FIRE
@@ -62,6 +64,7 @@ class FaultPage:
         if event.button is Button.X:
             self._simulate()
         elif latched and event.button is Button.FIRE and not self.match.plant.safety.stopped:
+            self.match.watch.pause()
             return Push(PairAgain(self.match))
         elif latched and event.button is Button.Y:
             for robot in latched:
@@ -75,9 +78,14 @@ class FaultPage:
         return None
 
     def update(self, seconds: float) -> StackOperation:
-        """Close once the fault is gone."""
-        self.match.advance_paused(seconds)
+        """Close once the fault is gone, or explained by a moved thing."""
         safety = self.match.plant.safety
+        if not self._blocked:
+            self.match.advance_paused(seconds)
+        elif places := self._examine(seconds):
+            for robot in safety.latched:
+                self.match.plant.clear_fault(robot)
+            return Swap(MovedPage(self.match, places))
         if held := self.match.access.update(seconds):
             return Swap(Pause(self.match, held.device))
         controls = self.context.controls
@@ -88,6 +96,8 @@ class FaultPage:
         now = [fault for fault in self.match.plant.faults if fault.pauses]
         if [(fault.name, fault.robot) for fault in now] != [(fault.name, fault.robot) for fault in self.faults]:
             self.faults, self.picture = now, None
+            if self._blocked:
+                self.match.watch.examine()
         if self.context.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
@@ -107,8 +117,20 @@ class FaultPage:
         if self.match.plant.safety.latched:
             self.repair_prompts.draw(screen)
         self.match.draw_overlay(screen)
+        self.match.watch.note(screen)
 
     # ---- inside
+
+    @property
+    def _blocked(self) -> bool:
+        """True if a moved thing may explain all faults: robots of a running match do not follow their commands."""
+        disobey = self.faults and all(fault.name == "disobeys" for fault in self.faults)
+        return bool(disobey) and not self.match.plant.safety.stopped and not self.match.preparing
+
+    def _examine(self, seconds: float) -> list[tuple[float, float]]:
+        """Advance while the watch compares this page's picture with the camera's; places of moved things, arena px."""
+        self.match.advance_examined(seconds)
+        return self.match.watch.places
 
     def _stoppers(self) -> list[Device]:
         """Devices whose FIRE releases the stop: the seated ones and the one that pressed it."""
