@@ -165,7 +165,7 @@ def to_text(event: Event) -> str:
         "entrants": [_plain_entrant(entrant) for entrant in spec.entrants],
         "rounds": spec.rounds,
         "seats": spec.seats,
-        "arenas": dict(spec.arenas),
+        "arenas": {game: arenas[0] if len(arenas) == 1 else arenas for game, arenas in spec.arenas.items()},
         "minutes": dict(spec.minutes),
         "variants": dict(spec.variants),
         "seed": spec.seed,
@@ -252,7 +252,7 @@ def _spec(value: Mapping[str, Any]) -> EventSpec:
         entrants=tuple(_entrant(entrant) for entrant in entrants),
         rounds=rounds,
         seats=seats,
-        arenas=_table(value, "arenas", _text),
+        arenas=_table(value, "arenas", _arenas),
         minutes=_table(value, "minutes", _number),
         variants=_table(value, "variants", _text),
         seed=seed,
@@ -266,6 +266,11 @@ def _table(value: Mapping[str, Any], key: str, of: Callable[[Any], Any]) -> dict
     if not isinstance(found, dict):
         raise ValueError(f"{key} = {quote(found)} is not a table")
     return {_text(game): of(choice) for game, choice in found.items()}
+
+
+def _arenas(value: Any) -> tuple[str, ...]:
+    """One arena, or several that take turns."""
+    return tuple(_text(arena) for arena in (value if isinstance(value, list) else [value]))
 
 
 def _entrant(value: Any) -> Entrant:

@@ -91,6 +91,7 @@ def _match(event: Event, i: int) -> dict[str, Any]:
         "round": fixture.round,
         "stage": fixture.stage,
         "game": fixture.game,
+        "arena": fixture.arena,
         "entrants": list(fixture.entrants),
         "played": outcome is not None,
         "places": [list(place) for place in outcome.places] if outcome else [],

@@ -42,10 +42,11 @@ def check_playable(spec: EventSpec, find_brain: Callable[[str, str], object]) ->
         for brain in dict.fromkeys([*(entrant.brain for entrant in spec.entrants), spec.fill]):
             if brain:
                 find_brain(game, brain)
-        arena = spec.arenas.get(game) or None
         seats = ["idle"] * spec.seats
-        setup = make_setup(game, seats, arena, spec.minutes.get(game) or None, 1, variant.name, None, seats)
-        load(game, setup.arena)
+        for arena in spec.arenas.get(game) or (None,):
+            minutes = spec.minutes.get(game) or None
+            setup = make_setup(game, seats, arena or None, minutes, 1, variant.name, None, seats)
+            load(game, setup.arena)
 
 
 def variant_of(spec: EventSpec, game: str) -> Variant:

@@ -82,7 +82,7 @@ class Progress:
 
     def _with_round(self, draw: Draw) -> "Progress":
         number, first = len(self.rounds) + 1, len(self.fixtures) + 1
-        spec, game = self.spec, self.spec.game_of(len(self.rounds) + 1)
+        spec, game, arena = self.spec, self.spec.game_of(number), self.spec.arena_of(number)
         sat = {entrant.name: [0] * 4 for entrant in self.entrants}
         for fixture in self.fixtures:
             for seat, name in enumerate(fixture.entrants):
@@ -93,7 +93,7 @@ class Progress:
                 round=number,
                 stage=match.stage,
                 game=game,
-                arena=spec.arenas.get(game, ""),
+                arena=arena,
                 entrants=match.entrants if match.seated else seated(match.entrants, sat),
                 seed=spec.seed * SEED_STEP + first + i,
                 fill=spec.seats - len(match.entrants) if spec.fill else 0,

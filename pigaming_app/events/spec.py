@@ -46,8 +46,9 @@ class EventSpec:
 
     `rounds`: of a Swiss or a Grand Prix; of a round robin, how often everybody meets everybody; 0: the default of the
     format. A knock-out ends with its final, whatever the number. Round n is of game n, again from the first after the
-    last. `arenas`, `minutes` and `variants` are by game; what is missing, empty or 0 is the game's default. `fill`: the
-    AI on the seats of a Grand Prix that would stay empty; empty: they stay empty.
+    last. `arenas`, `minutes` and `variants` are by game; what is missing, empty or 0 is the game's default. Several
+    arenas of a game take turns in its rounds, as games do. `fill`: the AI on the seats of a Grand Prix that would stay
+    empty; empty: they stay empty.
     """
 
     title: str
@@ -56,7 +57,7 @@ class EventSpec:
     entrants: tuple[Entrant, ...]
     rounds: int = 0
     seats: int = 2
-    arenas: Mapping[str, str] = field(default_factory=dict)
+    arenas: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     minutes: Mapping[str, float] = field(default_factory=dict)
     variants: Mapping[str, str] = field(default_factory=dict)
     seed: int = 1
@@ -66,6 +67,13 @@ class EventSpec:
     def game_of(self, round_number: int) -> str:
         """The game of a round, from 1."""
         return self.games[(round_number - 1) % len(self.games)]
+
+    def arena_of(self, round_number: int) -> str:
+        """The arena of a round, from 1; empty: the game's default."""
+        game = self.game_of(round_number)
+        before = sum(self.game_of(number) == game for number in range(1, round_number))
+        arenas = self.arenas.get(game) or ("",)
+        return arenas[before % len(arenas)]
 
     def with_entrants(self, entrants: tuple[Entrant, ...]) -> "EventSpec":
         """The spec with other entrants."""
@@ -137,6 +145,8 @@ def check_spec(spec: EventSpec) -> None:
             raise ValueError(f"{entrant.name} is entered twice")
     if not spec.games:
         raise ValueError("an event needs a game")
+    if any(len(arenas) > MAX_ROUNDS for arenas in spec.arenas.values()):
+        raise ValueError(f"at most {MAX_ROUNDS} arenas of a game take turns")
     if spec.seats not in SEATS:
         raise ValueError(f"a match has 2 to 4 seats, not {spec.seats}")
     if not 0 <= spec.rounds <= MAX_ROUNDS:

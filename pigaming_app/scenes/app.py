@@ -127,9 +127,13 @@ def opened(options: Options) -> "Iterator[App]":
     context.preloader.modules = MODULES
     context.preloader.on_done = context.start_compilers
     old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
+    app: App | None = None
     try:
-        yield App(options, context, [*damaged, *damaged_scores])
+        app = App(options, context, [*damaged, *damaged_scores])
+        yield app
     finally:
+        if app:
+            app.desk.close()
         signal.signal(signal.SIGTERM, old_handler)
         context.stop_all_robots()
         context.phone_host.close()

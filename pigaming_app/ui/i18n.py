@@ -7,6 +7,7 @@ words("lobby.seat", player=2)      "Jogador 2"
 import re
 import tomllib
 from collections.abc import Mapping
+from datetime import date, datetime
 from functools import cache
 from pathlib import Path
 from typing import Any, Protocol
@@ -56,6 +57,15 @@ class Words:
     def decimal(self, number: str) -> str:
         """A number written with a decimal point, in this language's notation: 1.5 is 1,5 in Portuguese."""
         return number.replace(".", self._texts["numbers.decimal"])
+
+    def day(self, day: date) -> str:
+        """A day in this language's notation: 2026-03-01 is 01.03.2026 in German."""
+        return f"{day:{self._texts['numbers.date']}}"
+
+    def moment(self, at: datetime) -> str:
+        """A day of this year and its time in this language's notation."""
+        day = self._texts["numbers.date"].removesuffix("%Y").rstrip("/")
+        return f"{at:{day} %H:%M}"
 
     def switch(self, language: str) -> None:
         """Change the language."""

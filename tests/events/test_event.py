@@ -128,7 +128,7 @@ def test_in_a_match_of_four_the_others_play_without_who_has_withdrawn():
 
 
 def test_seeding_games_and_seeds_of_matches():
-    event = new_event(Format.SWISS, 4, games=("pitanks", "race"), arenas={"race": "kidney"}, seed=7)
+    event = new_event(Format.SWISS, 4, games=("pitanks", "race"), arenas={"race": ("kidney",)}, seed=7)
     event = played(event, rounds=1)
     assert [(one.game, one.arena, one.seed) for one in event.fixtures] == [
         ("pitanks", "", 70_001), ("pitanks", "", 70_002), ("race", "kidney", 70_003), ("race", "kidney", 70_004)

@@ -19,7 +19,8 @@ KILLS = 200
 def test_an_event_is_read_as_it_was_written(tmp_path):
     entrants = (Entrant("Ana", "level1", "Red"), Entrant("Zoë"), Entrant("C", "/a b/mine.npz"))
     spec = EventSpec(
-        "Open – day", Format.KNOCKOUT, ("pitanks", "race"), entrants, 3, 4, {"race": "kidney"}, {"pitanks": 1.5},
+        "Open – day", Format.KNOCKOUT, ("pitanks", "race"), entrants, 3, 4,
+        {"race": ("kidney",), "pitanks": ("islands", "classic")}, {"pitanks": 1.5},
         {"pitanks": "party"}, 9, Advance.QUARTER,
     )  # fmt: skip
     event = played(Event(spec), lambda one: Outcome(one.number, (one.entrants,), {one.entrants[0]: 2.5}, "short"), 1)

@@ -74,10 +74,29 @@ def test_games_take_turns_each_with_its_own_length_arena_and_rules(capsys):
     event, _ = load(Path("cup.json"))
     assert [one.game for one in event.fixtures] == ["pitanks", "race", "pitanks"]
     assert event.spec.minutes == {"race": 0.1, "pitanks": 0.05}
-    assert event.spec.arenas == {"race": "kidney"}
+    assert event.spec.arenas == {"race": ("kidney",)}
     assert event.spec.variants == {"pitanks": "party", "race": "party"}
     assert main(["event", "run", "cup.json", "--headless"]) == 0
     assert "AAA" in capsys.readouterr().out
+
+
+def test_arenas_take_turns_in_the_order_that_is_chosen(tmp_path, capsys):
+    (tmp_path / "own.toml").write_text(Path(ROOT / "assets/arenas/race/kidney.toml").read_text(encoding="utf-8"))
+    words = ["--game", "race,pitanks", "--arena", "pitanks=islands+classic,race=own.toml+hairpin", "--rounds", "6"]
+    assert new(*words, "--seats", "3", form="grandprix", entrants="AAA=random,BBB=idle,CCC=random") == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    event, _ = load(Path("cup.json"))
+    own = str(tmp_path / "own.toml")
+    assert [(one.game, one.arena) for one in event.fixtures] == [
+        ("race", own), ("pitanks", "islands"), ("race", "hairpin"), ("pitanks", "classic"), ("race", own),
+        ("pitanks", "islands"),
+    ]  # fmt: skip
+    assert event.over
+    capsys.readouterr()
+    assert new("--arena", "classic+nowhere", "--title", "another") == 2
+    Path("cup.json").unlink()
+    assert new("--arena", "classic+nowhere") == 2
+    assert "nowhere: no such arena for pitanks" in capsys.readouterr().err
 
 
 def test_entrants_from_a_file(tmp_path, capsys):

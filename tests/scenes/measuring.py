@@ -22,6 +22,7 @@ from tests.scenes.cache import empty_cache
 
 SAFE = pygame.Rect(60, 16, 1800, 1048)  # slightly more than the safe area of menus: prompts may lie in its margin
 Painting = Callable[..., Steps[pygame.Surface]]
+SMALLEST = 9 * 1920 / 1024  # px, minimum height of capitals: 9 px in a window of 1024 x 768
 NEAR = 3  # px, minimum distance between a text and an outline
 
 
@@ -150,14 +151,20 @@ def marks_of(ink: Any) -> list[Mark]:
 
 
 def faults(screen: Screen, safe: pygame.Rect = SAFE) -> list[str]:
-    """Overlaps, crossed outlines, and marks outside of the safe area."""
-    found = [f"{mark.text!r} leaves the picture" for mark in screen.texts if not safe.contains(_rect(mark))]
+    """Overlaps, crossed outlines, texts too small to read, and marks outside of the safe area."""
+    found = [f"{mark.text!r} is too small" for mark in screen.texts if _too_small(mark)]
+    found += [f"{mark.text!r} leaves the picture" for mark in screen.texts if not safe.contains(_rect(mark))]
     for one, other in combinations(screen.texts, 2):
         if _shared(one, other) and one.text != other.text:
             found.append(f"{one.text!r} touches {other.text!r}")
     for mark in screen.texts:
         found += [f"{mark.text!r} crosses its frame" for frame in screen.frames if _crosses(mark, frame)]
     return sorted(set(found))
+
+
+def _too_small(mark: Mark) -> bool:
+    """True for words below SMALLEST; a single sign may be an ornament, such as the number in a badge."""
+    return len(mark.text.strip()) > 1 and mark.box[3] - mark.box[1] < SMALLEST - 0.5
 
 
 def _shared(one: Mark, other: Mark, apart: float = 0.0) -> bool:

@@ -7,7 +7,7 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
-from pigaming_app.ai.game_ai import POINT
+from pigaming_app.ai.game_ai import ONE_BUTTON, POINT
 from pigaming_app.ai.registry import AIS
 from pigaming_app.events.day_log import Battery, PlayedMatch, ProgramEvent, Record
 from pigaming_app.events.day_report import figures as day_figures
@@ -18,12 +18,17 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.scan.things import ThingKind
 from pigaming_app.scenes.events.choice import EventsPage
-from pigaming_app.scenes.events.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.event_page import EventPage
+from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.events.setup.draft import Draft
+from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
+from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
@@ -62,6 +67,7 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events import drawn
+from tests.scenes.robots import drawn as robots_drawn
 
 FACTS = {
     "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},
@@ -133,6 +139,12 @@ def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
         return scene
 
     return opened
+
+
+def one_button(arcade: Arcade) -> Scene:
+    for device in KEYS[:3]:
+        arcade.context.driving.chosen[device] = ONE_BUTTON
+    return lobby("pitanks", 3, 1)(arcade)
 
 
 def seats(game: str) -> Seats:
@@ -221,6 +233,13 @@ def event_setup(form: Format, row: str) -> Callable[[Arcade], Scene]:
     return opened
 
 
+def event_arenas(arcade: Arcade) -> Scene:
+    scene = ArenasPage(arcade.context, Draft(game=BY_TURNS))
+    for name in ("race hairpin", "race kidney", "pitanks islands"):
+        scene.draft.toggle_arena(*scene.cells[name])
+    return scene
+
+
 def entrants(count: int) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         found = [Entrant(name, "level3" * (i % 3 == 1), "D" * (i % 2)) for i, name in enumerate(drawn.names(count))]
@@ -230,32 +249,46 @@ def entrants(count: int) -> Callable[[Arcade], Scene]:
     return opened
 
 
-def event(form: Format, count: int, seats: int, matches: int, brains: str = "") -> RunningEvent:
-    return drawn.running(drawn.played(drawn.an_event(form, count, seats, brains), matches))
+def event(form: Format, count: int, seats: int, matches: int, brains: str = "", wide: bool = False) -> RunningEvent:
+    return drawn.running(drawn.played(drawn.an_event(form, count, seats, brains, wide=wide), matches))
 
 
-def next_match(count: int, seats: int, brains: str = "", said: str = "") -> Callable[[Arcade], Scene]:
-    return lambda arcade: NextMatch(arcade.context, event(Format.SWISS, count, seats, 1, brains), said)
+def next_match(
+    count: int, seats: int, brains: str = "", said: str = "", wide: bool = False
+) -> Callable[[Arcade], Scene]:
+    return lambda arcade: NextMatch(arcade.context, event(Format.SWISS, count, seats, 1, brains, wide), said)
 
 
-def event_table(form: Format, count: int, page: int = 0, seats: int = 2) -> Callable[[Arcade], Scene]:
+def event_table(
+    form: Format, count: int, page: int = 0, seats: int = 2, wide: bool = False
+) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
-        scene = TablePage(arcade.context, event(form, count, seats, count))
+        scene = TablePage(arcade.context, event(form, count, seats, count, wide=wide))
         scene.page, scene.age = page, 9.0
         return scene
 
     return opened
 
 
-def event_podium(arcade: Arcade) -> Scene:
-    scene = PodiumPage(arcade.context, event(Format.ROUND_ROBIN, 4, 2, 99))
+def event_podium(arcade: Arcade, wide: bool = False) -> Scene:
+    scene = PodiumPage(arcade.context, event(Format.ROUND_ROBIN, 4, 2, 99, wide=wide))
     scene.age = 9.0
     return scene
 
 
-def correction(arcade: Arcade) -> Scene:
-    run = event(Format.KNOCKOUT, 16, 4, 3)
-    return Correction(arcade.context, run, run.event.fixtures[0])
+def correction(arcade: Arcade, reason: str = "", wide: bool = False) -> Scene:
+    run = event(Format.KNOCKOUT, 16, 4, 3, wide=wide)
+    scene = Correction(arcade.context, run, run.event.fixtures[0])
+    if reason:
+        scene._write(reason)
+    return scene
+
+
+def event_managed(arcade: Arcade, row: str) -> Scene:
+    run = event(Format.SWISS, 12, 4, 1)
+    scene = EventPage(arcade.context, run.path, run, None)
+    scene.focus.move_to(row)
+    return scene
 
 
 def events(arcade: Arcade) -> Scene:
@@ -318,6 +351,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "events": events,
     **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
     "event setup order": event_setup(Format.GRAND_PRIX, "order"),
+    "event setup arenas": event_arenas,
     "no entrants": lambda arcade: EntrantsPage(arcade.context, Draft(), lambda draft: ""),
     "entrants": entrants(64),
     "event letters": lambda arcade: LettersPage(arcade.context, lambda name: "", lambda: drawn.names(20)),
@@ -331,6 +365,27 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     },
     "event results": lambda arcade: ResultsList(arcade.context, event(Format.KNOCKOUT, 64, 4, 12)),
     "correction": correction,
+    "correction in own words": lambda arcade: correction(arcade, 80 * "W"),
+    "event managed": lambda arcade: event_managed(arcade, "rename"),
+    "event withdrawal": lambda arcade: event_managed(arcade, "withdraw"),
+    "event deletion": lambda arcade: event_managed(arcade, "delete"),
+    "event title": lambda arcade: TextPage(arcade.context, arcade.context.words("events.rename"), 20 * "W", 60, str),
+    "widest next match": next_match(64, 4, wide=True),
+    **{f"widest event table {count}": event_table(Format.SWISS, count, wide=True) for count in (8, 16, 64)},
+    "widest event bracket": event_table(Format.KNOCKOUT, 8, wide=True),
+    "widest event results": lambda arcade: ResultsList(arcade.context, event(Format.KNOCKOUT, 64, 4, 12, wide=True)),
+    "widest correction": partial(correction, wide=True),
+    "widest event podium": partial(event_podium, wide=True),
+    **{f"fault {name}": partial(robots_drawn.fault_page, rule=rule) for name, rule in robots_drawn.PAUSING.items()},
+    "build an arena": robots_drawn.arena_page,
+    **{
+        f"arena with a {kind.value} thing": partial(robots_drawn.arena_page, things=[robots_drawn.thing(kind)])
+        for kind in ThingKind
+    },
+    "arena without a camera": partial(
+        robots_drawn.arena_page, fault=OperatorMessage("not_allowed", node="/dev/v4l/by-id/video-index0")
+    ),
+    "things in the way": robots_drawn.unplayable,
     "event podium": event_podium,
     "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
     "ladder resumed": ladder("", rung=5, wins=1, losses=1, beaten=4, lost=999),
@@ -372,6 +427,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"setup {game}": choice(game) for game in games()},
     **{f"lobby {game}": lobby(game, 0, 0) for game in games()},
     **{f"full lobby {game}": lobby(game, 3, 1) for game in games()},
+    "lobby with one button": one_button,
     **{f"best {game}": best(game) for game in games()},
     **{f"results {name}": ending.results for name, ending in ENDINGS.items()},
 }

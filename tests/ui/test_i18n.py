@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Iterator
+from datetime import datetime
 from itertools import combinations
 from string import Formatter
 
@@ -176,3 +177,11 @@ def test_every_game_and_its_rules_have_names(language: str) -> None:
 
 def _holes(text: str) -> set[str | None]:
     return {name for _, name, _, _ in Formatter().parse(text)} - {None}
+
+
+def test_days_and_times_are_written_as_in_the_language() -> None:
+    at = datetime(2026, 3, 1, 9, 5)
+    days = {language: Words(language).day(at.date()) for language in LANGUAGES}
+    assert days == dict.fromkeys(("en", "pt", "es", "fr"), "01/03/2026") | {"de": "01.03.2026"}
+    assert Words("de").moment(at) == "01.03. 09:05"
+    assert Words("pt").moment(at) == "01/03 09:05"

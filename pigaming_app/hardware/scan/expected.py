@@ -74,8 +74,8 @@ def shrunk(pixels: Image) -> Image:
     """A picture of the canvas to keep: pixels (height, width), grey, or (height, width, 4) BGRA; (270, 480) grey."""
     cv = opencv()
     size = CANVAS[0] // SHRUNK, CANVAS[1] // SHRUNK
-    small = cv.resize(pixels, size, interpolation=cv.INTER_AREA)
-    return np.asarray(small if small.ndim == 2 else cv.cvtColor(small, cv.COLOR_BGRA2GRAY), dtype=np.uint8)
+    grey = pixels if pixels.ndim == 2 else cv.cvtColor(pixels, cv.COLOR_BGRA2GRAY)
+    return np.asarray(cv.resize(grey, size, interpolation=cv.INTER_AREA), dtype=np.uint8)
 
 
 def _light_px(pictures: Rectified, projector: ProjectorPlace, height: Map) -> tuple[Map, Map]:

@@ -20,6 +20,7 @@ from pigaming_app.hardware.signals import CameraFrame, Clock, Image
 from pigaming_app.hardware.vision.markers import opencv
 
 PERIOD = 1.0  # s between two checks
+AT_ONCE = 0.25  # s between two checks of a still picture, in which PATIENCE only guards against a frame that is late
 LIGHT_AFTER = 0.035  # s from drawing a picture to its light
 SLACK = 0.07  # s by which the time of a camera frame, or of the light, may be wrong
 WAIT = 0.2  # s after which a camera frame is used though no later picture of the canvas was kept
@@ -39,13 +40,14 @@ MARKERS = 260  # px, edge of the corner markers' squares on the canvas, which th
 class ThingsWatch:
     """Compares a match with the scanned mat. `changed` is True once things have moved, at `places` (arena px)."""
 
-    def __init__(self, expected: ExpectedLight, clock: Clock) -> None:
-        self.expected, self.clock = expected, clock
+    def __init__(self, expected: ExpectedLight, clock: Clock, period: float = PERIOD) -> None:
+        """`period`: s between two checks."""
+        self.expected, self.clock, self.period = expected, clock, period
         self.changed = False
         self.places: list[Place] = []
         self.checks = 0
         self._canvases: deque[tuple[float, Image]] = deque(maxlen=64)
-        self._due = clock() + PERIOD
+        self._due = clock() + period
         self._before: list[Mask] = []  # disagreements of the previous checks
 
     @property
@@ -73,7 +75,7 @@ class ThingsWatch:
             return  # a later picture may still come
         shown = [image for drawn, image in kept if lit - SLACK < drawn < lit + SLACK]
         earlier = [image for drawn, image in kept if drawn <= lit - SLACK]
-        self._due = self.clock() + PERIOD
+        self._due = self.clock() + self.period
         self._canvases.clear()
         if earlier and len(shown) > 1:
             self.check(frame.image, [earlier[-1], *shown], robots)

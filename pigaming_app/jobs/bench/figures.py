@@ -24,6 +24,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import environments, networks, yardsticks
 from pigaming_app.jobs.bench.memory import measure as measure_memory
 from pigaming_app.jobs.bench.walk import measure as measure_screens
+from pigaming_app.jobs.bench.walk import second_screen
 from pigaming_app.jobs.terminal.command import own_command
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
@@ -60,6 +61,7 @@ def measure(game: str, variant: str) -> dict[str, Any]:
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
         "worst_frame_ms": max(slowest.values()),
         "worst_frame_ms_by_screen": slowest,
+        "second_screen_frame_ratio": second_screen(),
         "start_s": min(start() for _ in range(STARTS)),
         "rss_mb": measure_memory(),
         "machine": machine(),

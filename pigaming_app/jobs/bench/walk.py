@@ -1,4 +1,4 @@
-"""The longest frame of every screen, measured by scenes/walk in a separate process."""
+"""Frames of the whole arcade, measured by scenes/walk in separate processes."""
 
 import json
 import os
@@ -11,11 +11,21 @@ from pigaming_app import ROOT
 
 def measure() -> dict[str, float]:
     """Milliseconds of CPU time by screen, the longest first. Raises subprocess.CalledProcessError."""
+    return dict(sorted(_figures("walker").items(), key=lambda screen: -screen[1]))
+
+
+def second_screen() -> dict[str, float]:
+    """Frame times with the second screen over those without it. Raises subprocess.CalledProcessError."""
+    return _figures("second_screen")
+
+
+def _figures(module: str) -> dict[str, float]:
+    """What a module of scenes/walk prints in its last line."""
     with TemporaryDirectory() as home:
         headless = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": home}
-        command = [sys.executable, "-m", "pigaming_app.scenes.walk.walker"]
+        command = [sys.executable, "-m", f"pigaming_app.scenes.walk.{module}"]
         done = subprocess.run(
             command, env={**os.environ, **headless}, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
         )
     found: dict[str, float] = json.loads(done.stdout.splitlines()[-1])
-    return dict(sorted(found.items(), key=lambda screen: -screen[1]))
+    return found

@@ -9,12 +9,12 @@ from pigaming_app.boot.interpreter import ARCADE, packages, requirements
 from pigaming_app.boot.start import OPTIONAL
 
 EXCLUDED = (  # large libraries that no job of a bundle needs, but an installed package could import
-    "IPython", "PIL", "PyInstaller", "_pytest", "hatchling", "hypothesis", "gymnasium", "matplotlib", "mypy",
-    "onnxruntime", "pandas", "pettingzoo", "pymunk", "pytest", "ray", "scipy", "setuptools", "soundfile", "tkinter",
-    "torch",
+    "IPython", "PIL.ImageTk", "PIL._avif", "PIL._imagingcms", "PIL._imagingft", "PIL._webp", "PyInstaller", "_pytest",
+    "gymnasium", "hatchling", "hypothesis", "matplotlib", "mypy", "onnxruntime", "pandas", "pettingzoo", "pygments",
+    "pymunk", "pytest", "ray", "scipy", "setuptools", "soundfile", "tkinter", "torch", "yaml",
 )  # fmt: skip
 PACKAGE = ROOT / "pigaming_app"
-ASSET_FOLDERS = ("arenas", "brains", "fonts", "sounds", "text")
+ASSET_FOLDERS = ("arenas", "brains", "fonts", "phones", "sounds", "text")
 SHARED = "micropython"  # folders with programs of another interpreter
 
 

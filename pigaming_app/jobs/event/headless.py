@@ -49,7 +49,7 @@ class HeadlessRun:
         brains += [event.spec.fill] if event.spec.fill else []
         if fast is None:
             matches = matches_left(event) // len({*event.spec.games})
-            example = replace(event.fixtures[0], game=game, arena=event.spec.arenas.get(game, ""))
+            example = replace(event.fixtures[0], game=game, arena=(event.spec.arenas.get(game) or ("",))[0])
             fast = can_compile() and matches * _ticks(event, example) > WORTH_COMPILING
         return LineUps(game, brains, fast and not any(find_brain(game, name).plain for name in brains))
 

@@ -61,7 +61,7 @@ def options(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--seats", type=integer(SEATS[0], SEATS[-1]), metavar="NUMBER", help="entrants of a match")
     parser.add_argument("--minutes", help=f"length of a match; {BY_GAME}")
-    parser.add_argument("--arena", help=f"arena; {BY_GAME}")
+    parser.add_argument("--arena", help=f"arena, or several with + by turns; {BY_GAME}")
     parser.add_argument("--rules", "--variant", help=f"set of rules; {BY_GAME}")
     parser.add_argument("--advance", default=Advance.HALF.value, help="in a knock-out: the better half, or quarter")
     parser.add_argument("--fill", default="", metavar="AI", help="AI on empty seats of a Grand Prix")
@@ -100,7 +100,7 @@ def _spec(arguments: Namespace) -> EventSpec:
         entrants=tuple(_with_whole_path(entrant) for entrant in _entrants(arguments.entrants)),
         rounds=arguments.rounds,
         seats=arguments.seats or DEFAULT_SEATS.get(form, SEATS[0]),
-        arenas=_by_game("--arena", arguments.arena, played, _arena),
+        arenas=_by_game("--arena", arguments.arena, played, _arenas),
         minutes=_by_game("--minutes", arguments.minutes, played, decimal(0.0, 3600.0)),
         variants=_by_game("--rules", arguments.rules, played, str),
         seed=arguments.seed,
@@ -128,8 +128,9 @@ def _with_whole_path(entrant: Entrant) -> Entrant:
     return replace(entrant, brain=os.path.abspath(entrant.brain)) if is_path(entrant.brain) else entrant
 
 
-def _arena(text: str) -> str:
-    return os.path.abspath(text) if text.endswith(".toml") else text
+def _arenas(text: str) -> tuple[str, ...]:
+    """Arenas that take turns; files by their whole path, found from any folder."""
+    return tuple(os.path.abspath(name) if name.endswith(".toml") else name for name in text.split("+"))
 
 
 def _by_game(option: str, text: str | None, played: tuple[str, ...], of: Callable[[str], T]) -> dict[str, T]:

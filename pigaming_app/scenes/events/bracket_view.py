@@ -10,7 +10,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, THI
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.draw.text import fit_text, text
 
 COLUMNS = 4
 W, GAP = 396, 48  # px: width of a box, from box to box
@@ -117,7 +117,8 @@ def match_box_steps(names: tuple[str, ...], through: tuple[bool, ...], state: st
         room = half - 34 - (40 if best else 0)
         if best:
             icon(layer.glow, "check", x + 14, y, 15, FOCUS, 5)
-        layer.canvas.text(name, fit_size(name, LABEL, room, "hero"), x + (40 if best else 0), y, color, "hero")
+        name, size = fit_text(name, LABEL, room, "hero")
+        layer.canvas.text(name, size, x + (40 if best else 0), y, color, "hero")
     yield
     return (yield from layer.render_steps())
 

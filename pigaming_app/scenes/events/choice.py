@@ -11,6 +11,7 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
+from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
@@ -18,7 +19,7 @@ from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
@@ -44,7 +45,11 @@ class EventsPage:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.saved: list[event_files.Listed] = []
-        hints = [(Button.FIRE, "events.hint_choose"), (Button.BACK, "events.hint_back")]
+        hints = [
+            (Button.FIRE, "events.hint_choose"),
+            (Button.Y, "events.hint_manage"),
+            (Button.BACK, "events.hint_back"),
+        ]
         self.focus = Focus([FocusSpot(NEW, row_box(0))])
         self.navigation = Navigation(context, self.focus, hints, IDLE)
 
@@ -57,8 +62,13 @@ class EventsPage:
         )
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE opens an event, or begins a new one."""
+        """FIRE opens an event, or begins a new one; Y manages an event."""
         event = self.navigation.prompts.as_button(event)
+        if event.button is Button.Y and self.focus.name != NEW:
+            self.context.sounds.play("accept")
+            listed = self.saved[int(self.focus.name)]
+            running = RunningEvent(listed.path, listed.event) if listed.event else None
+            return Push(EventPage(self.context, listed.path, running, Pop()))
         chosen = self.focus.activated(event)
         if chosen is None:
             return self.navigation.handle(event)

@@ -13,20 +13,17 @@ from itertools import takewhile
 
 import pygame
 
-from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.event import Event
-from pigaming_app.events.match_setup import outcome_of, setup_of
+from pigaming_app.events.match_setup import outcome_of
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
-from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.events import next_view as view
-from pigaming_app.scenes.events.drivers import driver_label, people_of, suggested
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
+from pigaming_app.scenes.events.seats import Seats
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.match_words import match_length
@@ -37,12 +34,11 @@ from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.text import fit_text, text
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
-from pigaming_app.ui.widgets.labels import black_out, call_to_action, heading, pulse
-from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar
+from pigaming_app.ui.widgets.labels import call_to_action, heading, pulse
 
 INPUT_LOCKOUT = 0.6  # s during which input is ignored: players may still hammer
 ALL_READY = 2.5  # s from the last seat taken to the match
@@ -57,9 +53,8 @@ class NextMatch:
 
     def __init__(self, context: Context, running: RunningEvent, said: str = "", show: bool = False) -> None:
         self.context, self.running, self.show = context, running, show
-        self.claims: dict[int, Device] = {}  # by seat
+        self.seats, self._seated = Seats(context, running), self.fixture
         self.quick: QuickMatches | None = None  # matches of AIs in the background
-        self._known: tuple[Event, Setup | None] | None = None  # the match, as long as the event is the same
         self.clock, self.ready = 0.0, 0.0
         self.going = False  # a match is wanted, but not loaded yet
         self.message, self.message_left = said, MESSAGE_SECONDS if said else 0.0
@@ -73,6 +68,7 @@ class NextMatch:
 
     def on_enter(self) -> None:
         self.context.sounds.music(True)
+        self._reset_if_changed()
         self.ready = 0.0
 
     def on_leave(self) -> None:
@@ -85,22 +81,11 @@ class NextMatch:
         open_now = self.running.event.open
         return open_now[0] if open_now else None
 
-    @property
-    def people(self) -> list[int]:
-        """Seats of people who play themselves."""
-        fixture = self.fixture
-        return people_of(self.running, fixture) if fixture else []
-
-    @property
-    def waiting(self) -> list[int]:
-        """Seats of people that nobody has taken."""
-        return [seat for seat in self.people if seat not in self.claims]
-
     def handle(self, event: InputEvent) -> StackOperation:
         """FIRE takes a seat, START begins, X skips the match, Y lets an AI drive, UP shows the table, BACK leaves."""
         event = self.prompts.as_button(event)
         if event.button is Button.LOST:
-            self._release(event.device)
+            self.seats.release(event.device)
         if self.clock < INPUT_LOCKOUT or self.going:
             return None
         if self.quick:
@@ -113,8 +98,8 @@ class NextMatch:
         self.show = False
         device = event.among[0] if event.among else event.device
         match event.button:
-            case Button.BACK | Button.LEAVE_SEAT if device in self.claims.values():
-                self._release(device)
+            case Button.BACK | Button.LEAVE_SEAT if device in self.seats.claims.values():
+                self.seats.release(device)
                 self.context.sounds.play("back")
             case Button.BACK:
                 self.context.sounds.play("back")
@@ -122,16 +107,18 @@ class NextMatch:
             case Button.UP:
                 self.context.sounds.play("accept")
                 return Push(TablePage(self.context, self.running))
-            case Button.DOWN if self._late_allowed:
+            case Button.DOWN if self.running.accepts_late:
                 self.context.sounds.play("accept")
                 return Push(LettersPage(self.context, self._add, self._names))
             case Button.LEFT | Button.RIGHT:
-                self._move(device, 1 if event.button is Button.RIGHT else -1)
+                if self.seats.move(device, 1 if event.button is Button.RIGHT else -1):
+                    self.ready = 0.0
+                    self.context.sounds.play("move")
             case Button.X:
                 self._postpone()
             case Button.Y:
                 self._replace_absent()
-            case Button.FIRE if self.people:
+            case Button.FIRE if self.seats.people:
                 self._take(device)
             case Button.FIRE | Button.START:
                 return self._start()
@@ -151,8 +138,8 @@ class NextMatch:
         if self.quick:
             self._record_quick(self.quick)
         else:
-            self.ready = self.ready + seconds if self.people and not self.waiting else 0.0
-            shown = self.show and not self.people and self.clock > SHOW_AFTER
+            self.ready = self.ready + seconds if self.seats.people and not self.seats.waiting else 0.0
+            shown = self.show and not self.seats.people and self.clock > SHOW_AFTER
             if shown or self.ready > ALL_READY:
                 return self._start()
         return None
@@ -163,10 +150,7 @@ class NextMatch:
         if fixture is None:
             return
         heading(words("events.next"), self._what(fixture)).draw(screen)
-        count = len(fixture.entrants)
-        black_out(screen, *(view.card_rect(i, count) for i in range(count)))
-        for seat, name in enumerate(fixture.entrants):
-            self._card(screen, seat, name, count)
+        self.seats.draw(screen, self.clock)
         self._draw_message(screen, fixture)
         event = self.running.event
         then = [" ".join(other.entrants) for other in event.open[1:4]]
@@ -175,49 +159,28 @@ class NextMatch:
         if then:
             room = RIGHT - LEFT - 48 - text_width(line, BODY, "body")
             said = view.following(lambda names: words("events.then", names=names), then, room)
-            text(said, LABEL, MIST, "head", "l", round(room)).draw(screen, LEFT, view.THEN_Y)
+            said, size = fit_text(said, LABEL, room)
+            text(said, size, MIST, "head", "l").draw(screen, LEFT, view.THEN_Y)
         self.prompts.draw(screen)
 
     @property
     def prompts(self) -> ButtonPrompts:
         """The prompts of this match."""
-        late = [(Button.DOWN, "events.hint_late")] if self._late_allowed else []
         if self.quick:
-            hints = [(Button.BACK, "events.hint_stop")]
-        elif self.people:
-            hints = [
-                (Button.START, "events.hint_begin"),
-                (Button.X, "events.hint_skip"),
-                (Button.Y, "events.hint_ai"),
-                (Button.UP, "events.hint_table"),
-                *late,
-                (Button.BACK, "events.hint_back"),
-            ]
+            return self.context.prompts([(Button.BACK, "events.hint_stop")])
+        if self.seats.people:
+            own = [(Button.START, "events.hint_begin"), (Button.X, "events.hint_skip"), (Button.Y, "events.hint_ai")]
         else:
-            hints = [
-                (Button.FIRE, "events.hint_watch"),
-                (Button.Y, "events.hint_quick"),
-                (Button.X, "events.hint_skip"),
-                (Button.UP, "events.hint_table"),
-                *late,
-                (Button.BACK, "events.hint_back"),
-            ]
-        return self.context.prompts(hints)
+            own = [(Button.FIRE, "events.hint_watch"), (Button.Y, "events.hint_quick"), (Button.X, "events.hint_skip")]
+        late = [(Button.DOWN, "events.hint_late")] if self.running.accepts_late else []
+        return self.context.prompts([*own, (Button.UP, "events.hint_table"), *late, (Button.BACK, "events.hint_back")])
 
     # ---- seats
 
     def _take(self, device: Device) -> None:
-        """Take a seat: the one of this device, or the first that is free; a person for whom an AI drives comes back."""
-        if device.kind == "mouse" or device in self.claims.values():
-            return
-        fixture = self.fixture
-        assert fixture is not None
-        own = [seat for seat in self.waiting if self._suggested(seat) == device or self._last(seat) == device]
-        if seats := [*own, *self.waiting]:
-            self.claims[seats[0]] = device
-            self.running.devices[fixture.entrants[seats[0]]] = device
-            self.context.sounds.play("join", seats[0])
-        else:
+        """Take a seat; a person for whom an AI drives comes back."""
+        free = device.kind != "mouse" and device not in self.seats.claims.values()
+        if free and not self.seats.take(device):
             self._bring_back(device)
 
     def _bring_back(self, device: Device) -> None:
@@ -226,42 +189,12 @@ class NextMatch:
         assert fixture is not None
         for seat, name in enumerate(fixture.entrants):
             if self.running.brain(name) and self.running.is_person(name):
-                if self._change(lambda event, back=name: event.substitute(back, "")):  # type: ignore[misc]
-                    self.claims[seat] = device
+                if self._change(partial(Event.substitute, name=name, brain="")):
+                    self.seats.claims[seat] = device
                     self.context.sounds.play("join", seat)
                 return
 
-    def _move(self, device: Device, by: int) -> None:
-        """Move a device to the next seat of a person; whoever sits there takes the other one."""
-        seats = self.people
-        own = next((seat for seat, other in self.claims.items() if other == device), None)
-        if own is None or len(seats) < 2:
-            return
-        there = seats[(seats.index(own) + by) % len(seats)]
-        other = self.claims.pop(there, None)
-        del self.claims[own]
-        self.claims[there] = device
-        if other:
-            self.claims[own] = other
-        self.ready = 0.0
-        self.context.sounds.play("move")
-
-    def _release(self, device: Device) -> None:
-        self.claims = {seat: other for seat, other in self.claims.items() if other != device}
-
-    def _suggested(self, seat: int) -> Device | None:
-        return suggested(self.context.controls, self.people, seat)
-
-    def _last(self, seat: int) -> Device | None:
-        """What the entrant on a seat has driven with before."""
-        fixture = self.fixture
-        return self.running.devices.get(fixture.entrants[seat]) if fixture else None
-
     # ---- changes of the event
-
-    @property
-    def _late_allowed(self) -> bool:
-        return self.running.accepts_late
 
     def _names(self) -> list[str]:
         return [entrant.name for entrant in self.running.event.entrants]
@@ -271,7 +204,7 @@ class NextMatch:
         words = self.context.words
         if name in self._names():
             return words("events.taken", name=name)
-        self.claims.clear()
+        self.seats.claims.clear()
         try:
             saved = self.running.change(lambda event: event.add(Entrant(name)))
         except ValueError as reason:
@@ -292,10 +225,10 @@ class NextMatch:
         """An AI drives for everybody who is absent; without people, play the matches of AIs in the background."""
         fixture = self.fixture
         assert fixture is not None
-        if not self.people:
+        if not self.seats.people:
             self._play_quick()
             return
-        absent = [fixture.entrants[seat] for seat in self.waiting]
+        absent = [fixture.entrants[seat] for seat in self.seats.waiting]
 
         def replaced(event: Event) -> Event:
             for name in absent:
@@ -307,18 +240,23 @@ class NextMatch:
 
     def _change(self, change: Callable[[Event], Event]) -> bool:
         """Change and save the event; false, with a message, if that is impossible."""
-        before, trouble = self.fixture, ""
+        trouble = ""
         try:
             trouble = "" if self.running.change(change) else "app.unsaved"
         except ValueError as reason:  # another process was faster
             log.warning("%s", reason)
             trouble = "events.elsewhere"
-        if self.fixture != before:
-            self.claims.clear()
-            self.ready = 0.0
+        self._reset_if_changed()
         if trouble:
             self._say(trouble, "error")
         return not trouble
+
+    def _reset_if_changed(self) -> None:
+        """Free all seats if another match is the next one."""
+        if self.fixture != self._seated:
+            self._seated = self.fixture
+            self.seats.claims.clear()
+            self.ready = 0.0
 
     def _say(self, key: str, sound: str = "refused") -> None:
         self.message, self.message_left = key, MESSAGE_SECONDS
@@ -327,7 +265,7 @@ class NextMatch:
     # ---- matches
 
     def _start(self) -> StackOperation:
-        if self.waiting:
+        if self.seats.waiting:
             self._say("events.missing")
             return None
         self.context.sounds.play("accept")
@@ -338,30 +276,17 @@ class NextMatch:
         """Swap to the match, or return None while it is being loaded."""
         fixture = self.fixture
         assert fixture is not None
-        setup = self._setup_of(fixture)
+        setup = self.running.setup(fixture)
         if setup is None:
             self.going = self.show = False
             self._say("events.failed", "error")
             return None
         if not self.context.preloader.ready(setup.game, setup.arena):
             return None
-        devices = [self.claims.get(seat) for seat in range(4)]
+        devices = [self.seats.claims.get(seat) for seat in range(4)]
         real = [seat - 1 for seat in self.context.settings.real] if self.context.robots else []
         after = EventMatch(self.running, fixture)
         return Swap(match_of(self.context, setup, devices, real, after=after))
-
-    def _setup_of(self, fixture: Fixture) -> Setup | None:
-        """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
-        if self._known is None or self._known[0] is not self.running.event:
-            try:
-                setup = setup_of(self.running.event, fixture)
-                for brain in {seat.brain for seat in setup.seats} - {"human", "off"}:
-                    find_brain(fixture.game, brain)
-                self._known = self.running.event, setup
-            except ValueError as reason:
-                log.warning("%s", reason)
-                self._known = self.running.event, None
-        return self._known[1]
 
     def _play_quick(self) -> None:
         """Play the matches up to the next one with people in the background."""
@@ -394,34 +319,12 @@ class NextMatch:
 
     def _what(self, fixture: Fixture) -> str:
         """Game, length and arena in one line."""
-        words, setup = self.context.words, self._setup_of(fixture)
+        words, setup = self.context.words, self.running.setup(fixture)
         if setup is None:
             return words(f"games.{fixture.game}")
         arena = arena_title(load_cached(setup.game, setup.arena), words.language)
         length = match_length(words, games()[setup.game], setup.minutes, setup.goal)
         return "  ·  ".join((words(f"games.{setup.game}"), length, arena))
-
-    def _card(self, screen: pygame.Surface, seat: int, name: str, count: int) -> None:
-        words, brain = self.context.words, self.running.brain(name)
-        x, y = view.card_rect(seat, count).topleft
-        taken = seat in self.claims
-        state = view.AI if brain else view.TAKEN if taken else view.WANTED
-        view.frame(seat, name, *self._driver(seat, brain), state).draw(screen, x, y)
-        view.draw_robot(screen, seat, x, y, self.clock, taken)
-        if brain:
-            fixture = self.fixture
-            assert fixture is not None
-            view.note_bar(brain_name(words, fixture.game, brain)).draw(screen, x, y)
-        elif taken:
-            ready_bar(seat, words("lobby.ready")).draw(screen, x, y)
-        else:
-            label = words.key_name(self.context.controls.label(self._suggested(seat), Button.FIRE))
-            ask_bar(label, words("events.press"), pulse(self.clock, 5)).draw(screen, x, y)
-
-    def _driver(self, seat: int, brain: str) -> tuple[str, str]:
-        """Icon and name of who or what drives."""
-        device = None if brain else self.claims.get(seat) or self._suggested(seat)
-        return driver_label(self.context.words, self.context.controls, device, brain)
 
     def _draw_message(self, screen: pygame.Surface, fixture: Fixture) -> None:
         words = self.context.words
@@ -431,23 +334,17 @@ class NextMatch:
             )
         elif self.quick:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
-        elif (self.people and not self.waiting) or (self.show and not self.people):
+        elif (self.seats.people and not self.seats.waiting) or (self.show and not self.seats.people):
             call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, view.MESSAGE_Y)
-        elif self.waiting:
-            seat = self.waiting[0]
-            label = words.key_name(self.context.controls.label(self._suggested(seat), Button.FIRE))
+        elif self.seats.waiting:
+            seat = self.seats.waiting[0]
             said = words("events.call", name=fixture.entrants[seat], button="{button}")
-            call_to_action(said, label, LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
+            call_to_action(said, self.seats.label(seat), LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
 
     def _jobs(self) -> Iterator[Callable[[], object]]:
         """What the page draws, part by part."""
         yield backdrop
-        fixture = self.fixture
-        if fixture is None:
-            return
-        for seat, name in enumerate(fixture.entrants):
-            brain = self.running.brain(name)
-            yield partial(view.frame, seat, name, *self._driver(seat, brain), view.AI if brain else view.WANTED)
+        yield from self.seats.jobs()
 
 
 @dataclass(frozen=True)

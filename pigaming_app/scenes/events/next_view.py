@@ -27,7 +27,7 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.text import fit_size, fit_text
 from pigaming_app.ui.widgets.labels import blit_sprite
 from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 
@@ -56,7 +56,8 @@ def frame_steps(seat: int, name: str, sign: str, driver: str, state: str) -> Ste
             icon(layer.glow, ARROWS[mark], 224 + 44 * i, 70, 15, MIST, 5)
     else:
         layer.canvas.body(driver, 206, 70, MIST, "l", fit_size(driver, BODY, W - 230, "body"))
-    layer.canvas.text(name, fit_size(name, TITLE, W - 56, "hero"), MIDDLE, NAME_Y, ICE, "hero", "c")
+    name, size = fit_text(name, TITLE, W - 56, "hero")
+    layer.canvas.text(name, size, MIDDLE, NAME_Y, ICE, "hero", "c")
     yield
     return (yield from layer.render_steps())
 
@@ -65,11 +66,13 @@ frame = cached(resumable(frame_steps))
 
 
 @cached
-def note_bar(sentence: str) -> LitImage:
-    """The bar of an AI: its stars, or its name."""
+@resumable
+def note_bar(sentence: str) -> Steps[LitImage]:
+    """The bar of an AI: its stars, or its name; or that of a device."""
     layer = Layer(*BAR)
     layer.canvas.text(sentence, fit_size(sentence, LABEL, W - 72), MIDDLE, BAR_Y, ICE, "head", "c")
-    return layer.render()
+    yield
+    return (yield from layer.render_steps())
 
 
 def draw_robot(screen: pygame.Surface, seat: int, x: int, y: int, clock: float, taken: bool) -> None:

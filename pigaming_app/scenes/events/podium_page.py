@@ -15,7 +15,7 @@ from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REV
 from pigaming_app.ui.draw import FOCUS, ICE, MIST, PLAYERS, SUB, TITLE
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
 from pigaming_app.ui.draw.layers import RIGHT, backdrop
-from pigaming_app.ui.draw.text import fit_size, text, word
+from pigaming_app.ui.draw.text import fit_text, text, word
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 
@@ -119,9 +119,9 @@ def draw_names(
     """
     for i, row in enumerate(best):
         if i in shown:
-            size = fit_size(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
+            name, size = fit_text(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
             x = dx + middle + (STEP_W + APART) * (ORDER.index(i) - 1)
-            word(row.entrant, size, FOCUS if i == 0 else ICE).draw(screen, x, dy + NAME_Y)
+            word(name, size, FOCUS if i == 0 else ICE).draw(screen, x, dy + NAME_Y)
     for i, row in enumerate(rest):
         y = dy + REST_Y + REST_PITCH * i
         text(str(row.place), SUB, MIST, "head", "r").draw(screen, dx + REST_X, y)

@@ -161,7 +161,7 @@ def _head(page: pygame.Surface, event: Event, words: Words, part: str = "") -> N
     form = words(f"events.{spec.format.value}")
     line = "  ·  ".join((form, *([part] if part else []), *(words(f"games.{game}") for game in spec.games)))
     _write(page, line, 64, (MARGIN, 430), SOFT, room=W - 2 * MARGIN - 420)
-    _write(page, f"{date.today():%Y-%m-%d}", 64, (W - MARGIN, 430), SOFT, "r")
+    _write(page, words.day(date.today()), 64, (W - MARGIN, 430), SOFT, "r")
     pygame.draw.line(page, INK, (MARGIN, 500), (W - MARGIN, 500), 8)
     _write(page, "PiGaming", 52, (W / 2, H - 80), SOFT, "c")
 

@@ -5,9 +5,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
+from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import MOST, Fixture
+from pigaming_app.games.game import Setup
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
@@ -22,6 +25,7 @@ class RunningEvent:
     path: Path
     event: Event
     devices: dict[str, Device] = field(default_factory=dict)
+    _known: tuple[Event, Fixture, Setup | None] | None = None  # the latest answer of `setup`
 
     def change(self, change: Callable[[Event], Event]) -> bool:
         """Change the event and its file, which another process may have changed meanwhile.
@@ -39,6 +43,20 @@ class RunningEvent:
             self.event = event_files.latest(self.path, self.event)
             raise
         return True
+
+    def setup(self, fixture: Fixture) -> Setup | None:
+        """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
+        if self._known is None or self._known[0] is not self.event or self._known[1] != fixture:
+            setup = None
+            try:
+                setup = setup_of(self.event, fixture)
+                for brain in {seat.brain for seat in setup.seats} - {"human", "off"}:
+                    find_brain(fixture.game, brain)
+            except ValueError as reason:
+                log.warning("%s", reason)
+                setup = None
+            self._known = self.event, fixture, setup
+        return self._known[2]
 
     @property
     def accepts_late(self) -> bool:

@@ -5,12 +5,13 @@ import logging
 import pygame
 
 from pigaming_app.scenes.events import bracket_view, table_view
-from pigaming_app.scenes.events.corrections import ResultsList
+from pigaming_app.scenes.events.manage.corrections import ResultsList
+from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.overview import BRACKET, overview
 from pigaming_app.scenes.events.poster import PosterJob
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -38,6 +39,7 @@ class TablePage:
             (Button.RIGHT, "events.hint_page"),
             (Button.X, "events.hint_results"),
             (Button.Y, "events.hint_poster"),
+            (Button.DOWN, "events.hint_manage"),
             (Button.BACK, "events.hint_back"),
         ]
         self.prompts = context.prompts(hints)
@@ -49,7 +51,7 @@ class TablePage:
         self.idle = 0.0
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """LEFT and RIGHT turn the page, X shows the results, Y makes the poster, BACK and FIRE leave."""
+        """LEFT and RIGHT turn the page, X shows the results, Y makes the poster, DOWN manages the event."""
         event = as_direction(self.prompts.as_button(event), ARROWS if len(self.overview.pages) > 1 else {})
         self.idle = 0.0
         match event.button:
@@ -59,6 +61,9 @@ class TablePage:
             case Button.X:
                 self.context.sounds.play("accept")
                 return Push(ResultsList(self.context, self.running))
+            case Button.DOWN:
+                self.context.sounds.play("accept")
+                return Push(EventPage(self.context, self.running.path, self.running, Home()))
             case Button.Y if self.poster is None:
                 self.context.sounds.play("accept")
                 self.poster = PosterJob(self.running.event, self.running.path, self.context.words)

@@ -9,7 +9,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, MIST, STEEL, THIN, TITL
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.draw.text import fit_size, fit_text, text
 
 HEADS_Y, TOP, BOTTOM = 222, 254, 930  # px
 GAP = 24  # px between two columns
@@ -86,9 +86,10 @@ def draw_table(
 
 
 def _heads(screen: pygame.Surface, heads: Sequence[str], x: int, y: int, w: int, columns: int) -> None:
-    cell = CELL[columns]
-    for k, head in enumerate(heads[: FIGURES[columns]]):
-        text(head, BODY, MIST, "body", "r", cell - 16).draw(screen, x + w - 28 - k * cell, y)
+    cell, shown = CELL[columns], heads[: FIGURES[columns]]
+    size = min((fit_size(head, BODY, cell - 16, "body") for head in shown), default=BODY)
+    for k, head in enumerate(shown):
+        text(head, size, MIST, "body", "r").draw(screen, x + w - 28 - k * cell, y)
 
 
 def table_row_steps(row: TableRow, w: int, h: int, columns: int) -> Steps[LitImage]:
@@ -104,10 +105,10 @@ def table_row_steps(row: TableRow, w: int, h: int, columns: int) -> Steps[LitIma
     if row.mark:
         icon(layer.glow, "ai", x + size * 0.4, middle, size * 0.36, MIST, 4)
         x, room = x + round(size * 1.05), room - round(size * 1.05)
-    name_size = fit_size(row.name, size, room, "hero")
-    layer.canvas.text(row.name, name_size, x, middle, color, "hero")
+    name, name_size = fit_text(row.name, size, room, "hero")
+    layer.canvas.text(name, name_size, x, middle, color, "hero")
     if best:
-        at = x + text_width(row.name, name_size, "hero") + size * 0.7
+        at = x + text_width(name, name_size, "hero") + size * 0.7
         if at + size * 0.5 < w - 28 - cell * len(shown):
             icon(layer.glow, "crown", at, middle - 2, size * 0.36, FOCUS, 4)
     yield

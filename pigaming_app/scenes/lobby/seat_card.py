@@ -218,7 +218,8 @@ def _arrows(layer: Layer, middle: float, color: Color, r: int) -> None:
 
 
 @cached
-def turntable(player: int, turn: int, lit: bool, r: int) -> LitImage:
+@resumable
+def turntable(player: int, turn: int, lit: bool, r: int) -> Steps[LitImage]:
     """Arcs around (0, 0) on a circle of `r` px, rotated by `turn` of TURNS steps towards the next arc."""
     half = r + 30
     ink = GlowCanvas(2 * half, 2 * half)
@@ -226,7 +227,8 @@ def turntable(player: int, turn: int, lit: bool, r: int) -> LitImage:
     for i in range(SPOKES):
         start = 0.25 + (i + turn / TURNS) * math.tau / SPOKES
         ink.arc(half, half, r, start, start + 0.7, color, THIN)
-    return LitImage(ink.lit(1.0), (-half, -half))
+    yield
+    return LitImage((yield from ink.lit_steps(1.0)), (-half, -half))
 
 
 @cached

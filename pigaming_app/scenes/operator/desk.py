@@ -73,7 +73,8 @@ class OperatorDesk:
         """Draw what a group is told, unless a notice is in its place."""
         sentence = self.limit.sentence if self.limited else ""
         if sentence and not self.notices.waiting:
-            caption(sentence, FOCUS, ICE, fit_size(sentence, SIZE, MAX_WIDTH, "body")).draw(screen, 960, SENTENCE_Y)
+            size = fit_size(sentence, SIZE, MAX_WIDTH - 2 * SIZE, "body")
+            caption(sentence, FOCUS, ICE, size, sign="clock").draw(screen, 960, SENTENCE_Y)
 
     def show(self, seconds: float, left: float, scenes: Sequence[Scene]) -> None:
         """Follow the settings and draw a slice of the second screen; `left`: s that are left of this frame."""

@@ -77,7 +77,7 @@ class FiguresPage:
         words, report = self.context.words, self.report
         screen.blit(backdrop(), (0, 0))
         heading(words("operator.figures")).draw(screen)
-        text(report.day.isoformat(), LABEL, ICE, "head", "r").draw(screen, RIGHT - 80, 112)
+        text(words.day(report.day), LABEL, ICE, "head", "r").draw(screen, RIGHT - 80, 112)
         draw_arrows(screen, self.arrows)
         black_out(screen, PANEL)
         frame(*PANEL.size).draw(screen, *PANEL.topleft)

@@ -43,7 +43,7 @@ class OptionsPage(SettingsPage):
 
     def __init__(self, context: Context, operator: bool = False, section: str = "") -> None:
         self.operator, self.untimed, self.cleared = operator, operator, False
-        rows = SECTIONS.get(section, ROWS)
+        rows: tuple[str, ...] = SECTIONS.get(section, ROWS)
         if context.kiosk:
             rows = rows if operator and section else (*rows, "close") if operator else offered(rows)
         title = section or ("operator" if operator else "title")

@@ -154,6 +154,27 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
     return LitImage(ink.lit(0.9), (-240, -170))
 
 
+KEY_ICONS = {"fire": "shoot", "turbo": "speed", "x": "plus", "start": "play", "normal": "turn_left"}
+
+
+@cached
+def key(name: str, keys: bool, lit: bool) -> LitImage:
+    """The function `name` of a key, or of a button if not `keys`: a sign in its outline, which glows if `lit`."""
+    ink, color = GlowCanvas(480, 340).set_transform(240, 170), FOCUS if lit else STEEL
+    if name == "device":
+        icon(ink, "keys" if keys else "pad", 0, 10, 120, color, LINE)
+        return LitImage(ink.lit(0.9), (-240, -170))
+    if keys:
+        ink.line(cut_box(-110, -110, 220, 220, 24), color, LINE, True)
+    else:
+        ink.ring(0, 0, 116, color, LINE)
+    if name == "y":
+        ink.text("ABC", LABEL, 0, 0, ICE, "head", "c")
+    else:
+        icon(ink, KEY_ICONS.get(name, name), 0, 0, 60, ICE, LINE)
+    return LitImage(ink.lit(0.9), (-240, -170))
+
+
 def _bubble(ink: GlowCanvas, x: float, y: float, side: int, color: Color) -> None:
     w, h = 150, 96
     ink.line(cut_box(x - w / 2, y - h / 2, w, h, 16), color, LINE, True)

@@ -90,7 +90,8 @@ class RemapPage:
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         line = focus if focus in ("device", "normal") else "function"
         dials.describe(screen, words(f"remap.{focus}"), words(f"remap.{line}_line"))
-        pictures.sketch(screen, "remap", 0, self.clock)
+        lit = not self.awaited or self.clock % 1.0 < 0.5
+        pictures.key(focus, self.device in keyboard.DEFAULTS, lit).draw(screen, *dials.CENTRE)
         if self.navigation.sentence:
             call_to_action(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
         self.navigation.prompts.draw(screen)

@@ -3,6 +3,7 @@
 In the lobby, phones join and get ready while the page stays; any other device returns to the lobby and acts there.
 """
 
+import math
 from collections.abc import Callable, Sequence
 
 import pygame
@@ -22,7 +23,9 @@ from pigaming_app.ui.draw import (
     STEEL,
     SUB,
     THIN,
+    GlowCanvas,
     badge,
+    cut_box,
     dim,
     icon,
 )
@@ -140,6 +143,24 @@ def trouble(words: Words, host: PhoneHost) -> str:
     return words(f"phones.{host.trouble.key}", **host.trouble.values) if host.trouble else ""
 
 
+def _radio(ink: GlowCanvas, x: float, y: float) -> None:
+    ink.disc(x, y + 24, 6, ICE)
+    for r in (22, 42):
+        ink.arc(x, y + 24, r, -math.pi / 2 - 0.8, -math.pi / 2 + 0.8, ICE, THIN)
+
+
+def _scan(ink: GlowCanvas, x: float, y: float) -> None:
+    icon(ink, "phone", x, y, 34, ICE, THIN)
+    ink.line(cut_box(x - 9, y - 12, 18, 18, 3), FOCUS, THIN, True)
+
+
+def _press(ink: GlowCanvas, x: float, y: float) -> None:
+    ink.ring(x, y, 28, ICE, THIN).text("A", BODY, x, y, ICE, "head", "c")
+
+
+SKETCHES = (_radio, _scan, _press)  # of the steps: the network, the code, the button
+
+
 @cached
 @resumable
 def steps(lines: tuple[str, ...]) -> Steps[LitImage]:
@@ -149,7 +170,8 @@ def steps(lines: tuple[str, ...]) -> Steps[LitImage]:
         y = STEPS_Y + STEP * i
         layer.glow.ring(TEXT_X + 34, y, 34, FOCUS, THIN)
         layer.canvas.crisp.text(str(i + 1), LABEL, TEXT_X + 34, y, FOCUS, "head", "c")
-        layer.canvas.body(line, TEXT_X + 100, y, ICE, "l", fit_size(line, BODY, ROOM - 100, "body"))
+        SKETCHES[i](layer.glow, TEXT_X + 124, y)
+        layer.canvas.body(line, TEXT_X + 188, y, ICE, "l", fit_size(line, BODY, ROOM - 188, "body"))
         yield
     return (yield from layer.render_steps())
 

@@ -7,9 +7,9 @@ from pigaming_app.scenes.flow.settings_page import SettingsPage
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, plain, trouble
 from pigaming_app.storage.settings import MAX_NAME
-from pigaming_app.ui.draw import ALARM, FOCUS, MIST, STEEL, THIN
+from pigaming_app.ui.draw import ALARM, FOCUS, MIST, STEEL, THIN, text_width
 from pigaming_app.ui.draw.layers import LEFT
-from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.draw.text import SMALLEST, fit_text, paragraph
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable, networks
 from pigaming_app.ui.widgets import setting_row as dials
@@ -60,7 +60,7 @@ class PhonesPage(SettingsPage):
         if name == "code":
             return SettingValue("deed", (words("options.open"),))
         chosen, known = settings.phones_network, self._names()
-        names = [words("phones.first_network"), *(f"{one.name}: {one.address}" for one in self.networks)]
+        names = [words("phones.first_network"), *map(shown, self.networks)]
         if chosen and chosen not in known:
             return SettingValue("arrows", (*names, chosen), len(names))
         return SettingValue("arrows", tuple(names), known.index(chosen) + 1 if chosen else 0)
@@ -83,3 +83,10 @@ class PhonesPage(SettingsPage):
             return None
         self.context.sounds.play("accept")
         return Push(JoinByPhone(self.context, lambda: []))
+
+
+def shown(network: Network) -> str:
+    """Name and address of a network; a long name is cut off rather than the address."""
+    address = f": {network.address}"
+    room = dials.VALUE_ROOM - text_width(address, SMALLEST, "body")
+    return fit_text(network.name, SMALLEST, room, "body")[0] + address

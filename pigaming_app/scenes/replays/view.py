@@ -40,7 +40,6 @@ CROSS = 72  # px, width of the box that deletes
 W = RIGHT - LEFT
 GAME, ARENA, TIME, PLAYERS_X, SLOT = 32, 372, 712, 956, 172  # px from a row's left edge; px, width of a player
 ROOM = 316  # px for the game and for the arena
-DATE = "%d.%m. %H:%M"
 
 
 @dataclass
@@ -81,7 +80,7 @@ def row(words: Words, entry: Entry, hot: bool) -> list[LitImage]:
         for seat, other in enumerate(replay.setup.seats)
         if other.brain != "off"
     )
-    when = f"{store.saved_at(entry.path):{DATE}}"
+    when = words.moment(store.saved_at(entry.path))
     return [whole(entry.arena, when, seats), game_name(words(f"games.{replay.setup.game}"), hot)]
 
 

@@ -1,7 +1,8 @@
 """Fault page: the match waits while a real robot has a fault; shows the fault in one sentence and the available
 actions.
 
-The page closes as soon as the fault is gone. The person who pressed the stop button holds FIRE to release it.
+The page closes as soon as the fault is gone. The person who pressed the stop button holds FIRE to release it. If robots
+do not follow their commands because a thing was pushed in their way, the page of moved things takes its place.
 """
 
 import pygame
@@ -12,17 +13,19 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.pause import Pause, sheet_title
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
+from pigaming_app.scenes.things.moved_page import MovedPage
 from pigaming_app.scenes.views.fault_icons import sign
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
 from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import fit_size, write_lines
+from pigaming_app.ui.draw.text import LINE_PITCH, SMALLEST, fit_lines, fit_paragraphs, fit_size
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import Caption, caption
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, ICON, PROMPTS, ROOM, TEXT_X, W, X, overlay
 
 IDLE = 600.0  # s without input before the return to the title
+GAP = 8  # px between two sentences
 HOLD = 1.0  # s, hold time of FIRE to release the stop
 RING = X + 150, FOOT - 96
 
@@ -46,7 +49,7 @@ class FaultPage:
         """Play the alert."""
         self.context.hush()
         self.context.sounds.play("error")
-        self.held, self.picture = 0.0, None
+        self.held, self.picture, self.faults = 0.0, None, []
 
     def handle(self, event: InputEvent) -> StackOperation:
         """X replaces the robots concerned with simulated ones; START and BACK open the menu. After disobedience, FIRE
@@ -61,6 +64,7 @@ class FaultPage:
         if event.button is Button.X:
             self._simulate()
         elif latched and event.button is Button.FIRE and not self.match.plant.safety.stopped:
+            self.match.watch.pause()
             return Push(PairAgain(self.match))
         elif latched and event.button is Button.Y:
             for robot in latched:
@@ -74,9 +78,14 @@ class FaultPage:
         return None
 
     def update(self, seconds: float) -> StackOperation:
-        """Close once the fault is gone."""
-        self.match.advance_paused(seconds)
+        """Close once the fault is gone, or explained by a moved thing."""
         safety = self.match.plant.safety
+        if not self._blocked:
+            self.match.advance_paused(seconds)
+        elif places := self._examine(seconds):
+            for robot in safety.latched:
+                self.match.plant.clear_fault(robot)
+            return Swap(MovedPage(self.match, places))
         if held := self.match.access.update(seconds):
             return Swap(Pause(self.match, held.device))
         controls = self.context.controls
@@ -87,6 +96,8 @@ class FaultPage:
         now = [fault for fault in self.match.plant.faults if fault.pauses]
         if [(fault.name, fault.robot) for fault in now] != [(fault.name, fault.robot) for fault in self.faults]:
             self.faults, self.picture = now, None
+            if self._blocked:
+                self.match.watch.examine()
         if self.context.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
@@ -106,8 +117,20 @@ class FaultPage:
         if self.match.plant.safety.latched:
             self.repair_prompts.draw(screen)
         self.match.draw_overlay(screen)
+        self.match.watch.note(screen)
 
     # ---- inside
+
+    @property
+    def _blocked(self) -> bool:
+        """True if a moved thing may explain all faults: robots of a running match do not follow their commands."""
+        disobey = self.faults and all(fault.name == "disobeys" for fault in self.faults)
+        return bool(disobey) and not self.match.plant.safety.stopped and not self.match.preparing
+
+    def _examine(self, seconds: float) -> list[tuple[float, float]]:
+        """Advance while the watch compares this page's picture with the camera's; places of moved things, arena px."""
+        self.match.advance_examined(seconds)
+        return self.match.watch.places
 
     def _stoppers(self) -> list[Device]:
         """Devices whose FIRE releases the stop: the seated ones and the one that pressed it."""
@@ -134,17 +157,32 @@ class FaultPage:
         title = words("mat.stand") if first.robot is None else words("mat.robot", robot=first.robot + 1)
         sheet_title(layer, first.robot, title, ICE)
         sign(layer.glow, first.name, *ICON, 76, ALARM)
-        if not self.match.plant.safety.latched:
+        if not self.match.plant.safety.latched and not cause_of(self.match.plant.rig, first.name):
             ending = words("mat.goes_on")
             layer.canvas.body(ending, TEXT_X, FOOT - 40, MIST, "l", fit_size(ending, 36, ROOM, "body"))
+        y = HEAD + 56.0
+        size, paragraphs = self._paragraphs(first)
+        for i, lines in enumerate(paragraphs):
+            for line in lines:
+                layer.canvas.body(line, TEXT_X, y, MIST if i else ICE, "l", size)
+                y += LINE_PITCH * size
+            y += GAP
+
+    def _paragraphs(self, first: Fault) -> tuple[int, list[list[str]]]:
+        """A fault, its cause and another fault, as far as there is room: size in px, and the lines of each."""
+        words, latched = self.context.words, self.match.plant.safety.latched
         fire = words.key_name(self.context.controls.label(self.match.access.hint_device, Button.FIRE))
-        y = write_lines(layer, fault_sentence(first, words, fire), TEXT_X, HEAD + 56, ROOM, ICE)
         cause = cause_of(self.match.plant.rig, first.name)
-        if cause:
-            y = write_lines(layer, words.sentence(cause), TEXT_X, y + 8, ROOM, MIST)
         others = [fault for fault in self.faults[1:] if fault.name != first.name or fault.robot != first.robot]
-        if others and y < FOOT - 130:
-            write_lines(layer, words("mat.also", other=fault_sentence(others[0], words, "")), TEXT_X, y + 8, ROOM, MIST)
+        said = [fault_sentence(first, words, fire)]
+        said += [words.sentence(cause)] if cause else []
+        more = [words("mat.also", other=fault_sentence(others[0], words, ""))] if others else []
+        height = FOOT - HEAD - 56 - (72 if latched else 20 if cause else 60)  # above the prompts, or the last sentence
+        for sentences, smallest in (([*said, *more], 36), (said, SMALLEST), (said[:1], SMALLEST)):
+            if fitting := fit_paragraphs(sentences, ROOM, height, GAP, range(BODY, smallest - 1, -2)):
+                return fitting
+        size, lines = fit_lines(said[0], ROOM, 3)
+        return size, [lines]
 
 
 def fault_sentence(fault: Fault, words: Words, button: str) -> str:

@@ -6,10 +6,8 @@ from typing import Protocol
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.hardware.control.mixed_plant import MixedPlant
-from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.scenes.flow.stack import Scene
-from pigaming_app.scenes.play.pause import PausedMatch
+from pigaming_app.scenes.things.moved_page import MatchAmongThings
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.ui.input.events import Device
 
@@ -28,16 +26,21 @@ class MatchOf(Protocol):
     ) -> Scene: ...
 
 
-class InterruptedMatch(PausedMatch, Protocol):
+class InterruptedMatch(MatchAmongThings, Protocol):
     """A paused match with real robots."""
 
     match: Match
-    plant: MixedPlant
-    session: RobotSession
+
+    @property
+    def preparing(self) -> bool:
+        """True while robots drive to their start positions, and while the countdown runs."""
 
     @property
     def real(self) -> set[int]:
         """Seats with real robots, including those still driving to their start positions."""
+
+    def advance_examined(self, seconds: float) -> None:
+        """As `advance_paused`, while the watch examines the picture below it."""
 
     def set_real(self, seat: int, real: bool) -> None:
         """Hand a seat over to its simulated or its real robot."""

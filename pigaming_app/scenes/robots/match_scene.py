@@ -218,6 +218,12 @@ class RealMatch(MatchScene):
         self._stand_still(self.session.advance(seconds))
         self._publish()
 
+    def advance_examined(self, seconds: float) -> None:
+        """As `advance_paused`, while the watch examines the picture below it."""
+        self.watch.look()
+        self._stand_still(self.session.advance(seconds))
+        self._publish()
+
     def draw_overlay(self, screen: pygame.Surface) -> None:
         """Draw the corner markers and the discs on top of everything."""
         self._draw_lights(screen)

@@ -24,7 +24,7 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT
 TURN = 10.0  # s until the next page
 CALL, PODIUM = "call", "podium"  # kinds of pages, besides those of an overview
 HEAD: Box = (60, 34, 1800, 150)
-FOOT: Box = (60, 944, 1800, 112)
+FOOT: Box = (60, 940, 1800, 128)
 TOP, H = 196, 744  # px: of what lies between them
 EDGE = 12  # px of glow round a card or a column
 STILL = FIRST + math.pi / 5  # s: age of a podium that stands, its winner on the step
@@ -103,7 +103,7 @@ def _head(title: str, right: str, surface: pygame.Surface) -> None:
 def _foot(lines: Sequence[str], playing: bool, surface: pygame.Surface) -> None:
     """One or two lines; the match that is being played is brighter."""
     for i, line in enumerate(lines):
-        y = surface.get_height() / 2 + 56 * (i - (len(lines) - 1) / 2)
+        y = surface.get_height() / 2 + 58 * (i - (len(lines) - 1) / 2)
         color = FOCUS if i == 0 and (playing or len(lines) == 1) else ICE
         text.write(surface, line, LABEL, LEFT - FOOT[0], y, color, "head", "l", RIGHT - LEFT)
 

@@ -72,7 +72,7 @@ def paint_side(side: Side, place: int, surface: pygame.Surface) -> None:
         x += 1.6 * r
         text.put(surface, text.symbol(sign, round(0.7 * r), MIST), x + 0.7 * r, middle)
         x += 3.1 * r
-    x -= 1.3 * r
+    x -= 0.9 * r
     end = w - 60 - 3 * min(240, round(0.86 * h)) * 0.7
     if side.leads:
         text.put(surface, text.symbol("crown", 46, FOCUS), end - 60, middle)

@@ -33,7 +33,7 @@ from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 IDLE = 600.0  # s without input until the title
-TITLE_Y, HINTS_Y, FOOT_Y = 42, 102, 1060  # px, outside the arena
+TITLE_Y, HINTS_Y, FOOT_Y, FOOT_SIZE = 42, 102, 1054, 30  # px, outside the arena
 LINE_W, PITCH = 1180, 56  # px, of the sentences on the mat
 
 log = logging.getLogger("pigaming")
@@ -139,9 +139,9 @@ class ArenaPage:
         self._draw_things(screen)
         self._draw_lines(screen)
         if thing := self.selected:
-            text(words(f"things.{thing.use}_line"), 34, MIST, "body", "c", 1600).draw(screen, 960, FOOT_Y)
+            text(words(f"things.{thing.use}_line"), FOOT_SIZE, MIST, "body", "c", 1600).draw(screen, 960, FOOT_Y)
         elif things:
-            text(words("things.select"), 34, MIST, "body", "c", 1600).draw(screen, 960, FOOT_Y)
+            text(words("things.select"), FOOT_SIZE, MIST, "body", "c", 1600).draw(screen, 960, FOOT_Y)
 
     @property
     def selected(self) -> Thing | None:

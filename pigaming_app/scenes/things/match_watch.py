@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.scan.watch import ThingsWatch
+from pigaming_app.hardware.scan.watch import AT_ONCE, PATIENCE, PERIOD, ThingsWatch
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.signals import CameraFrame
 from pigaming_app.ui.draw.pixels import pixels_of
@@ -20,6 +20,7 @@ class MatchWatch:
     def __init__(self, session: RobotSession, rig: Rig) -> None:
         self.session, self.rig = session, rig
         self._watch: ThingsWatch | None = None
+        self._brief = False
         self._drawn: tuple[pygame.Surface, float] | None = None
         self._viewer = self._view
 
@@ -28,16 +29,24 @@ class MatchWatch:
         """Empty as long as nothing has moved."""
         return self._watch.places if self._watch and self._watch.changed else []
 
+    @property
+    def ended(self) -> bool:
+        """True while it does not look: paused, dismissed, or after an examination that found nothing."""
+        return self._watch is None
+
     def resume(self) -> None:
         """Begin anew: what happened before does not count."""
-        self.pause()
-        expected = self.session.expected
-        if expected is not None and expected.ground == self.session.ground:
-            self._watch = ThingsWatch(expected, self.rig.clock)
+        self._begin(PERIOD)
+
+    def examine(self) -> None:
+        """Compare a still picture at once, within about a second, and stop before anybody can reach onto the mat."""
+        self._begin(AT_ONCE)
+        self._brief = True
 
     def pause(self) -> None:
         """Stop looking. Idempotent."""
         self._watch = self._drawn = None
+        self._brief = False
         if self._viewer in self.rig.viewers:
             self.rig.viewers.remove(self._viewer)
 
@@ -55,12 +64,20 @@ class MatchWatch:
         watch, looking = self._watch, self._viewer in self.rig.viewers
         if watch is None:
             return
+        if self._brief and watch.checks >= PATIENCE and not watch.changed:
+            return self.pause()
         if watch.looks != looking:
             (self.rig.viewers.append if watch.looks else self.rig.viewers.remove)(self._viewer)
         if watch.wants and self._drawn is not None:
             screen, drawn = self._drawn
             watch.note_canvas(lambda: pixels_of(screen), drawn)
         self._drawn = None
+
+    def _begin(self, period: float) -> None:
+        self.pause()
+        expected = self.session.expected
+        if expected is not None and expected.ground == self.session.ground:
+            self._watch = ThingsWatch(expected, self.rig.clock, period)
 
     def _view(self, frame: CameraFrame) -> None:
         if watch := self._watch:

@@ -40,15 +40,16 @@ def tile(game: str, name: str, line: str, hot: bool) -> Steps[LitImage]:
     color = FOCUS if hot else ICE
     layer.canvas.text(name, fit_size(name, LABEL, w - 64), 32, 326, color)
     layer.canvas.body(line, 32, 380, ICE if hot else MIST, "l", fit_size(line, BODY, w - 64, "body"))
-    picture = _picture(game)
+    drawn = picture(game)
     lit = yield from layer.render_steps()
-    picture.draw(lit.image, -lit.at[0], -lit.at[1])
+    drawn.draw(lit.image, -lit.at[0], -lit.at[1])
     return lit
 
 
 @cached
 @resumable
-def _picture(game: str) -> Steps[LitImage]:
+def picture(game: str) -> Steps[LitImage]:
+    """The picture of a game, 560 x 284 px; top left at (0, 0)."""
     layer = Layer(MARGIN, MARGIN, 560, 284)  # no offset: robots are placed directly on the sheet
     vignette(game, layer.glow, MARGIN, MARGIN)
     yield

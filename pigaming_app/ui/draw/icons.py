@@ -218,6 +218,13 @@ def _faster(pen: Pen) -> None:
         pen.fill((x, -0.66), (x + 0.85, 0.0), (x, 0.66))
 
 
+def _list(pen: Pen) -> None:
+    """Lines of a list."""
+    for y in (-0.62, 0.0, 0.62):
+        pen.dot(-0.76, y, 0.15)
+        pen.line((-0.36, y), (0.9, y))
+
+
 def _play(pen: Pen) -> None:
     pen.fill((-0.45, -0.66), (0.55, 0.0), (-0.45, 0.66))
 
@@ -280,6 +287,7 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "stay": _stay,
     "unknown": _unknown,
     "oil": _oil,
+    "list": _list,
     "play": _play,
     "faster": _faster,
     "fastest": _fastest,

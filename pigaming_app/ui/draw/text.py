@@ -11,12 +11,24 @@ from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 
 SMALLEST = 28  # px
+LINE_PITCH = 1.35  # em, from line to line of a paragraph
 
 
 def fit_size(text: str, size: int, width: float, face: str = "head") -> int:
     """The largest font size up to `size` at which a line is at most `width` px wide."""
     wide = text_width(text, size, face)
     return size if wide <= width else int(size * width / wide)
+
+
+def fit_text(text: str, size: int, width: float, face: str = "head") -> tuple[str, int]:
+    """A line and its size, px: smaller where it is too wide, but not below SMALLEST; then its end is cut off."""
+    fits = fit_size(text, size, width, face)
+    if fits >= SMALLEST:
+        return text, fits
+    kept = text
+    while kept and text_width(f"{kept}…", SMALLEST, face) > width:
+        kept = kept[:-1].rstrip()
+    return f"{kept}…", SMALLEST
 
 
 def parts(text: str) -> list[str]:
@@ -49,8 +61,44 @@ def fit_lines(
     text: str, room: float, max_lines: int, sizes: Sequence[int] = range(BODY, SMALLEST, -2)
 ) -> tuple[int, list[str]]:
     """The first of `sizes` (px) at which a text fits `max_lines` lines of `room` px, else SMALLEST; and those lines."""
-    size = next((size for size in sizes if len(wrap(text, size, room)) <= max_lines), SMALLEST)
-    return size, wrap(text, size, room)
+    text = _with_breaks(text, room)
+    for size in sizes:
+        lines = wrap(text, size, room)
+        if len(lines) <= max_lines and _are_in(lines, size, room):
+            return size, lines
+    return SMALLEST, wrap(text, SMALLEST, room)
+
+
+def fit_paragraphs(
+    sentences: Sequence[str], room: float, height: float, gap: float, sizes: Sequence[int]
+) -> tuple[int, list[list[str]]] | None:
+    """The first of `sizes` (px) at which all sentences fit `height` px, `gap` px between them; and the lines of each.
+
+    None if they do not.
+    """
+    for size in sizes:
+        found = [wrap(_with_breaks(sentence, room), size, room) for sentence in sentences]
+        high = LINE_PITCH * size * sum(map(len, found)) + gap * (len(found) - 1)
+        if high <= height and all(_are_in(lines, size, room) for lines in found):
+            return size, found
+    return None
+
+
+def _are_in(lines: Sequence[str], size: int, room: float) -> bool:
+    """True if no line is wider than `room` px."""
+    return all(text_width(line, size, "body") <= room for line in lines)
+
+
+def _with_breaks(text: str, room: float) -> str:
+    """A text whose words, such as the path of a port, are short enough for a line of `room` px at SMALLEST."""
+    words = []
+    for part in parts(text):
+        while text_width(part, SMALLEST, "body") > room:
+            count = next(n for n in range(len(part), 0, -1) if text_width(part[:n], SMALLEST, "body") <= room)
+            words.append(part[:count])
+            part = part[count:]
+        words.append(part)
+    return " ".join(words)
 
 
 @cached
@@ -91,7 +139,7 @@ def write_lines(layer: Layer, sentence: str, x: float, y: float, room: float, co
     size, lines = fit_lines(sentence, room, 3, (BODY, 36, 32))
     for line in lines:
         layer.canvas.body(line, x, y, color, "l", size)
-        y += 1.35 * size
+        y += LINE_PITCH * size
     return y
 
 

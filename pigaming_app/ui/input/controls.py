@@ -41,11 +41,12 @@ class Controls:
         self._taps = TapQueue()
         self._down: dict[tuple[Device, Button], frozenset[str]] = {}
         self._listener: Callable[[Device, int], None] | None = None
+        self.typist: Callable[[str], None] | None = None  # gets typed letters, and backspaces, instead of the scenes
         self.last = self._default()
 
     def presses(self, events: Iterable[pygame.Event]) -> list[InputEvent]:
         """The button events of this frame, in order. Call it once per frame with all pygame events."""
-        pressed = [press for event in events if not self._listened(event) for press in self._translate(event)]
+        pressed = [press for event in events if not self._consumed(event) for press in self._translate(event)]
         pressed += self._phone_presses()
         for press in pressed:
             if press.device != _MOUSE and press.button not in _NOT_PERSONAL:
@@ -65,6 +66,20 @@ class Controls:
     def listen(self, listener: Callable[[Device, int], None] | None) -> None:
         """Pass the next key or button that goes down to `listener` instead: a device and a scancode or number."""
         self._listener = listener
+
+    def _consumed(self, event: pygame.Event) -> bool:
+        """True for an event that went to the typist or the listener instead."""
+        return self._typed(event) or self._listened(event)
+
+    def _typed(self, event: pygame.Event) -> bool:
+        """Hand a letter or a backspace of the keyboard to the typist; true if so."""
+        if self.typist is None or event.type != pygame.KEYDOWN:
+            return False
+        letter = "\b" if event.key == pygame.K_BACKSPACE else event.unicode
+        if letter != "\b" and not (letter and letter.isprintable()):
+            return False
+        self.typist(letter)
+        return True
 
     def _listened(self, event: pygame.Event) -> bool:
         """True if a listener got the event."""

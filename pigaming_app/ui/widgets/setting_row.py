@@ -27,7 +27,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, paragraph, text
+from pigaming_app.ui.draw.text import fit_text, paragraph, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
@@ -37,6 +37,7 @@ PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 660)
 W = span(0, 8)[1]
 AT = 500  # px from a row's left edge to its value
 ROOM = W - AT - 40
+VALUE_ROOM = ROOM - 120  # px between the arrows of a value
 CELL, CELLS = 40, 10  # px from one cell of a meter to the next
 CENTRE = (PANEL.centerx, PANEL.y + 190)  # of the picture
 RING_R, RING_STEPS = 150, 24  # px, and images of the ring round it
@@ -118,7 +119,7 @@ def value(kind: str, options: tuple[str, ...], chosen: int, focused: bool) -> Li
         for sign, x in (("left", AT + 14), ("right", W - 54)):
             icon(layer.glow, sign, x, 0, 18, FOCUS if focused else MIST, 5)
         option = options[chosen] if chosen < len(options) else ""
-        size = fit_size(option, readable(BODY), ROOM - 120, "body")
+        option, size = fit_text(option, readable(BODY), VALUE_ROOM, "body")
         layer.canvas.crisp.text(option, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
     else:
         w = chips(options)[0][1]

@@ -2,6 +2,7 @@
 
 import io
 import struct
+import tomllib
 from pathlib import Path
 
 import pygame
@@ -52,6 +53,10 @@ def test_modules_files_and_assets_are_in_it() -> None:
     for name in ("assets/text/en.toml", "assets/rude.toml", "./pyproject.toml", "assets/arenas/pitanks/classic.toml"):
         assert name in copied
     assert "pigaming_app/hardware/firmware/micropython/robot.py" in copied
+    wheel = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
+    shipped = {Path(name) for name in wheel["force-include"]}
+    places = {Path(folder) / Path(path).name for path, folder in contents.files()}
+    assert all(any(place.is_relative_to(name) for place in places) for name in shipped)
     assert not [name for name in copied if "pictures" in name or "__pycache__" in name]
     assert {"numpy", "pygame-ce"} <= set(contents.distributions())
 

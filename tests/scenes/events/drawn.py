@@ -23,9 +23,10 @@ def an_event(
     brains: str = "",
     rounds: int = 3,
     title: str = "Open day",
+    wide: bool = False,
 ) -> Event:
-    """An event of PiTanks in the short form; `brains`: of everybody; empty: people."""
-    entrants = tuple(Entrant(name, brains) for name in names(count))
+    """An event of PiTanks in the short form; `brains`: of everybody; empty: people; `wide`: the widest names."""
+    entrants = tuple(Entrant(f"WWWWWWWWW{name}" if wide else name, brains) for name in names(count))
     games = ("pitanks", "factory", "race") if form is Format.GRAND_PRIX else ("pitanks",)
     fill = "level3" if form is Format.GRAND_PRIX else ""
     rounds = 0 if form is Format.KNOCKOUT else min(rounds, count - 1)

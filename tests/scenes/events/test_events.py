@@ -12,16 +12,20 @@ from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.scenes.events import choice, next_page
 from pigaming_app.scenes.events.choice import EventsPage
-from pigaming_app.scenes.events.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.event_page import EventPage
+from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.flow.stack import Pop
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
@@ -30,6 +34,7 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets import setting_row
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events.drawn import an_event, played, result_of, running, saved
 from tests.ui.input.virtual_pad import VirtualPad
@@ -89,6 +94,42 @@ def test_an_event_is_set_up_by_pad_and_saved_before_its_first_match(arcade: Arca
     assert len(page.running.event.fixtures) == 6
 
 
+def test_games_and_arenas_take_turns_in_the_order_that_is_chosen(arcade: Arcade) -> None:
+    """By pad and mouse: a Grand Prix of race, PiTanks and factory, the race on two tracks."""
+    arcade.open(EventsPage(arcade.context))
+    arcade.press(Button.FIRE)
+    page = arcade.shown(SetupPage)
+    while page.draft.format is not Format.GRAND_PRIX:
+        arcade.press(Button.RIGHT)
+    arcade.press(Button.DOWN)
+    assert page.focus.name == "order"
+    while page.draft.order[:2] != ("race", "pitanks"):
+        arcade.press(Button.RIGHT)
+    page.draft.choose("rounds", 6)
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
+    arenas = arcade.shown(ArenasPage)
+    assert arenas.focus.name == "race classic"
+    arcade.press(Button.DOWN)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.UP)
+    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE)
+    assert page.draft.arenas("race") == ("hairpin", "classic")
+    arcade.click(*arenas.focus.rect("factory hall").center)
+    assert page.draft.arenas("factory") == ("hall",), "the only one stays"
+    arcade.press(Button.BACK)
+    page.draft.entrants += [Entrant(name) for name in ("ANA", "BEA", "EVA")]
+    arcade.shown(SetupPage)
+    arcade.press(Button.START)
+    arcade.press(Button.START)
+    event = saved(arcade.shown(NextMatch).running)
+    assert [(one.game, one.arena) for one in event.fixtures[:6]] == [
+        ("race", "hairpin"), ("pitanks", "classic"), ("factory", "hall"),
+        ("race", "classic"), ("pitanks", "classic"), ("factory", "hall"),
+    ]  # fmt: skip
+
+
 def test_hammering_fire_enters_no_name(arcade: Arcade) -> None:
     names: list[str] = []
     page = LettersPage(arcade.context, lambda name: names.append(name) or "", lambda: names)  # type: ignore[func-returns-value]
@@ -139,6 +180,37 @@ def test_too_few_entrants_do_not_begin(arcade: Arcade) -> None:
     assert page.navigation.sentence == arcade.context.words("events.few", fewest=3)
 
 
+def test_only_what_can_be_done_now_is_offered(arcade: Arcade) -> None:
+    page = EntrantsPage(arcade.context, Draft(Format.GRAND_PRIX), lambda draft: "")
+    arcade.open(page)
+    page.draw(arcade.screen)
+    assert page.navigation.prompts.buttons == [Button.FIRE, Button.BACK]
+    page.add_list("AAA\nBBB\nCCC")
+    page.navigation.update(9.0)
+    page.draw(arcade.screen)
+    assert page.navigation.prompts.buttons == [Button.FIRE, Button.START, Button.BACK]
+    arcade.press(Button.UP)
+    page.draw(arcade.screen)
+    assert page.navigation.prompts.buttons == [Button.X, Button.Y, Button.START, Button.BACK]
+
+
+@pytest.mark.parametrize("form", Format)
+def test_every_row_of_the_set_up_has_a_picture_of_its_value(arcade: Arcade, form: Format) -> None:
+    draft = Draft()
+    draft.choose("format", form)
+    page = SetupPage(arcade.context, draft, lambda draft: "")
+    arcade.open(page)
+    pictures = set()
+    for _ in page.focus.spots:
+        page.update(1.0)
+        page.draw(arcade.screen)
+        inner = setting_row.PANEL.inflate(-40, -40)
+        pictures.add(arcade.screen.subsurface(inner.x, inner.y, inner.w, 320).copy().get_buffer().raw)
+        arcade.press(Button.DOWN)
+    shared = len({"game", "order", "arena"} & set(draft.rows))
+    assert len(pictures) == len(page.focus.spots) - max(0, shared - 1), "game and arena share one"
+
+
 def test_every_draft_makes_an_event_that_can_be_played(arcade: Arcade) -> None:
     page = EventsPage(arcade.context)
     for form in Format:
@@ -160,7 +232,7 @@ def test_people_take_the_seats_of_their_names_and_the_result_is_on_disk_at_once(
     fixture = page.fixture
     assert fixture
     arcade.press(Button.FIRE, KEYS[0])
-    assert page.claims == {0: KEYS[0]}
+    assert page.seats.claims == {0: KEYS[0]}
     arcade.press(Button.FIRE, KEYS[1])
     arcade.wait(ALL_READY + 0.2, draw=True)
     scene = arcade.shown(MatchScene)
@@ -181,11 +253,11 @@ def test_each_pad_takes_its_own_seat_first(arcade: Arcade) -> None:
         pads = arcade.context.controls.pads()
         assert {pad.number for pad in pads} == {one.number, two.number}
         arcade.press(Button.FIRE, pads[1])
-        assert page.claims == {1: pads[1]}
+        assert page.seats.claims == {1: pads[1]}
         arcade.press(Button.LEFT, pads[1])
-        assert page.claims == {0: pads[1]}
+        assert page.seats.claims == {0: pads[1]}
         arcade.press(Button.BACK, pads[1])
-        assert page.claims == {}
+        assert page.seats.claims == {}
 
 
 def test_a_match_ended_by_hand_is_still_to_be_played(arcade: Arcade) -> None:
@@ -221,10 +293,10 @@ def test_absent_people_are_skipped_or_replaced_and_may_come_back(arcade: Arcade)
     arcade.press(Button.START)
     assert isinstance(arcade.stack.top, NextMatch), "somebody is missing"
     arcade.press(Button.Y)
-    assert (page.claims, page.waiting) == ({0: KEYS[0]}, [])
+    assert (page.seats.claims, page.seats.waiting) == ({0: KEYS[0]}, [])
     assert run.brain(second.entrants[1]) == "level3"
     arcade.press(Button.FIRE, KEYS[1])
-    assert page.claims == {0: KEYS[0], 1: KEYS[1]}
+    assert page.seats.claims == {0: KEYS[0], 1: KEYS[1]}
     assert saved(run).entrants == run.event.spec.entrants
 
 
@@ -390,12 +462,16 @@ def test_every_page_survives_every_press(arcade: Arcade) -> None:
     pages = (
         lambda: EventsPage(arcade.context),
         lambda: SetupPage(arcade.context, Draft(), lambda draft: "no"),
+        lambda: ArenasPage(arcade.context, Draft(game=BY_TURNS)),
         lambda: EntrantsPage(arcade.context, Draft(entrants=[Entrant("ANA")]), lambda draft: "no"),
         lambda: LettersPage(arcade.context, lambda name: "", list),
         lambda: NextMatch(arcade.context, run),
         lambda: TablePage(arcade.context, run),
         lambda: ResultsList(arcade.context, run),
         lambda: Correction(arcade.context, run, run.event.fixtures[0]),
+        lambda: EventPage(arcade.context, run.path, run, Pop()),
+        lambda: EventPage(arcade.context, run.path, None, Pop()),
+        lambda: TextPage(arcade.context, "Title", "Cup", 5, lambda text: ""),
         lambda: PodiumPage(arcade.context, running(played(an_event(count=3)), "over")),
     )
     for make in pages:

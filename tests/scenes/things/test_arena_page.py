@@ -2,16 +2,18 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import dist
+from math import dist, pi
 
 import pytest
 
+from pigaming_app.hardware.emulator.robots import RADIUS
 from pigaming_app.hardware.emulator.things.prism import TAPE, Prism, box
 from pigaming_app.hardware.scan.things import Layout, Thing, ThingKind
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout, things_in_play
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.real_replays import decode, pack, replay_of, verify
+from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.things.arena_page import ArenaPage
@@ -30,6 +32,7 @@ pytest.importorskip("cv2")
 
 PUSHED = 60.0  # mm
 NOTICED = 6.0  # s
+EXPLAINED = 2.0  # s from a fault to its cause
 BOXES = {
     "pitanks": ((20.0, -450.0), (-300.0, -150.0), (450.0, 250.0)),
     "factory": ((-200.0, -450.0), (0.0, 0.0)),
@@ -47,7 +50,7 @@ def frames(arcade: Arcade, mat: EmulatedSession, done: Callable[[Scene], bool], 
         if done(arcade.stack.top):
             return frame / FPS
         arcade.frame(1 / FPS, draw=True)
-        mat.show(lambda: pixels_of(arcade.screen).copy())
+        mat.show(lambda: pixels_of(arcade.screen))
     raise AssertionError(f"{type(arcade.stack.top).__name__} is on top after {timeout} s")
 
 
@@ -158,6 +161,51 @@ def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_p
     there = mat.arena.outline(replace(moved, outline=corners)).mean(axis=0).tolist()
     assert any(dist(one.middle, there) < 10.0 for one in match.plant.shown_things or ())
     assert any(dist(one.middle, there) < 10.0 for one in load_layout(mat).things)
+
+
+def cage(x: float, y: float) -> list[Prism]:
+    """Four boxes round a robot, mm on the mat, which leave it no room to drive."""
+    away = RADIUS + 3.0 + 20.0
+    sides = ((away, 0.0, 0.0), (-away, 0.0, 0.0), (0.0, away, 0.5 * pi), (0.0, -away, 0.5 * pi))
+    return [box(x + dx, y + dy, 40.0, 130.0, 60.0, turn, 0.45, "printed", 20) for dx, dy, turn in sides]
+
+
+@pytest.mark.long
+def test_things_pushed_against_a_robot_explain_that_it_does_not_follow_its_commands(
+    arcade: Arcade, cleared: EmulatedSession
+) -> None:
+    mat = cleared
+    things = [box(x, y, 90.0, 70.0, 90.0, 0.3, 0.45, "printed", i) for i, (x, y) in enumerate(BOXES["pitanks"])]
+    scanned(arcade, mat, things)
+    match = match_of(arcade.context, match_for("pitanks", "hard hard off off", 5.0), [], (0, 1))
+    assert isinstance(match, RealMatch)
+    arcade.open(match)
+    frames(arcade, mat, lambda _: match.gathering is None, 60.0)
+    frames(arcade, mat, lambda _: match.match.seconds > 1.0, 20.0)
+
+    mat.arena.faults.switch("pinned", True, 0)  # nothing has moved: the fault stays unexplained
+    frames(arcade, mat, lambda top: isinstance(top, FaultPage), 6.0)
+    page, viewers = arcade.stack.top, match.plant.rig.viewers
+    frames(arcade, mat, lambda _: bool(viewers), 1.0)
+    frames(arcade, mat, lambda _: match.watch.ended, 2.0)
+    assert arcade.stack.top is page
+    assert not viewers
+    mat.arena.faults.switch("pinned", False, 0)
+    arcade.press(Button.Y)
+    frames(arcade, mat, lambda top: isinstance(top, RealMatch), 5.0)
+    frames(arcade, mat, lambda _, at=match.match.seconds: match.match.seconds > at + 1.0, 10.0)  # type: ignore[misc]
+
+    robot, pose = mat.arena.robots[0], mat.arena.poses()[0]
+    mat.arena.furnish([*things, *cage(robot.x, robot.y)])
+    frames(arcade, mat, lambda top: isinstance(top, FaultPage), NOTICED)
+    frames(arcade, mat, lambda top: isinstance(top, MovedPage), EXPLAINED)
+    moved = arcade.shown(MovedPage)
+    assert any(dist(place, pose[:2]) < 100.0 for place in moved.places)
+    assert not match.plant.safety.latched
+    mat.arena.furnish(things)
+    arcade.press(Button.FIRE)
+    frames(arcade, mat, lambda top: isinstance(top, RealMatch), 60.0)
+    frames(arcade, mat, lambda _, at=match.match.seconds: match.match.seconds > at + 5.0, 10.0)  # type: ignore[misc]
 
 
 @pytest.mark.long

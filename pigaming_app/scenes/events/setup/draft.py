@@ -21,36 +21,40 @@ ROUNDS = {
 
 @dataclass
 class Draft:
-    """What has been chosen so far. `game`: one, or BY_TURNS; `order`: of the games of a Grand Prix; `arena`: of a
-    single game; `length`: one of LENGTHS; `fill`: true if AIs take the seats that would stay empty.
+    """What has been chosen so far. `game`: one, or BY_TURNS; `order`: of several games; `chosen`: arenas by game,
+    in the order of their turns; `length`: one of LENGTHS; `fill`: true if AIs take the seats that would stay empty.
     """
 
     format: Format = Format.KNOCKOUT
     game: str = ""
     order: tuple[str, ...] = ()
-    arena: str = ""
     length: str = "normal"
     rounds: int = 1
     seats: int = 2
     fill: bool = True
     entrants: list[Entrant] = field(default_factory=list)
+    chosen: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         names = tuple(games())
         self.game, self.order = self.game or names[0], self.order or names
-        self.arena = self.arena or self.arenas[0]
 
     @property
     def games(self) -> tuple[str, ...]:
         """The games that are played, in their order."""
-        if self.format is Format.GRAND_PRIX:
-            return self.order
-        return tuple(games()) if self.game == BY_TURNS else (self.game,)
+        return self.order if self.format is Format.GRAND_PRIX or self.game == BY_TURNS else (self.game,)
 
-    @property
-    def arenas(self) -> tuple[str, ...]:
-        """The arenas of a single game; of several, only the first of each is played."""
-        return playable_arenas(self.games[0])[: 99 if len(self.games) == 1 else 1]
+    def arenas(self, game: str) -> tuple[str, ...]:
+        """The arenas of a game, in the order of their turns; at least one."""
+        return self.chosen.get(game) or playable_arenas(game)[:1]
+
+    def toggle_arena(self, game: str, arena: str) -> bool:
+        """Add an arena behind the others of a game, or leave it out; false for the only one."""
+        now = self.arenas(game)
+        left = tuple(other for other in now if other != arena) if arena in now else (*now, arena)
+        if left:
+            self.chosen[game] = left
+        return bool(left)
 
     @property
     def rows(self) -> tuple[str, ...]:
@@ -58,8 +62,8 @@ class Draft:
         prix = self.format is Format.GRAND_PRIX
         rows = (
             "format",
-            "order" if prix else "game",
-            "arena",
+            *(() if prix else ("game",)),
+            *(("order",) if len(self.games) > 1 else ()),
             "length",
             "seats",
             "rounds",
@@ -75,8 +79,6 @@ class Draft:
             return (*games(), BY_TURNS)
         if row == "order":
             return tuple(permutations(games()))
-        if row == "arena":
-            return self.arenas
         if row == "length":
             return LENGTHS if any(len(variant_of(game).minutes) > 1 for game in self.games) else ("normal",)
         if row == "rounds":
@@ -88,7 +90,7 @@ class Draft:
         setattr(self, row, option)
         if row == "format":
             self.seats = 4 if self.format is Format.GRAND_PRIX else 2
-        for other in ("arena", "length", "rounds"):
+        for other in ("length", "rounds"):
             choices = self.options(other)
             if getattr(self, other) not in choices:
                 setattr(self, other, "normal" if other == "length" else choices[0])
@@ -112,7 +114,7 @@ class Draft:
             entrants=tuple(self.entrants),
             rounds=0 if self.format is Format.KNOCKOUT else rounds,
             seats=self.seats,
-            arenas={self.games[0]: self.arena} if len(self.games) == 1 else {},
+            arenas={game: self.arenas(game) for game in self.games},
             minutes={game: minutes for game in self.games if (minutes := self.minutes(game))},
             variants={game: RULES for game in self.games if RULES in games()[game].variants},
             seed=seed,

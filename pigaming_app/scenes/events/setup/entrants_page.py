@@ -15,6 +15,7 @@ from pigaming_app.ai.registry import AIS, level_of
 from pigaming_app.events.entrant_lists import entrants_of_text
 from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
 from pigaming_app.scenes.events.setup.draft import Draft
+from pigaming_app.scenes.events.setup.format_pictures import row_picture
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
@@ -22,23 +23,24 @@ from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.lab.saved_robots import file_of, names
 from pigaming_app.storage.parsing import read_text
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, chip, heading
+from pigaming_app.ui.widgets.labels import black_out, heading
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
 IDLE = 180.0  # s without input before the return to the title
 MESSAGE_SECONDS = 4.0
 MAX_LIST = 100_000  # bytes of a dropped file
 TEAMS = 4  # that can be chosen here
-COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 212  # px
-DEEDS_Y, DEED_H, DEED_GAP = 872, 70, 24  # px
+COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 204  # px
+DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
 LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN = "letters", "add_ai", "strength", "paste", "begin"
+SIGNS = {LETTERS: "plus", ADD_AI: "ai", PASTE: "list", BEGIN: "play"}
 DEEDS = (LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN)
 
 Begin = Callable[[Draft], "StackOperation | str"]
@@ -54,14 +56,7 @@ class EntrantsPage:
         self.brains = brains_for(draft.games)
         self.brain = "level3"
         self.focus = Focus(self._spots(), LETTERS)
-        hints = [
-            (Button.FIRE, "events.hint_choose"),
-            (Button.X, "events.hint_remove"),
-            *([(Button.Y, "events.hint_team")] if draft.format is Format.GRAND_PRIX else []),
-            (Button.START, "events.hint_begin"),
-            (Button.BACK, "events.hint_back"),
-        ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
+        self.navigation = Navigation(context, self.focus, self._hints(), IDLE, MESSAGE_SECONDS)
         context.dropped.clear()
 
     def on_enter(self) -> None:
@@ -98,19 +93,21 @@ class EntrantsPage:
         for spot in self.focus.spots:
             hot = spot.name == self.focus.name
             if spot.name in DEEDS:
-                chip(self._label(spot.name), spot.rect.w, "focus" if hot else "off", DEED_H).draw(
+                deed(self._label(spot.name), SIGNS.get(spot.name, ""), spot.rect.w, hot).draw(
                     screen, *spot.rect.topleft
                 )
             else:
                 entrant = self._entrant(spot.name)
                 cell(entrant.name, entrant.team, bool(entrant.brain), hot).draw(screen, *spot.rect.topleft)
         if not draft.entrants:
-            text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 470)
-            text(words("events.drop"), BODY, MIST).draw(screen, 960, 560)
+            row_picture("entrants", 0).draw(screen, 960, 390)
+            text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 610)
+            text(words("events.drop"), BODY, MIST).draw(screen, 960, 690)
         self.focus.draw(screen)
         if self.navigation.sentence:
             caption(self.navigation.sentence, FOCUS).draw(screen, 960, self.navigation.prompts.y)
         else:
+            self.navigation.prompts.items = tuple(self._hints())
             self.navigation.prompts.draw(screen)
 
     # ---- changes
@@ -214,6 +211,17 @@ class EntrantsPage:
 
     # ---- inside
 
+    def _hints(self) -> list[tuple[Button, str]]:
+        """The prompts of what can be done now: an entrant changes, and enough of them begin."""
+        named, teams = self.focus.name not in DEEDS, self.draft.format is Format.GRAND_PRIX
+        return [
+            *([] if named else [(Button.FIRE, "events.hint_choose")]),
+            *([(Button.X, "events.hint_remove")] if named else []),
+            *([(Button.Y, "events.hint_team")] if named and teams else []),
+            *([(Button.START, "events.hint_begin")] if len(self.draft.entrants) >= FEWEST else []),
+            (Button.BACK, "events.hint_back"),
+        ]
+
     def _entrant(self, spot: str) -> Entrant:
         return self.draft.entrants[int(spot)]
 
@@ -259,6 +267,20 @@ def one_a_line(text: str) -> str:
 
 
 @cached
+def deed(word: str, sign: str, w: int, hot: bool) -> LitImage:
+    """A box with an icon, if any, and a word; top left at (0, 0)."""
+    layer, color = Layer(0, 0, w, DEED_H), ICE if hot else MIST
+    layer.glow.line(cut_box(0, 0, w, DEED_H, 12), FOCUS if hot else STEEL, THIN, True)
+    lead = 60 if sign else 0
+    size = fit_size(word, BODY, w - lead - 24)
+    left = (w - lead - text_width(word, size)) / 2
+    if sign:
+        icon(layer.glow, sign, left + 20, DEED_H / 2, 20, FOCUS if hot else MIST, THIN)
+    layer.canvas.crisp.text(word, size, left + lead, DEED_H / 2, color, "head")
+    return layer.render()
+
+
+@cached
 def cell(name: str, team: str, ai: bool, hot: bool) -> LitImage:
     """An entrant; top left at (0, 0)."""
     layer = Layer(0, 0, CELL_W, CELL_H)
@@ -269,6 +291,6 @@ def cell(name: str, team: str, ai: bool, hot: bool) -> LitImage:
     right = CELL_W - (60 if team else 14)
     if team:
         layer.canvas.text(team, fit_size(team, BODY, 40), CELL_W - 34, CELL_H / 2, MIST, "head", "c")
-    size = fit_size(name, LABEL, right - left, "hero")
+    name, size = fit_text(name, LABEL, right - left, "hero")
     layer.canvas.text(name, size, (left + right) / 2, CELL_H / 2, FOCUS if hot else ICE, "hero", "c")
     return layer.render()

@@ -1,9 +1,25 @@
-"""A picture of each format: a bracket, a cross table, a ladder of rounds, a podium."""
+"""Pictures beside the rows: each format has its own, as have length, rounds, seats, AIs and names."""
 
+import math
 from collections.abc import Callable
 
 from pigaming_app.events.spec import Format
-from pigaming_app.ui.draw import FOCUS, ICE, LINE, MIST, PLAYERS, STEEL, THIN, GlowCanvas, cut_box, dim
+from pigaming_app.ui.draw import (
+    FOCUS,
+    ICE,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    SUB,
+    THIN,
+    TITLE,
+    GlowCanvas,
+    badge,
+    cut_box,
+    dim,
+    icon,
+)
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -61,6 +77,58 @@ def _podium(ink: GlowCanvas) -> None:
         ink.disc(-82 + 80 * i, -128, 14, PLAYERS[i])
 
 
+@cached
+def row_picture(row: str, chosen: int) -> LitImage:
+    """The picture of the row "length", "rounds", "seats", "fill" or "entrants" with its value, centred on (0, 0)."""
+    ink = GlowCanvas(2 * HALF, 2 * HALF).set_transform(HALF, HALF)
+    ROW_DRAWINGS[row](ink, chosen)
+    return LitImage(ink.lit(0.8), (-HALF, -HALF))
+
+
+def _length(ink: GlowCanvas, chosen: int) -> None:
+    """A clock face: a third of it, two thirds or all of it is lit."""
+    ink.ring(0, 0, 120, MIST, LINE).arc(0, 0, 92, -math.pi / 2, -math.pi / 2 + math.tau * (chosen + 1) / 3, FOCUS, 24)
+    ink.line([(0, -52), (0, 0), (34, 20)], ICE, LINE)
+
+
+def _rounds(ink: GlowCanvas, rounds: int) -> None:
+    """So many rounds, in an arrow that goes round."""
+    ink.arc(0, 0, 120, -math.pi / 2 + 0.5, 1.5 * math.pi - 0.1, FOCUS, LINE)
+    ink.line([(-30, -148), (-2, -120), (-30, -92)], FOCUS, LINE)
+    ink.text(str(rounds), TITLE, 0, 0, ICE, "hero", "c")
+
+
+def _seats(ink: GlowCanvas, seats: int) -> None:
+    """So many robots, face to face."""
+    places = {2: ((-80, 0), (80, 0)), 3: ((-90, 70), (0, -80), (90, 70))}
+    for seat, (x, y) in enumerate(places.get(seats, ((-84, -84), (84, -84), (-84, 84), (84, 84)))):
+        badge(ink, seat, x, y, 56)
+
+
+def _fill(ink: GlowCanvas, on: int) -> None:
+    """Two players, and a place that an AI takes, or that stays empty."""
+    for seat, x in enumerate((-130, 0)):
+        badge(ink, seat, x, 0, 48)
+    ink.dashes(cut_box(74, -56, 112, 112, 14), FOCUS if on else STEEL, THIN, 16, 12)
+    if on:
+        icon(ink, "ai", 130, 0, 40, FOCUS, THIN)
+
+
+def _names(ink: GlowCanvas, chosen: int) -> None:
+    """Three letters, and an AI."""
+    for i, letter in enumerate("ABC"):
+        ink.line(cut_box(-168 + 116 * i, -120, 100, 124, 14), FOCUS if i == 0 else MIST, LINE, True)
+        ink.text(letter, SUB, -118 + 116 * i, -58, FOCUS if i == 0 else ICE, "hero", "c")
+    icon(ink, "ai", 0, 88, 50, ICE, THIN)
+
+
+ROW_DRAWINGS: dict[str, Callable[[GlowCanvas, int], None]] = {
+    "length": _length,
+    "rounds": _rounds,
+    "seats": _seats,
+    "fill": _fill,
+    "entrants": _names,
+}
 DRAWINGS: dict[Format, Callable[[GlowCanvas], None]] = {
     Format.KNOCKOUT: _bracket,
     Format.ROUND_ROBIN: _cross_table,

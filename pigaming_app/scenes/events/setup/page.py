@@ -3,13 +3,16 @@
 import pygame
 
 from pigaming_app.events.spec import Format
+from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft, variant_of
 from pigaming_app.scenes.events.setup.entrants_page import Begin, EntrantsPage
-from pigaming_app.scenes.events.setup.format_pictures import picture
+from pigaming_app.scenes.events.setup.format_pictures import picture, row_picture
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.views import game_tile
+from pigaming_app.ui.draw import BODY, text_width
 from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row
@@ -18,7 +21,7 @@ from pigaming_app.ui.widgets.labels import black_out, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 IDLE = 120.0  # s without input before the return to the title
-NEXT = "entrants"  # the last row
+ARENA, NEXT = "arena", "entrants"  # rows that open a page
 
 
 class SetupPage:
@@ -32,7 +35,7 @@ class SetupPage:
             (Button.START, "events.hint_entrants"),
             (Button.BACK, "options.hint_back"),
         ]
-        self.focus = Focus(setting_row.spots((*draft.rows, NEXT)))
+        self.focus = Focus(setting_row.spots(self._rows))
         self.navigation = Navigation(context, self.focus, hints, IDLE)
 
     def on_enter(self) -> None:
@@ -43,16 +46,16 @@ class SetupPage:
         event = self.navigation.prompts.as_button(event)
         row = self.focus.name
         if event.button in (Button.FIRE, Button.START):
-            if event.button is Button.START or row == NEXT:
-                return self._go_on()
+            if event.button is Button.START or row in (ARENA, NEXT):
+                return self._open(NEXT if event.button is Button.START else row)
             self._step(row, 1, True)
             return None
         if event.button is Button.CLICK:
             self.focus.handle(event)
             row = self.focus.spot_at(event) or ""
-            if row == NEXT:
-                return self._go_on()
-        if row and row != NEXT and (by := setting_row.step_of(event, self.focus, self._value(row))):
+            if row in (ARENA, NEXT):
+                return self._open(row)
+        if row not in ("", ARENA, NEXT) and (by := setting_row.step_of(event, self.focus, self._value(row))):
             self._step(row, by, event.button is Button.CLICK)
             return None
         return None if event.button in (Button.LEFT, Button.RIGHT) else self.navigation.handle(event)
@@ -68,7 +71,7 @@ class SetupPage:
         values = {spot.name: self._value(spot.name) for spot in self.focus.spots}
         setting_row.draw(screen, words, self.focus, "events", values)
         frame(*setting_row.PANEL.size).draw(screen, *setting_row.PANEL.topleft)
-        picture(self.draft.format).draw(screen, *setting_row.CENTRE)
+        self._draw_picture(screen, focus, values[focus].chosen)
         if focus == "format":
             name = self.draft.format.value
             setting_row.describe(screen, words(f"events.{name}"), words(f"events.{name}_line"))
@@ -78,9 +81,29 @@ class SetupPage:
 
     # ---- inside
 
-    def _go_on(self) -> StackOperation:
+    @property
+    def _rows(self) -> list[str]:
+        """The rows of the draft, with the arenas below the games."""
+        rows = [*self.draft.rows, NEXT]
+        rows.insert(1 + max(i for i, row in enumerate(rows) if row in ("game", "order")), ARENA)
+        return rows
+
+    def _open(self, row: str) -> StackOperation:
         self.context.sounds.play("accept")
+        if row == ARENA:
+            return Push(ArenasPage(self.context, self.draft))
         return Push(EntrantsPage(self.context, self.draft, self.begin))
+
+    def _draw_picture(self, screen: pygame.Surface, row: str, chosen: int) -> None:
+        """Draw the picture of a row: of its value, else of the game or the format."""
+        draft, panel = self.draft, setting_row.PANEL
+        if row in ("game", "order", "arena"):
+            game_tile.picture(draft.games[0]).draw(screen, panel.x, panel.y + 48)
+        elif row == "format":
+            picture(draft.format).draw(screen, *setting_row.CENTRE)
+        else:
+            number = {"rounds": draft.rounds, "seats": draft.seats}.get(row, chosen)
+            row_picture(row, number).draw(screen, *setting_row.CENTRE)
 
     def _step(self, row: str, by: int, cyclic: bool) -> None:
         """Step the value of a row; `cyclic`: after the last one comes the first."""
@@ -89,13 +112,15 @@ class SetupPage:
         now = now % len(options) if cyclic else max(0, min(len(options) - 1, now))
         if options[now] != getattr(self.draft, row):
             self.draft.choose(row, options[now])
-            self.focus.set_spots(setting_row.spots((*self.draft.rows, NEXT)))
+            self.focus.set_spots(setting_row.spots(self._rows))
             self.context.sounds.play("move")
 
     def _value(self, row: str) -> SettingValue:
         words, draft = self.context.words, self.draft
         if row == NEXT:
             return SettingValue("deed", (words("events.go_on"),))
+        if row == ARENA:
+            return SettingValue("deed", (self._arenas(),))
         options = draft.options(row)
         names = tuple(self._name(row, option) for option in options)
         short = row in ("seats", "rounds", "fill")
@@ -110,13 +135,18 @@ class SetupPage:
             return words("events.turns" if option == BY_TURNS else f"games.{option}")
         if row == "order" and isinstance(option, tuple):
             return "  ·  ".join(words(f"events.short_{game}") for game in option)
-        if row == "arena":
-            return arena_title(load_cached(self.draft.games[0], str(option)), words.language)
         if row == "length":
             return self._length(str(option))
         if row == "fill":
             return words("options.on" if option else "options.off")
         return str(option)
+
+    def _arenas(self) -> str:
+        """All arenas by name, or how many there are, if the names have no room."""
+        words, draft = self.context.words, self.draft
+        found = [(game, arena) for game in draft.games for arena in draft.arenas(game)]
+        names = "  ·  ".join(arena_title(load_cached(*one), words.language) for one in found)
+        return names if text_width(names, BODY) < setting_row.ROOM - 60 else words("events.by_turns", count=len(found))
 
     def _length(self, length: str) -> str:
         """A length in words; of a single game in minutes."""

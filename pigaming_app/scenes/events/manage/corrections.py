@@ -6,6 +6,7 @@ import pygame
 
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import WALKOVER, Fixture, Outcome
+from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.running import RunningEvent, stage_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
@@ -14,7 +15,7 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.caption import caption
@@ -26,6 +27,7 @@ IDLE = 60.0  # s without input before the return to the table
 MESSAGE_SECONDS = 5.0
 ROWS, TOP, HIGH, PITCH = 7, 212, 88, 104  # px
 NOTES = ("note_referee", "note_robot", "note_agreed", "note_seats")
+MAX_NOTE = 80  # characters
 NOTE, SAVE = " note", " save"  # rows below the entrants, whose names begin with no space
 
 log = logging.getLogger("pigaming")
@@ -138,10 +140,11 @@ class Correction:
         self.scores = before.scores
         self.places = {name: place for place, names in places_of(before) for name in names}
         self.names = sorted(fixture.entrants, key=lambda name: (self.places[name], name))
-        self.note = 0
+        self.note, self.own = 0, ""  # the reason: one of those offered, or in own words
         self.focus = Focus(setting_row.spots((*self.names, NOTE, SAVE)))
         hints = [
             (Button.RIGHT, "options.hint_change"),
+            (Button.X, "events.hint_words"),
             (Button.START, "events.hint_save"),
             (Button.BACK, "events.hint_back"),
         ]
@@ -151,8 +154,12 @@ class Correction:
         """Nothing to do."""
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """LEFT and RIGHT change a place or the note; START and the last row save."""
+        """LEFT and RIGHT change a place or the reason, X writes it; START and the last row save."""
         event = self.navigation.prompts.as_button(event)
+        if event.button is Button.X:
+            self.context.sounds.play("accept")
+            title = self.context.words("events.note")
+            return Push(TextPage(self.context, title, self.own, MAX_NOTE, self._write))
         row = self.focus.name
         if event.button is Button.CLICK:
             self.focus.handle(event)
@@ -200,24 +207,37 @@ class Correction:
         """The result as it would be saved."""
         ranks = sorted(set(self.places.values()))
         places = tuple(tuple(name for name in self.names if self.places[name] == rank) for rank in ranks)
-        return Outcome(self.fixture.number, places, self.scores, self.context.words(f"events.{NOTES[self.note]}"))
+        return Outcome(self.fixture.number, places, self.scores, self._reasons[self.note])
 
     # ---- inside
 
     def _value(self, row: str) -> SettingValue:
         words = self.context.words
         if row == NOTE:
-            return SettingValue("arrows", tuple(words(f"events.{note}") for note in NOTES), self.note)
+            return SettingValue("arrows", self._reasons, self.note)
         if row == SAVE:
             return SettingValue("deed", (words("events.hint_save"),))
         return SettingValue("toggle", tuple(str(i + 1) for i in range(len(self.names))), self._rank(row))
+
+    @property
+    def _reasons(self) -> tuple[str, ...]:
+        """The reasons that are offered, and the one in own words."""
+        return (*(self.context.words(f"events.{note}") for note in NOTES), *([self.own] if self.own else []))
+
+    def _write(self, reason: str) -> str:
+        """Take a reason; returns the sentence why not, or an empty one."""
+        if not reason or reason == WALKOVER:
+            return self.context.words("events.no_reason")
+        self.own = reason
+        self.note = len(NOTES)
+        return ""
 
     def _rank(self, name: str) -> int:
         return min(self.places[name], len(self.names)) - 1
 
     def _step(self, row: str, by: int) -> None:
         if row == NOTE:
-            self.note = (self.note + by) % len(NOTES)
+            self.note = (self.note + by) % len(self._reasons)
         else:
             self.places[row] = (self._rank(row) + by) % len(self.names) + 1
         self.context.sounds.play("move")
@@ -261,7 +281,8 @@ def result_row(where: str, line: str, noted: bool, hot: bool) -> LitImage:
     layer.glow.line(cut_box(0, 0, w, HIGH, 16), FOCUS if hot else STEEL, THIN, True)
     layer.canvas.body(where, 32, HIGH / 2, MIST, "l", fit_size(where, BODY, 400, "body"))
     room = w - 480 - (90 if noted else 30)
-    layer.canvas.text(line, fit_size(line, LABEL, room), 470, HIGH / 2, FOCUS if hot else ICE, "head")
+    line, size = fit_text(line, LABEL, room)
+    layer.canvas.text(line, size, 470, HIGH / 2, FOCUS if hot else ICE, "head")
     if noted:
         icon(layer.glow, "wheel", w - 56, HIGH / 2, 22, FOCUS, 4)
     return layer.render()

@@ -1,0 +1,1 @@
+"""What an operator changes: results, title, entrants; the end of an event."""

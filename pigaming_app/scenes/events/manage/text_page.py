@@ -1,0 +1,138 @@
+"""A line of text: typed on the keyboard, or letter by letter with stick and button."""
+
+from collections.abc import Callable
+
+import pygame
+
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.ui.draw import ALARM, BODY, BOLD, FOCUS, HERO, ICE, LINE, MIST, TITLE, cut_box
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
+
+IDLE = 120.0  # s without input before the page is left
+INPUT_LOCKOUT = 0.3  # s during which input is ignored
+ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZÁÂÃÀÄÇÉÊÈÍÑÓÔÕÖÚÜ0123456789.,-!? "
+LINE_BOX = pygame.Rect(LEFT, 250, RIGHT - LEFT, 120)
+W, H, MIDDLE, HINT_Y = 216, 276, 600, 850  # px: letter box, its middle, the line below
+CURSOR = "_"
+
+
+class TextPage:
+    """`accept`: takes the text, and returns the sentence why not, if it cannot; `most`: characters."""
+
+    def __init__(self, context: Context, title: str, before: str, most: int, accept: Callable[[str], str]) -> None:
+        self.context, self.title, self.most, self.accept = context, title, most, accept
+        self.text = before
+        self.picker = LetterPicker(ALPHABET, ALPHABET[0])
+        self.refusal = ""
+        self.age = 0.0
+        hints = [
+            (Button.FIRE, "events.hint_letter"),
+            (Button.X, "events.hint_erase"),
+            (Button.START, "events.hint_save"),
+            (Button.BACK, "events.hint_back"),
+        ]
+        self.prompts = context.prompts(hints)
+
+    def on_enter(self) -> None:
+        """Take over the letters of the keyboard."""
+        self.context.controls.typist = self.type
+
+    def on_leave(self) -> None:
+        """Give the keyboard back."""
+        self.context.controls.typist = None
+
+    def type(self, letter: str) -> None:
+        """Add a typed letter; a backspace erases the last one."""
+        self.refusal = ""
+        if letter == "\b":
+            self._erase()
+        elif self.age >= INPUT_LOCKOUT:
+            self._add(letter)
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """UP and DOWN turn the letter, FIRE and RIGHT add it, X and LEFT erase the last one, START saves."""
+        event = self.prompts.as_button(event)
+        if self.age < INPUT_LOCKOUT:
+            return None
+        if event.button not in (Button.POINT, Button.FOUND, Button.LOST):
+            self.refusal = ""
+        match event.button:
+            case Button.UP | Button.DOWN:
+                self._turn(-1 if event.button is Button.UP else 1)
+            case Button.FIRE | Button.RIGHT:
+                self._add(self.picker.spelled)
+            case Button.X | Button.LEFT:
+                self._erase()
+            case Button.START:
+                return self._save()
+            case Button.BACK:
+                self.context.sounds.play("back")
+                return Pop()
+            case Button.CLICK if event.at and abs(event.at[0] - 960) <= W / 2:
+                self._click(event.at[1] - MIDDLE)
+            case _:
+                pass
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        """Animate; leave when idle."""
+        self.age += seconds
+        self.picker.update(seconds)
+        return Pop() if self.context.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words = self.context.words
+        screen.blit(backdrop(), (0, 0))
+        heading(self.title, f"{len(self.text)} / {self.most}").draw(screen)
+        black_out(screen, LINE_BOX)
+        line_box().draw(screen, *LINE_BOX.topleft)
+        shown = self.text + CURSOR
+        room = LINE_BOX.w - 80
+        text(shown, fit_size(shown, TITLE, room), ICE, "head", "l", room).draw(
+            screen, LINE_BOX.x + 40, LINE_BOX.centery
+        )
+        letter_box(W, H).draw(screen, 960, MIDDLE)
+        draw_letters(screen, self.picker, [960], MIDDLE, HERO, 60, ICE)
+        cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, 960, MIDDLE)
+        text(self.refusal or words("events.type"), BODY, ALARM if self.refusal else MIST).draw(screen, 960, HINT_Y)
+        self.prompts.draw(screen)
+
+    # ---- inside
+
+    def _turn(self, by: int) -> None:
+        self.context.sounds.play(self.picker.turn(by))
+
+    def _add(self, letter: str) -> None:
+        full = len(self.text) >= self.most
+        self.text += "" if full else letter
+        self.context.sounds.play("refused" if full else "accept")
+
+    def _erase(self) -> None:
+        self.context.sounds.play("back" if self.text else "refused")
+        self.text = self.text[:-1]
+
+    def _click(self, below: float) -> None:
+        """A click on the letter adds it; above or below it, it turns."""
+        if abs(below) <= H / 2:
+            self._add(self.picker.spelled)
+        elif abs(below) <= H / 2 + 90:
+            self._turn(-1 if below < 0 else 1)
+
+    def _save(self) -> StackOperation:
+        self.refusal = self.accept(" ".join(self.text.split()))
+        self.context.sounds.play("refused" if self.refusal else "ready")
+        return None if self.refusal else Pop()
+
+
+@cached
+def line_box() -> LitImage:
+    """The box round the text; top left at (0, 0)."""
+    layer = Layer(0, 0, *LINE_BOX.size)
+    layer.glow.line(cut_box(0, 0, *LINE_BOX.size, 20), FOCUS, LINE, True)
+    return layer.render()

@@ -1,0 +1,112 @@
+"""Seats of the next match of an event: which device takes which, and their cards."""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+
+import pygame
+
+from pigaming_app.events.spec import Fixture
+from pigaming_app.scenes.events import next_view as view
+from pigaming_app.scenes.events.drivers import driver_label, people_of, suggested
+from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.flow.brain_names import brain_name
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.widgets.labels import black_out, pulse
+from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar
+
+
+class Seats:
+    """The seats of the first open match. `claims`: the devices that have taken one, by seat."""
+
+    def __init__(self, context: Context, running: RunningEvent) -> None:
+        self.context, self.running = context, running
+        self.claims: dict[int, Device] = {}
+
+    @property
+    def fixture(self) -> Fixture | None:
+        """The match; None when all have been played."""
+        open_now = self.running.event.open
+        return open_now[0] if open_now else None
+
+    @property
+    def people(self) -> list[int]:
+        """Seats of people who play themselves."""
+        fixture = self.fixture
+        return people_of(self.running, fixture) if fixture else []
+
+    @property
+    def waiting(self) -> list[int]:
+        """Seats of people that nobody has taken."""
+        return [seat for seat in self.people if seat not in self.claims]
+
+    def take(self, device: Device) -> bool:
+        """Take a seat: the one of this device, or the first that is free; false if there is none."""
+        fixture = self.fixture
+        own = [seat for seat in self.waiting if device in (self.suggested(seat), self._last(seat))]
+        seats = [*own, *self.waiting]
+        if fixture is None or not seats:
+            return False
+        self.claims[seats[0]] = device
+        self.running.devices[fixture.entrants[seats[0]]] = device
+        self.context.sounds.play("join", seats[0])
+        return True
+
+    def move(self, device: Device, by: int) -> bool:
+        """Move a device to the next seat of a person; whoever sits there takes the other one. False if it cannot."""
+        seats = self.people
+        own = next((seat for seat, other in self.claims.items() if other == device), None)
+        if own is None or len(seats) < 2:
+            return False
+        there = seats[(seats.index(own) + by) % len(seats)]
+        other = self.claims.pop(there, None)
+        del self.claims[own]
+        self.claims[there] = device
+        if other:
+            self.claims[own] = other
+        return True
+
+    def release(self, device: Device) -> None:
+        self.claims = {seat: other for seat, other in self.claims.items() if other != device}
+
+    def suggested(self, seat: int) -> Device | None:
+        return suggested(self.context.controls, self.people, seat)
+
+    def label(self, seat: int) -> str:
+        """The button that takes a seat."""
+        return self.context.words.key_name(self.context.controls.label(self.suggested(seat), Button.FIRE))
+
+    def draw(self, screen: pygame.Surface, clock: float) -> None:
+        """Draw the cards. `clock`: s since the page opened."""
+        fixture, words = self.fixture, self.context.words
+        assert fixture is not None
+        count = len(fixture.entrants)
+        black_out(screen, *(view.card_rect(i, count) for i in range(count)))
+        for seat, name in enumerate(fixture.entrants):
+            x, y = view.card_rect(seat, count).topleft
+            brain, taken = self.running.brain(name), seat in self.claims
+            state = view.AI if brain else view.TAKEN if taken else view.WANTED
+            view.frame(seat, name, *self._driver(seat, brain), state).draw(screen, x, y)
+            view.draw_robot(screen, seat, x, y, clock, taken)
+            if brain:
+                view.note_bar(brain_name(words, fixture.game, brain)).draw(screen, x, y)
+            elif taken:
+                ready_bar(seat, words("lobby.ready")).draw(screen, x, y)
+            else:
+                ask_bar(self.label(seat), words("events.press"), pulse(clock, 5)).draw(screen, x, y)
+
+    def jobs(self) -> Iterator[Callable[[], object]]:
+        """The cards, one by one."""
+        for seat, name in enumerate(self.fixture.entrants if self.fixture else ()):
+            brain = self.running.brain(name)
+            yield partial(view.frame, seat, name, *self._driver(seat, brain), view.AI if brain else view.WANTED)
+
+    def _last(self, seat: int) -> Device | None:
+        """What the entrant on a seat has driven with before."""
+        fixture = self.fixture
+        return self.running.devices.get(fixture.entrants[seat]) if fixture else None
+
+    def _driver(self, seat: int, brain: str) -> tuple[str, str]:
+        """Icon and name of who or what drives."""
+        device = None if brain else self.claims.get(seat) or self.suggested(seat)
+        return driver_label(self.context.words, self.context.controls, device, brain)

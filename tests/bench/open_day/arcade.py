@@ -1,0 +1,119 @@
+"""The arcade of the day with its visitors in it: `python -m tests.bench.open_day.arcade FOLDER`, under a supervisor.
+
+Simulated time runs as fast as the machine permits; only every DRAWN-th frame of a scene is drawn, and its first one.
+"""
+
+import json
+import os
+import sys
+import traceback
+from pathlib import Path
+from time import sleep
+from typing import Any
+
+from tests.bench.open_day import clock as day_clock
+
+STEP = 0.08  # s of a frame: as many ticks as the arcade plays in one
+DRAWN = 25
+RESTART = 15.0  # s of the day that a kill and a restart take
+PHONE_PAUSE = 0.004  # s of real time a frame with phones on the stage: they live in real time
+PORT = "PIGAMING_TEST_PHONES"  # variable of the environment
+
+
+def main(folder: Path) -> int:
+    """Run the arcade until the day is over. Returns its exit code."""
+    clock = day_clock.DayClock(folder / "clock")
+    day_clock.install(clock)
+
+    from pigaming_app.jobs.kiosk import child
+    from pigaming_app.scenes.app import App, Options, opened
+    from pigaming_app.scenes.events.next_page import NextMatch
+    from pigaming_app.scenes.play.scene import MatchScene
+    from pigaming_app.scenes.results.initials import Initials
+    from pigaming_app.scenes.results.scene import Results
+    from pigaming_app.scenes.results.winner import WinnersMoment
+    from pigaming_app.scenes.title.scene import Title
+    from tests.bench.open_day import ledger as ledgers
+    from tests.bench.open_day.event_visit import EventVisit
+    from tests.bench.open_day.hands import PhoneHands
+    from tests.bench.open_day.plan import plan
+    from tests.bench.open_day.stage import Stage
+    from tests.bench.open_day.visit import Visit
+    from tests.bench.open_day.watch import Watch
+
+    day = plan(**json.loads((folder / "day.json").read_text(encoding="utf-8")))
+    seen = ledgers.read(folder / "ledger")
+    begin = clock.seconds + (RESTART if seen.lives else 0.0)
+    clock.write(begin, os.getpid(), "other", 0)
+    crew: list[tuple[App, Watch, Stage]] = []
+    frames = 0
+
+    def place(top: Any) -> str:
+        if isinstance(top, MatchScene):
+            if top.match.over:
+                return "ending" if top.after else "results"
+            return "event" if top.after and top.match.state.tick else "match" if top.match.state.tick else "other"
+        if isinstance(top, WinnersMoment) and isinstance(top.then, NextMatch):
+            return "ending"
+        return "results" if isinstance(top, Initials | Results) else "title" if isinstance(top, Title) else "other"
+
+    def over() -> bool:
+        try:
+            return after_frame()
+        except Exception:  # of the script, which would count as a failure of the screen
+            crew[0][1].trouble(traceback.format_exc())
+            raise SystemExit(0) from None
+
+    def after_frame() -> bool:
+        nonlocal frames
+        frames += 1
+        app, watch, stage = crew[0]
+        now = begin + frames * STEP
+        watch.look(now, stage.group)
+        clock.write(now, os.getpid(), place(app.stack.scenes[-1] if app.stack.scenes else None), frames)
+        stage.play(now)
+        if any(isinstance(player.hands, PhoneHands) for player in stage.players):
+            sleep(PHONE_PAUSE)
+        return now >= day.seconds and not stage.busy and not watch.pending
+
+    settings = {"phones": True, "phones_network": "127.0.0.1", "phones_port": int(os.environ[PORT]), "language": "en"}
+    options = Options(
+        headless=True,
+        kiosk=True,
+        step=STEP,
+        should_close=over,
+        heartbeat=child.heartbeat(),
+        changed_settings=settings if not seen.lives else {},
+    )
+    with opened(options) as app:
+        draw_rarely(app)
+        file = ledgers.LedgerFile(folder / "ledger")
+        watch = Watch(app, day, file, seen.lives + 1)
+        stage = Stage(app, day, seen, watch, begin)
+        Visit(stage)
+        EventVisit(stage)
+        crew.append((app, watch, stage))
+        try:
+            return app.loop()
+        finally:
+            stage.handsets.close()
+            file.close()
+
+
+def draw_rarely(app: Any) -> None:
+    """Draw the first frame of each scene, and then every DRAWN-th; the others count as unfinished pictures."""
+    paint, last, since = app._paint, None, 0
+
+    def paint_rarely(cpu_start: float) -> bool:
+        nonlocal last, since
+        since += 1
+        if app.stack.top is last and since < DRAWN:
+            return False
+        last, since = app.stack.top, 0
+        return bool(paint(cpu_start))
+
+    app._paint = paint_rarely
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))

@@ -1,0 +1,76 @@
+"""Simulated time of the day, also for the local time of day; a few bytes in a file, which survive a kill.
+
+`install` replaces `datetime.datetime` and `datetime.date` in this process by classes whose `now` and `today` follow it:
+the day log, the high scores, the quiet hours and the names of files then have simulated times. It has to be called
+before PiGaming is imported.
+"""
+
+import datetime as datetime_module
+import mmap
+import struct
+from pathlib import Path
+from typing import Any
+
+OPENING = datetime_module.datetime(2026, 6, 20, 10, 0)  # local time
+RECORD = struct.Struct("<dIII")  # seconds, process, place, frames
+PLACES = ("other", "title", "match", "event", "ending", "results")
+REAL_DATETIME, REAL_DATE = datetime_module.datetime, datetime_module.date
+
+
+class DayClock:
+    """The file, written by the arcade and read by the script that kills it."""
+
+    def __init__(self, path: Path) -> None:
+        if not path.exists():
+            path.write_bytes(bytes(RECORD.size))
+        with path.open("r+b") as file:
+            self._bytes = mmap.mmap(file.fileno(), RECORD.size)
+
+    @property
+    def seconds(self) -> float:
+        """Since the opening."""
+        return float(self._read()[0])
+
+    @property
+    def process(self) -> int:
+        """The process that wrote last; 0: none."""
+        return int(self._read()[1])
+
+    @property
+    def place(self) -> str:
+        """One of PLACES."""
+        return PLACES[self._read()[2]]
+
+    @property
+    def frames(self) -> int:
+        """Of the process that wrote last."""
+        return int(self._read()[3])
+
+    def write(self, seconds: float, process: int, place: str, frames: int) -> None:
+        self._bytes[:] = RECORD.pack(seconds, process, PLACES.index(place), frames)
+
+    def _read(self) -> tuple[Any, ...]:
+        return RECORD.unpack(self._bytes[:])
+
+
+def install(clock: DayClock) -> None:
+    """Let this process live in simulated time."""
+
+    class _Same(type):
+        """Values of the real class count as well."""
+
+        def __instancecheck__(cls, value: object) -> bool:
+            return isinstance(value, REAL_DATETIME if issubclass(cls, REAL_DATETIME) else REAL_DATE)
+
+    class SimulatedDatetime(REAL_DATETIME, metaclass=_Same):
+        @classmethod
+        def now(cls, tz: Any = None) -> Any:
+            return (OPENING + datetime_module.timedelta(seconds=clock.seconds)).astimezone(tz).replace(tzinfo=tz)
+
+    class SimulatedDate(REAL_DATE, metaclass=_Same):
+        @classmethod
+        def today(cls) -> Any:
+            return (OPENING + datetime_module.timedelta(seconds=clock.seconds)).date()
+
+    datetime_module.datetime = SimulatedDatetime  # type: ignore[misc]
+    datetime_module.date = SimulatedDate  # type: ignore[misc]

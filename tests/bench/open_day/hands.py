@@ -1,0 +1,150 @@
+"""What a visitor or the operator holds: a virtual pad, a phone, or the keyboard. All press the arcade's own buttons."""
+
+from collections.abc import Callable
+from typing import Protocol
+
+import pygame
+
+from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.input.phones.protocol import BITS, Touches
+from pigaming_app.ui.input.phones.registry import Phones
+from tests.bench.open_day.handsets import Handset
+from tests.ui.input.virtual_pad import VirtualPad
+
+PAD = {
+    Button.FIRE: "a", Button.BACK: "b", Button.X: "x", Button.Y: "y", Button.START: "start",
+    Button.UP: "up", Button.DOWN: "down", Button.LEFT: "left", Button.RIGHT: "right",
+}  # fmt: skip
+STICK = {Button.UP: (0.0, -1.0), Button.DOWN: (0.0, 1.0), Button.LEFT: (-1.0, 0.0), Button.RIGHT: (1.0, 0.0)}
+KEYS = {
+    Button.FIRE: pygame.KSCAN_RCTRL, Button.BACK: pygame.KSCAN_ESCAPE, Button.UP: pygame.KSCAN_UP,
+    Button.DOWN: pygame.KSCAN_DOWN, Button.LEFT: pygame.KSCAN_LEFT, Button.RIGHT: pygame.KSCAN_RIGHT,
+}  # fmt: skip
+
+
+class Hands(Protocol):
+    """A device in use."""
+
+    @property
+    def device(self) -> Device | None:
+        """The arcade's name of it; None while it is gone."""
+
+    def press(self, button: Button) -> None:
+        """Hold a button down."""
+
+    def release(self, button: Button) -> None:
+        """Release it."""
+
+    def steer(self, x: float, y: float, fire: bool, turbo: bool) -> None:
+        """Drive from now on; axes in [-1, 1], y down."""
+
+    def unplug(self) -> None:
+        """Pull the cable, or lock the phone."""
+
+    def plug(self) -> None:
+        """Put it back."""
+
+
+class PadHands:
+    """A pad that the visitors hand on."""
+
+    def __init__(self) -> None:
+        self.pad = VirtualPad()
+
+    @property
+    def device(self) -> Device | None:
+        return Device("pad", self.pad.number) if self.pad.plugged else None
+
+    def press(self, button: Button) -> None:
+        if self.pad.plugged:
+            self.pad.press(PAD[button])
+
+    def release(self, button: Button) -> None:
+        if self.pad.plugged:
+            self.pad.release(PAD[button])
+
+    def steer(self, x: float, y: float, fire: bool, turbo: bool) -> None:
+        if self.pad.plugged:
+            self.pad.stick(x, y)
+            (self.pad.press if fire else self.pad.release)("a")
+            (self.pad.press if turbo else self.pad.release)("rightshoulder")
+
+    def unplug(self) -> None:
+        self.pad.unplug()
+
+    def plug(self) -> None:
+        self.pad = VirtualPad()
+
+
+class PhoneHands:
+    """A visitor's phone. `taken`: the numbers of other phones."""
+
+    def __init__(self, handset: Handset, phones: Phones, taken: Callable[[], set[int]]) -> None:
+        self.handset, self._phones, self._taken = handset, phones, taken
+        self.number: int | None = None
+        self._touches = Touches()
+
+    @property
+    def device(self) -> Device | None:
+        if self.number is None:
+            new = sorted(set(self._phones.plugged) - self._taken())
+            self.number = new[0] if new else None
+        return Device("phone", self.number) if self.number in self._phones.plugged else None
+
+    def press(self, button: Button) -> None:
+        if button in STICK:
+            self._send(*STICK[button], self._touches.buttons)
+        else:
+            self._send(self._touches.x, self._touches.y, self._touches.buttons | BITS[button])
+
+    def release(self, button: Button) -> None:
+        if button in STICK:
+            self._send(0.0, 0.0, self._touches.buttons)
+        else:
+            self._send(self._touches.x, self._touches.y, self._touches.buttons & ~BITS[button])
+
+    def steer(self, x: float, y: float, fire: bool, turbo: bool) -> None:
+        self._send(x, y, BITS[Button.FIRE] * fire | BITS[Button.BACK] * turbo)
+
+    def unplug(self) -> None:
+        self.handset.lock()
+
+    def plug(self) -> None:
+        self._touches = Touches()
+        self.handset.unlock()
+
+    def _send(self, x: float, y: float, buttons: int) -> None:
+        touches = Touches(x, y, buttons)
+        if touches != self._touches:
+            self._touches = touches
+            self.handset.touch(touches)
+
+
+class KeyHands:
+    """The operator's keyboard."""
+
+    device = Device("keys", 1)
+
+    def press(self, button: Button) -> None:
+        self._post(pygame.KEYDOWN, KEYS[button])
+
+    def release(self, button: Button) -> None:
+        self._post(pygame.KEYUP, KEYS[button])
+
+    def steer(self, x: float, y: float, fire: bool, turbo: bool) -> None:
+        """The operator does not drive."""
+
+    def unplug(self) -> None:
+        """A keyboard stays."""
+
+    def plug(self) -> None:
+        """A keyboard stays."""
+
+    def hold_f10(self, down: bool) -> None:
+        """Hold F10, or release it."""
+        kind = pygame.KEYDOWN if down else pygame.KEYUP
+        pygame.event.post(pygame.Event(kind, key=pygame.K_F10, scancode=pygame.KSCAN_F10, mod=0))
+
+    @staticmethod
+    def _post(kind: int, scancode: int) -> None:
+        pygame.event.post(pygame.Event(kind, key=0, scancode=scancode, mod=0))

@@ -1,0 +1,108 @@
+"""Phones without a browser: real sockets to the arcade's real server, in a thread of their own."""
+
+import asyncio
+import threading
+from contextlib import suppress
+
+from aiohttp import ClientError, ClientSession, ClientTimeout, WSMsgType
+
+from pigaming_app.ui.input.phones.protocol import Touches, pack
+
+BEAT = 0.15  # s between two messages of a phone that is not touched
+RETRY = 0.1  # s until the next attempt to connect
+
+
+class Handset:
+    """A phone that has scanned the code. `touch` is called from any thread."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, session: ClientSession, url: str) -> None:
+        self._loop, self._session, self._url = loop, session, url
+        self._origin = url.rsplit("/", 1)[0]
+        self._touches: asyncio.Queue[Touches] = asyncio.Queue()
+        self._now = Touches()
+        self._resume = ""
+        self.connections = self.texts = 0
+        self._task: asyncio.Task[None] | None = None
+        self.unlock()
+
+    def touch(self, touches: Touches) -> None:
+        """Send what the player touches from now on."""
+        self._loop.call_soon_threadsafe(self._touches.put_nowait, touches)
+
+    def lock(self) -> None:
+        """Lock the phone: its socket is cut without a farewell."""
+        self._loop.call_soon_threadsafe(self._cancel)
+
+    def unlock(self) -> None:
+        """Open the page again: the phone returns with the token that it has."""
+        self._loop.call_soon_threadsafe(self._start)
+
+    def _start(self) -> None:
+        if self._task is None or self._task.done():
+            self._task = self._loop.create_task(self._live())
+
+    def _cancel(self) -> None:
+        if self._task:
+            self._task.cancel()
+
+    async def _live(self) -> None:
+        while True:
+            with suppress(ClientError, OSError, TimeoutError):
+                await self._serve()
+            await asyncio.sleep(RETRY)
+
+    async def _serve(self) -> None:
+        while not self._touches.empty():
+            self._touches.get_nowait()
+        self._now = Touches()
+        socket = await self._session.ws_connect(f"{self._url}/pad?resume={self._resume}", origin=self._origin)
+        reader = asyncio.create_task(self._read(socket))
+        self.connections += 1
+        try:
+            while not socket.closed:
+                await socket.send_bytes(pack(self._now))
+                with suppress(TimeoutError):
+                    self._now = await asyncio.wait_for(self._touches.get(), BEAT)
+        finally:
+            reader.cancel()
+            if socket._response.connection and socket._response.connection.transport:
+                socket._response.connection.transport.abort()
+
+    async def _read(self, socket: "asyncio.Future[object] | object") -> None:
+        async for message in socket:  # type: ignore[attr-defined]
+            if message.type is WSMsgType.TEXT:
+                self.texts += 1
+                if "resume" in (values := message.json()):
+                    self._resume = values["resume"]
+
+
+class Handsets:
+    """The thread of all phones."""
+
+    def __init__(self) -> None:
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, name="handsets", daemon=True)
+        self._thread.start()
+        self._session: ClientSession = asyncio.run_coroutine_threadsafe(_session(), self._loop).result(10.0)
+
+    def new(self, url: str) -> Handset:
+        """A phone that scans this code."""
+        return Handset(self._loop, self._session, url)
+
+    def close(self) -> None:
+        """End all phones."""
+        asyncio.run_coroutine_threadsafe(_end(self._session), self._loop).result(10.0)
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(10.0)
+
+
+async def _session() -> ClientSession:
+    return ClientSession(timeout=ClientTimeout(total=None, connect=3.0))
+
+
+async def _end(session: ClientSession) -> None:
+    phones = asyncio.all_tasks() - {asyncio.current_task()}
+    for task in phones:
+        task.cancel()
+    await asyncio.gather(*phones, return_exceptions=True)
+    await session.close()

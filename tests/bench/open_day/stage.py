@@ -1,0 +1,265 @@
+"""The people in front of the arcade: they look at the screen between two frames, and press what leads on."""
+
+import random
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pigaming_app.scenes.app import App
+from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.operator.figures_page import FiguresPage
+from pigaming_app.scenes.operator.page import OperatorPage
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.title.attract import Attract
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.widgets.focus import Focus
+from tests.bench.open_day.hands import Hands, KeyHands, PadHands, PhoneHands
+from tests.bench.open_day.handsets import Handsets
+from tests.bench.open_day.ledger import Ledger
+from tests.bench.open_day.plan import PADS, Day, Group, Task, Visitor
+from tests.bench.open_day.watch import Watch
+
+TEMPO = 0.35  # s between two presses of a person
+PATIENCE = 1500.0  # s after which a group gives up, and 300 s more for each match of an event
+F10_SECONDS = 5.4
+ARROWS = (Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT)
+
+
+@dataclass
+class Player:
+    """A visitor with what is in their hands."""
+
+    visitor: Visitor
+    hands: Hands
+    due: float = 0.0  # s, of the next press
+
+
+class Stage:
+    """Call it between two frames; s since the opening are handed in. `reactions`: by class of the top scene."""
+
+    def __init__(self, app: App, day: Day, seen: Ledger, watch: Watch, now: float) -> None:
+        self.app, self.day, self.watch = app, day, watch
+        self.rng = random.Random(day.seed * 1000 + watch.life)
+        self.pads: list[Hands] = [PadHands() for _ in range(PADS)]
+        self.handsets = Handsets()
+        self.players: list[Player] = []
+        self.group: Group | None = None
+        self.done = set(seen.done)
+        self.played = dict(seen.played)  # matches by group, of the runs before
+        self.events = dict(seen.events)
+        self.now = self.came = self.changed = now  # s; the last two: when the group came, and the top scene changed
+        self.top: Any = None
+        self.looked = self.mishap_over = False
+        self.held: list[tuple[float, Hands, Button]] = []  # buttons to release, and when
+        self.keys = KeyHands()
+        self.tasks = [task for task in day.tasks if task.at >= now]
+        self.task: Task | None = None
+        self.figures_seen = False
+        self.reactions: dict[type, Callable[[], None]] = {}
+        self.fallback: Callable[[], None] = lambda: None
+
+    def play(self, now: float) -> None:
+        """Let everybody look at the screen and act."""
+        self.now = now
+        top = self.app.stack.scenes[-1] if self.app.stack.scenes else None
+        if top is not self.top:
+            self.top, self.changed = top, now
+        for due in [held for held in self.held if held[0] <= now]:
+            self.held.remove(due)
+            due[1].release(due[2])
+        if self.task or self._task_due():
+            self._operate()
+            return
+        if self.group is None:
+            self._next_group()
+        if self.group is not None:
+            if now - self.came > self.patience:
+                self.watch.trouble(f"group {self.group.number} is stuck at {type(top).__name__}")
+                self.leave()
+            elif isinstance(top, Title) and self.finished:
+                self.leave()
+            else:
+                self.reactions.get(type(top), self.fallback)()
+        elif not isinstance(top, Title | Attract):
+            self.someone(self.pads[0], Button.BACK)
+
+    # ---- the group
+
+    @property
+    def matches(self) -> int:
+        """Matches that the group has played."""
+        number = self.group.number if self.group else -1
+        return self.played.get(number, 0) + self.watch.played[number]
+
+    @property
+    def finished(self) -> bool:
+        """True if the group wants no more."""
+        group = self.group
+        assert group is not None
+        if group.event:
+            return group.number in self.done
+        return self.matches >= group.matches
+
+    @property
+    def patience(self) -> float:
+        return PATIENCE + (300.0 * 20 if self.group and self.group.event else 0.0)
+
+    @property
+    def waiting(self) -> list[Group]:
+        """The groups that have come and not left."""
+        return [group for group in self.day.groups if group.number not in self.done and group.at <= self.now]
+
+    @property
+    def busy(self) -> bool:
+        """True while somebody is there."""
+        return self.group is not None or self.task is not None or bool(self.waiting)
+
+    def _next_group(self) -> None:
+        waiting = self.waiting
+        if not waiting or not isinstance(self.top, Title | Attract):
+            return
+        self.group = group = waiting[0]
+        self.came, self.looked, self.mishap_over = self.now, not group.look or self.matches > 0, self.matches > 0
+        pads = list(self.pads)
+        phones = 0
+        for visitor in group.visitors:
+            if len(self.players) == 4:
+                break
+            if visitor.phone or not pads:
+                self.players.append(Player(visitor, self._phone()))
+                phones += 1
+            else:
+                self.players.append(Player(visitor, pads.pop(0)))
+        for _ in range(phones):
+            self.watch.count("phones")
+
+    def _phone(self) -> PhoneHands:
+        url = self.app.context.phone_host.url
+
+        def taken() -> set[int]:
+            phones = [player.hands for player in self.players if isinstance(player.hands, PhoneHands)]
+            return {phone.number for phone in phones if phone.number is not None}
+
+        return PhoneHands(self.handsets.new(url), self.app.context.controls.phones, taken)
+
+    def leave(self) -> None:
+        """The group goes home; its phones are locked."""
+        assert self.group is not None
+        self.done.add(self.group.number)
+        self.watch.ledger.note("done", group=self.group.number)
+        for player in self.players:
+            player.hands.steer(0.0, 0.0, False, False)
+            if isinstance(player.hands, PhoneHands):
+                player.hands.unplug()
+        self.players, self.group = [], None
+        self.watch.memory(self.now)
+
+    # ---- presses
+
+    def someone(self, hands: Hands, button: Button) -> None:
+        """Tap a button, at the tempo of a person."""
+        if self.now - self.changed >= TEMPO and not any(held[1] is hands for held in self.held):
+            self.tap(hands, button)
+
+    def tap(self, hands: Hands, button: Button, seconds: float = 0.1) -> None:
+        """Press a button now, and release it later."""
+        hands.press(button)
+        self.held.append((self.now + seconds, hands, button))
+
+    def ready(self, player: Player, tempo: float = TEMPO) -> bool:
+        """True if a player acts now; the next time will be later."""
+        holding = any(held[1] is player.hands for held in self.held)
+        if holding or self.now < player.due or self.now - self.changed < TEMPO:
+            return False
+        player.due = self.now + tempo * self.rng.uniform(0.8, 1.6)
+        return True
+
+    def all_press(self, button: Button, players: Sequence[Player] | None = None) -> None:
+        """Each of these players taps a button, at their tempo."""
+        for player in self.players if players is None else players:
+            if self.ready(player):
+                self.tap(player.hands, button)
+
+    def one_presses(self, button: Button) -> None:
+        """The first player taps a button."""
+        self.all_press(button, self.players[:1])
+
+    def focus(self, focus: Focus, name: str, player: Player | None = None) -> bool:
+        """Move the focus one step towards a spot; true if it is there."""
+        if focus.name == name:
+            return True
+        (x, y), (to_x, to_y) = focus.rect(focus.name).center, focus.rect(name).center
+        across = Button.RIGHT if to_x > x else Button.LEFT
+        along = Button.DOWN if to_y > y else Button.UP
+        wanted = across if abs(to_y - y) < 20 else along
+        button = wanted if self.rng.random() < 0.8 else self.rng.choice(ARROWS)
+        self.all_press(button, [player or self.players[0]])
+        return False
+
+    # ---- the operator
+
+    def _task_due(self) -> bool:
+        """Take the next task if the screen permits it: at the title, or, to end matches, in a match."""
+        due = [task for task in self.tasks if task.at <= self.now]
+        if not due:
+            return False
+        fits = (
+            isinstance(self.top, MatchScene) and not self.top.match.over
+            if due[0].end_all
+            else len(self.app.stack.scenes) == 1
+        )
+        if not fits or self.held or (self.group and self.group.event and due[0].end_all):
+            return False
+        self.task, self.figures_seen = due[0], False
+        self.tasks.remove(self.task)
+        for player in self.players:
+            player.hands.steer(0.0, 0.0, False, False)
+        self.keys.hold_f10(True)
+        return True
+
+    def _operate(self) -> None:
+        """One step of the task."""
+        task, top = self.task, self.top
+        assert task is not None
+        operator = Player(Visitor(-1, "", False), self.keys)
+        if isinstance(top, FiguresPage):
+            self.figures_seen = True
+            if self.now - self.changed > 2.0:
+                self.someone(self.keys, Button.BACK)
+            elif 1.0 < self.now - self.changed < 1.2:
+                self.someone(self.keys, Button.FIRE)
+        elif isinstance(top, OperatorPage):
+            self.keys.hold_f10(False)
+            if self.now - self.changed > 240.0:
+                self.watch.trouble(f"the operator is stuck at {top.focus.name}")
+                self.task = None
+            elif wrong := [
+                row for row, value in task.settings.items() if getattr(self.app.context.settings, row) != value
+            ]:
+                if self.focus(top.focus, wrong[0], operator):
+                    self._change(wrong[0], task.settings[wrong[0]], operator)
+            elif task.figures and not self.figures_seen:
+                if self.focus(top.focus, "figures", operator):
+                    self.all_press(Button.FIRE, [operator])
+            elif task.end_all:
+                if self.focus(top.focus, "end_all", operator) and self.ready(operator):
+                    self.tap(self.keys, Button.FIRE, 1.3)
+            else:
+                self.someone(self.keys, Button.BACK)
+                self._finish_task()
+        elif self.now - self.changed > 1.0 and task.end_all and isinstance(top, Title):
+            self._finish_task()
+
+    def _change(self, row: str, value: str | int, operator: Player) -> None:
+        now = getattr(self.app.context.settings, row)
+        self.all_press(Button.RIGHT if now < value else Button.LEFT, [operator])
+
+    def _finish_task(self) -> None:
+        self.watch.count("tasks of the operator")
+        self.task = None
+
+    @property
+    def lobby(self) -> Lobby | None:
+        """The lobby on the stack."""
+        return next((scene for scene in reversed(self.app.stack.scenes) if isinstance(scene, Lobby)), None)

@@ -1,0 +1,221 @@
+"""What visitors do on the screens of a game: title, lobby, set-up, match, results."""
+
+from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.ladder.choice import LadderChoice
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
+from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.phones.join import JoinByPhone
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.replays.page import ReplaysPage
+from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.results.initials import Initials
+from pigaming_app.scenes.results.scene import LATE, Results
+from pigaming_app.scenes.results.winner import WinnersMoment
+from pigaming_app.scenes.title.attract import Attract
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage.scores import LETTERS
+from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.widgets.letter_picker import LetterPicker
+from tests.bench.open_day.hands import PadHands, PhoneHands
+from tests.bench.open_day.stage import Player, Stage
+
+FAST = 0.1  # s between two letters
+AWAY = 4.0  # s for which a pad is pulled, or a phone locked
+LOOK = 8.0  # s on a page of the title's menu
+REST = 95.0  # s for which nobody drives
+MISHAP_AT = 8.0  # s of the match
+
+
+class Visit:
+    """The reactions of the group on the stage."""
+
+    def __init__(self, stage: Stage) -> None:
+        self.stage = stage
+        self.away: tuple[float, Player] | None = None  # s when a device comes back, and whose
+        self.resting = 0.0  # s until which nobody drives
+        self.leaves_match = False  # ends the match in the pause
+        stage.fallback = self.leave_page
+        stage.reactions |= {
+            Attract: lambda: stage.one_presses(Button.FIRE),
+            Title: self.title,
+            Lobby: self.lobby,
+            JoinByPhone: self.lobby,
+            MatchSetupPage: self.setup,
+            MatchScene: self.match,
+            Reconnect: self.reconnect,
+            StillThere: self.still_there,
+            Pause: self.pause,
+            WinnersMoment: self.winner,
+            Initials: self.initials,
+            HighScores: lambda: stage.one_presses(Button.FIRE),
+            Results: self.results,
+            HowTo: self.look_around,
+            ReplaysPage: self.look_around,
+            LadderChoice: self.look_around,
+        }
+
+    @property
+    def group(self):
+        assert self.stage.group is not None
+        return self.stage.group
+
+    # ---- before the match
+
+    def title(self) -> None:
+        stage, top = self.stage, self.stage.top
+        self.return_device()
+        if self.group.language and top.context.words.language != self.group.language and not stage.matches:
+            stage.one_presses(Button.Y)
+            return
+        goal = "events" if self.group.event else self.group.game if stage.looked else self.group.look
+        if stage.focus(top.focus, goal):
+            stage.one_presses(Button.FIRE)
+
+    def look_around(self) -> None:
+        """Look at a page, turn it over, and go back."""
+        stage = self.stage
+        stage.looked = True
+        if stage.now - stage.changed > LOOK:
+            stage.one_presses(Button.BACK)
+        elif stage.rng.random() < 0.03:
+            stage.one_presses(stage.rng.choice((Button.LEFT, Button.RIGHT)))
+
+    def lobby(self) -> None:
+        """Everybody joins and is ready; somebody who is alone wants an AI."""
+        stage, lobby = self.stage, self.stage.lobby
+        assert lobby is not None
+        seated = lobby.seats.devices()
+        absent = [player for player in stage.players if player.hands.device not in seated]
+        if isinstance(stage.top, JoinByPhone) and not any(isinstance(one.hands, PhoneHands) for one in absent):
+            stage.one_presses(Button.BACK if stage.players[0].hands.device in seated else Button.FIRE)
+            if isinstance(stage.players[0].hands, PhoneHands):
+                stage.all_press(Button.FIRE)
+            return
+        if absent:
+            stage.all_press(Button.FIRE, absent)
+        elif lobby.seats.robots < 2:
+            stage.one_presses(Button.Y)
+        else:
+            waiting = [player for player in stage.players if not self._is_ready(player)]
+            stage.all_press(Button.FIRE, waiting)
+
+    def _is_ready(self, player: Player) -> bool:
+        lobby = self.stage.lobby
+        assert lobby is not None
+        return any(place.device == player.hands.device and place.ready for place in lobby.seats.places)
+
+    def setup(self) -> None:
+        """Change something, now and then; then start."""
+        stage = self.stage
+        if stage.now - stage.changed < 3.0:
+            stage.one_presses(stage.rng.choice((Button.DOWN, Button.RIGHT)))
+        else:
+            stage.one_presses(Button.START)
+
+    # ---- the match
+
+    def match(self) -> None:
+        stage, scene = self.stage, self.stage.top
+        if scene.match.over or scene.countdown.locked:
+            return
+        self._mishap(scene)
+        if stage.now < self.resting:
+            for player in stage.players:
+                player.hands.steer(0.0, 0.0, False, False)
+            return
+        for player in stage.players:
+            if stage.ready(player, 0.7):
+                x, y = stage.rng.uniform(-1.0, 1.0), stage.rng.choice((-1.0, -1.0, -1.0, 0.6, 0.0))
+                player.hands.steer(x, y, stage.rng.random() < 0.5, stage.rng.random() < 0.3)
+
+    def _mishap(self, scene: MatchScene) -> None:
+        """The mishap of the group, once."""
+        stage, group = self.stage, self.group
+        self.return_device()
+        if stage.mishap_over or not group.mishap or scene.match.seconds < MISHAP_AT:
+            return
+        stage.mishap_over = True
+        kinds = {"pull": PadHands, "lock": PhoneHands}
+        victims = [one for one in stage.players if isinstance(one.hands, kinds.get(group.mishap, object))]
+        if not victims:
+            return
+        if group.mishap in kinds:
+            victims[0].hands.unplug()
+            self.away = stage.now + AWAY, victims[0]
+        elif group.mishap == "rest":
+            self.resting = stage.now + REST
+        else:
+            self.leaves_match = group.mishap == "stop" and scene.after is None
+            for player in stage.players:
+                player.hands.steer(0.0, 0.0, False, False)
+            stage.tap(victims[0].hands, Button.START)
+        stage.watch.count(group.mishap)
+
+    def return_device(self) -> None:
+        """Put the pulled pad back, or unlock the phone, when it is time."""
+        if self.away and self.stage.now >= self.away[0]:
+            self.away[1].hands.plug()
+            self.away = None
+
+    def reconnect(self) -> None:
+        self.return_device()
+        gone = [player for player in self.stage.players if player.hands.device != self.stage.top.device]
+        same = [player for player in self.stage.players if player not in gone]
+        free = [player for player in gone if player.hands.device not in self.stage.top.match.devices]
+        self.stage.all_press(Button.FIRE, [player for player in (*same, *free) if player.hands.device])
+
+    def still_there(self) -> None:
+        self.resting = 0.0
+        self.stage.one_presses(Button.FIRE)
+
+    def pause(self) -> None:
+        """Go on, or end the match."""
+        stage = self.stage
+        stage.mishap_over = True
+        owner = [one for one in stage.players if one.hands.device == stage.top.access.owner] or stage.players
+        if stage.focus(stage.top.focus, "end" if self.leaves_match else "continue", owner[0]):
+            stage.all_press(Button.FIRE, owner[:1])
+
+    # ---- after the match
+
+    def winner(self) -> None:
+        for player in self.stage.players:
+            player.hands.steer(0.0, 0.0, False, False)
+
+    def initials(self) -> None:
+        """Everybody spells their own initials."""
+        page, stage = self.stage.top, self.stage
+        for player in stage.players:
+            spelling = page.spellings.get(player.hands.device)
+            if spelling and not spelling.done and stage.ready(player, FAST):
+                stage.tap(player.hands, next_letter(spelling.picker, player.visitor.initials))
+
+    def results(self) -> None:
+        """Another match, or the title. B is held."""
+        stage, page = self.stage, self.stage.top
+        self.leaves_match = False
+        self.resting = 0.0
+        if page.age < LATE or page.claims:
+            return
+        if not stage.finished:
+            stage.all_press(Button.FIRE)
+        elif stage.ready(stage.players[0]):
+            stage.tap(stage.players[0].hands, Button.BACK, 0.8)
+
+    def leave_page(self) -> None:
+        """An unexpected page is left."""
+        self.stage.one_presses(Button.BACK)
+
+
+def next_letter(picker: LetterPicker, wanted: str) -> Button:
+    """The button that brings a name nearer; at its end the one that enters it."""
+    missing = [i for i, letter in enumerate(wanted) if picker.spelled[i] != letter]
+    if not missing:
+        return Button.FIRE
+    slot = missing[0]
+    if slot != picker.slot:
+        return Button.RIGHT if slot > picker.slot else Button.LEFT
+    turns = (LETTERS.index(wanted[slot]) - LETTERS.index(picker.spelled[slot])) % len(LETTERS)
+    return Button.DOWN if turns <= len(LETTERS) // 2 else Button.UP

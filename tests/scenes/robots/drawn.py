@@ -1,0 +1,66 @@
+"""Pages of a match with real robots in any state, without robots, for tests of their texts."""
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import pygame
+
+from pigaming_app.hardware.control.safety import RULES, Fault, SafetyRule
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.scan.things import Layout, Thing, ThingKind
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.robots.fault_page import FaultPage
+from pigaming_app.scenes.things.arena_page import ArenaPage
+from pigaming_app.scenes.things.unplayable_page import UnplayablePage
+from tests.scenes.arcade import KEYS, Arcade, setup
+
+PAUSING = {rule.name: rule for rule in RULES if rule.pauses}
+WHERE = "/dev/serial/by-id/usb-FTDI_FT231X_USB_UART_DN02MQBC-if00-port0"  # a long port
+
+
+def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
+    """The page of a fault, with a cause and a second fault."""
+    faults = [
+        Fault(name, None if PAUSING[name].everyone else 3, PAUSING[name].response, True, 0.0)
+        for name in (rule.name, "foreign")
+    ]
+    cause = SimpleNamespace(fault=OperatorMessage("radio_denied", port=WHERE))
+    latched = {3} if rule.latched else set[int]()
+    safety = SimpleNamespace(latched=latched, stopped=rule.name == "stopped")
+    match: Any = SimpleNamespace(
+        context=arcade.context,
+        plant=SimpleNamespace(faults=faults, safety=safety, rig=SimpleNamespace(camera=cause, link=cause)),
+        access=Access(arcade.context, lambda: KEYS),
+        real={0, 1, 2, 3},
+        picture=lambda: pygame.Surface((1920, 1080)),
+        draw_overlay=lambda screen: None,
+        advance_paused=lambda seconds: None,
+    )
+    page = FaultPage(match)
+    page.update(0.0)
+    return page
+
+
+def arena_page(arcade: Arcade, things: Sequence[Thing] = (), fault: OperatorMessage | None = None) -> ArenaPage:
+    """Build your arena, with these things on the mat and the first one selected."""
+    arcade.context.session = SimpleNamespace(ground=None)  # type: ignore[assignment]
+    page = ArenaPage(arcade.context)
+    page._take(Layout(tuple(things)), False)
+    page.fault = fault
+    return page
+
+
+def thing(kind: ThingKind) -> Thing:
+    """A thing in the middle of the mat."""
+    return Thing(kind, ((650.0, 300.0), (950.0, 300.0), (950.0, 600.0), (650.0, 600.0)), 80.0, 3.0)
+
+
+def unplayable(arcade: Arcade) -> UnplayablePage:
+    """The page on which a thing is in the way; it is not left."""
+
+    def nowhere() -> Scene:
+        raise AssertionError
+
+    return UnplayablePage(arcade.context, setup("human human off off"), KEYS, nowhere, nowhere)

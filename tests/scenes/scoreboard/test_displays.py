@@ -1,0 +1,155 @@
+"""The second screen follows the displays: those that are there, and those that come and go. All of them are fake."""
+
+from pathlib import Path
+
+import pygame
+import pytest
+
+from pigaming_app.scenes.operator.desk import OperatorDesk
+from pigaming_app.scenes.scoreboard.window import WINDOWED, ScoreboardWindow
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.widgets.notices import Notices
+from pigaming_app.ui.window import Canvas
+from tests.scenes.arcade import Arcade
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path) -> Arcade:
+    arcade = Arcade(controls)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    return arcade
+
+
+class Displays:
+    """Fake displays: sizes of those connected; windows are opened by the dummy driver, and noted."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+        self.sizes = [(1920, 1080), (1366, 768), (1280, 800)][:count]
+        self.opened: list[tuple[int, int]] = []
+        self.real = pygame.Window
+        monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: list(self.sizes))
+        monkeypatch.setattr(pygame, "Window", self.window)
+        monkeypatch.setattr("pigaming_app.scenes.scoreboard.window._focus_arcade", lambda: None)
+
+    def window(self, title: str, size: tuple[int, int], *, position: object, **options: bool) -> pygame.Window:
+        self.opened.append(size)
+        return self.real(title, size, **options)
+
+
+def a_desk(arcade: Arcade, number: int | None, arena: int = 0) -> OperatorDesk:
+    canvas = arcade.context.canvas
+    canvas.headless, canvas.display = False, arena
+    return OperatorDesk(arcade.context, Notices(), number, True)
+
+
+def seconds_later(desk: OperatorDesk, arcade: Arcade, frames: int = 130) -> None:
+    for _ in range(frames):
+        desk.show(1 / 60, 0.010, arcade.stack.scenes)
+
+
+def test_a_display_that_is_unplugged_closes_it_and_plugged_again_brings_it_back(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    displays = Displays(monkeypatch, 2)
+    desk = a_desk(arcade, 2)
+    seconds_later(desk, arcade)
+    assert displays.opened == [(1366, 768)]
+    displays.sizes.pop()
+    seconds_later(desk, arcade)
+    assert desk.window
+    assert desk.window.window is None
+    assert list(desk.notices.waiting) == [arcade.context.words("scoreboard.none")]
+    displays.sizes.append((1280, 800))
+    seconds_later(desk, arcade)
+    assert desk.window.window
+    assert displays.opened == [(1366, 768), (1280, 800)]
+    assert desk.window.board.picture.get_bounding_rect().w > 0
+    desk.close()
+
+
+def test_a_display_that_appears_during_play_is_filled(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    displays = Displays(monkeypatch, 1)
+    desk = a_desk(arcade, 2)
+    seconds_later(desk, arcade)
+    assert displays.opened == [WINDOWED]
+    displays.sizes.append((1366, 768))
+    seconds_later(desk, arcade)
+    assert displays.opened == [WINDOWED, (1366, 768)]
+    desk.close()
+
+
+def test_an_unplugged_arena_is_not_covered_and_returns_to_its_display(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    displays, moves = Displays(monkeypatch, 2), []
+    desk = a_desk(arcade, 1, arena=1)
+    monkeypatch.setattr(arcade.context.canvas, "show", lambda display, full: moves.append(display))
+    gone = displays.sizes.pop()
+    seconds_later(desk, arcade)
+    assert desk.window
+    assert desk.window.window is None
+    assert moves == []
+    displays.sizes.append(gone)
+    seconds_later(desk, arcade)
+    assert desk.window.window
+    assert moves == [1]
+    desk.close()
+
+
+def test_one_closed_by_hand_stays_closed_until_f2(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    displays = Displays(monkeypatch, 2)
+    desk = a_desk(arcade, 2)
+    assert desk.window
+    assert desk.close_if_requested(pygame.Event(pygame.WINDOWCLOSE, window=desk.window.window))
+    displays.sizes.append((1280, 800))
+    seconds_later(desk, arcade)
+    assert desk.window.window is None
+    page = arcade.context.board_page
+    desk.filter([pygame.Event(pygame.KEYDOWN, key=pygame.K_F2, scancode=0, mod=0)], arcade.stack.scenes)
+    assert desk.window.window
+    assert arcade.context.board_page == page
+    assert displays.opened == [(1366, 768)] * 2
+    desk.close()
+
+
+def test_a_window_that_breaks_during_play_is_given_up_with_a_notice(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    Displays(monkeypatch, 2)
+    desk = a_desk(arcade, 2)
+    assert desk.window
+    assert desk.window.window
+    desk.window.window.destroy()
+    seconds_later(desk, arcade)
+    assert desk.window.window is None
+    assert "was lost" in capsys.readouterr().err
+    assert list(desk.notices.waiting) == [arcade.context.words("scoreboard.none")]
+
+
+@pytest.mark.parametrize(
+    ("number", "arena_display", "own"),
+    [(2, 0, True), (1, 0, False), (3, 0, False), (1, 1, True), (2, 1, False), (16, 63, False), (1, 2, False)],
+)
+def test_it_fills_a_display_of_its_own_and_is_small_elsewhere(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, arena_display: int, own: bool
+) -> None:
+    opened: list[tuple[tuple[int, int], object]] = []
+    real = pygame.Window
+
+    def window(title: str, size: tuple[int, int], *, position: object, **options: bool) -> pygame.Window:
+        opened.append((size, position))
+        return real(title, size, **options)
+
+    monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [(1280, 800), (1366, 768)])
+    monkeypatch.setattr(pygame, "Window", window)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("pigaming_app.scenes.scoreboard.window._focus_arcade", lambda: None)
+        shown = ScoreboardWindow(number, arena_display, [])
+    shown.close()
+    ((size, position),) = opened
+    if own:
+        assert size == [(1280, 800), (1366, 768)][number - 1]
+        assert position == pygame.WINDOWPOS_CENTERED | (number - 1)
+    else:
+        assert size == WINDOWED
