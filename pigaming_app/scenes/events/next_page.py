@@ -24,6 +24,7 @@ from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
@@ -32,6 +33,7 @@ from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.robots.start_match import match_of
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
@@ -58,6 +60,7 @@ class NextMatch:
         self.claims: dict[int, Device] = {}  # by seat
         self.quick: QuickMatches | None = None  # matches of AIs in the background
         self._known: tuple[Event, Setup | None] | None = None  # the match, as long as the event is the same
+        self.access = Access(context, lambda: [self.claims.get(seat) for seat in range(ROBOTS)])  # seats of phones
         self.clock, self.ready = 0.0, 0.0
         self.going = False  # a match is wanted, but not loaded yet
         self.message, self.message_left = said, MESSAGE_SECONDS if said else 0.0
@@ -410,13 +413,15 @@ class NextMatch:
             ask_bar(label, words("events.press"), pulse(self.clock, 5)).draw(screen, x, y)
 
     def _driver(self, seat: int, brain: str) -> tuple[str, str]:
-        """Icon and name of who or what drives: a numbered pad, a part of the keyboard, an AI."""
+        """Icon and name of who or what drives: a numbered pad, a phone, a part of the keyboard, an AI."""
         words, controls = self.context.words, self.context.controls
         if brain:
             return "ai", words("events.ai" if level_of(brain) else "events.robot")
         device, pads = self.claims.get(seat) or self._suggested(seat), controls.pads()
         if device and device.kind == "pad":
             return "pad", words("events.pad", number=1 + pads.index(device) if device in pads else 1)
+        if device and device.kind == "phone":
+            return "phone", words("devices.Phone")
         return "keys", "".join(controls.moves(device).split()) if device else ""
 
     def _draw_message(self, screen: pygame.Surface, fixture: Fixture) -> None:
