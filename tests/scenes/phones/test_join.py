@@ -283,6 +283,37 @@ def test_a_phone_shows_its_score_four_times_a_second_at_most_and_its_place(arcad
     assert (view.seat, view.playing, view.clock) == (1, False, "")
 
 
+@pytest.mark.parametrize("kiosk", [False, True])
+@pytest.mark.parametrize("name", ["title", "lobby", "match", "pause", "results", "phones"])
+def test_a_phone_may_come_and_go_on_any_screen(arcade: Arcade, name: str, kiosk: bool) -> None:
+    arcade.context.kiosk = kiosk
+    link, phones = PhoneLink(arcade.context), arcade.context.controls.phones
+    one = join(arcade)
+    if name in ("match", "pause", "results"):
+        match = match_with(arcade, one, KEYS[0])
+        if name == "pause":
+            tap(arcade, one, Button.START)
+            arcade.shown(Pause)
+        if name == "results":
+            outcome = match.match.outcome()
+            arcade.open(Results(arcade.context, outcome, match.setup, match.devices, lambda *_: arcade.title))
+    elif name != "title":
+        arcade.open(Lobby(arcade.context, "pitanks") if name == "lobby" else PhonesPage(arcade.context))
+    top = arcade.stack.top
+    two = join(arcade)
+    for _ in range(3):
+        arcade.frame()
+        link.update(arcade.stack.scenes)
+        top.draw(arcade.screen)
+    phones.disconnect(two.number)
+    arcade.frame()
+    link.update(arcade.stack.scenes)
+    assert arcade.stack.top is top, "a phone that only comes and goes disturbs nobody"
+    phones.connect(two.number)
+    arcade.frame()
+    assert arcade.context.controls.connected(two)
+
+
 def test_the_link_follows_the_settings(arcade: Arcade) -> None:
     link, settings, host = PhoneLink(arcade.context), arcade.context.settings, arcade.context.phone_host
     link.update(arcade.stack.scenes)
