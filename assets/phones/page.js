@@ -1,7 +1,7 @@
 // The pad on a phone: touches become frames of four bytes, see ui/input/phones/protocol.py.
 "use strict";
 (() => {
-  const texts = JSON.parse(document.getElementById("texts").textContent);
+  let texts = JSON.parse(document.getElementById("texts").textContent);
   const element = (id) => document.getElementById(id);
   const BITS = { fire: 1, turbo: 2, x: 4, y: 8, start: 16 };
   const FINAL = { 4000: "page_refused", 4001: "page_refused", 4003: "page_elsewhere" }; // no second attempt
@@ -9,6 +9,7 @@
   const FRAME_MS = 1000 / 60, ALIVE_MS = 200, FLASH_MS = 160, RETRY_MS = [300, 600, 1000, 2000];
 
   let socket = null, resume = sessionStorage.getItem("resume") || "", attempts = 0, retry = 0;
+  let state = { seat: -1, color: "", playing: false, score: "", clock: "", place: "" };
   let x = 0, y = 0, buttons = 0, sentAt = 0, sent = "", waiting = 0;
 
   // ---- the connection
@@ -27,6 +28,7 @@
   function closed(code) {
     socket = null;
     document.body.classList.add("closed");
+    document.body.classList.toggle("refused", code === 4002 || code in FINAL);
     release();
     show(texts[FINAL[code]] || (code === 4002 ? texts.page_full : texts.page_lost));
     if (FINAL[code] || document.hidden) return;
@@ -37,7 +39,12 @@
   // A refused socket gives no reason: ask for the page itself.
   function check() {
     fetch(location.pathname, { cache: "no-store" }).then(
-      (answer) => (answer.status === 403 ? show(texts.page_old) : connect()), connect);
+      (answer) => (answer.status === 403 ? old() : connect()), connect);
+  }
+
+  function old() {
+    document.body.classList.add("refused");
+    show(texts.page_old);
   }
 
   function receive(message) {
@@ -45,9 +52,11 @@
       resume = message.resume;
       sessionStorage.setItem("resume", resume);
       attempts = 0;
-      document.body.classList.remove("closed");
+      document.body.classList.remove("closed", "refused");
     }
-    if (message.state) dress(message.state);
+    if (message.texts) texts = message.texts;
+    if (message.state) state = message.state;
+    if (message.texts || message.state) dress();
     if (message.rumble) shake(...message.rumble);
   }
 
@@ -55,10 +64,12 @@
 
   // ---- what the arcade reports
 
-  function dress(state) {
+  function dress() {
     const seated = state.seat >= 0;
     document.documentElement.style.setProperty("--seat", seated ? state.color : "#96acce");
-    element("seat").textContent = seated ? texts.page_player.replace("{player}", state.seat + 1) : texts.page_join;
+    element("seat").textContent = !seated ? texts.page_join : state.place || texts.page_player.replace("{player}", state.seat + 1);
+    element("score").textContent = state.score;
+    element("clock").textContent = state.clock;
     element("shape").style.display = seated ? "" : "none";
     if (seated) element("shape").firstElementChild.setAttribute("d", SHAPES[state.seat]);
     document.body.classList.toggle("playing", state.playing);
@@ -199,6 +210,6 @@
   });
 
   show(texts.page_lost);
-  dress({ seat: -1, color: "", playing: false });
+  dress();
   connect();
 })();

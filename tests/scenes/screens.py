@@ -365,7 +365,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     },
     "event results": lambda arcade: ResultsList(arcade.context, event(Format.KNOCKOUT, 64, 4, 12)),
     "correction": correction,
-    "correction in own words": lambda arcade: correction(arcade, 80 * "W"),
+    "correction in own words": lambda arcade: correction(arcade, 40 * "W"),
     "event managed": lambda arcade: event_managed(arcade, "rename"),
     "event withdrawal": lambda arcade: event_managed(arcade, "withdraw"),
     "event deletion": lambda arcade: event_managed(arcade, "delete"),

@@ -232,7 +232,10 @@ def test_the_second_screen_follows_a_match(home: Path, monkeypatch: pytest.Monke
     ids=str,
 )
 @pytest.mark.parametrize("number", [1, 2, 16])
-def test_the_second_screen_goes_with_every_other_option(home: Path, number: int, more: dict[str, Any]) -> None:
+def test_the_second_screen_goes_with_every_other_option(
+    home: Path, capsys: pytest.CaptureFixture[str], number: int, more: dict[str, Any]
+) -> None:
     assert run(Options(headless=True, scoreboard=number, frames=80, step=STEP, **more)) == 0
+    assert "second screen" not in capsys.readouterr().err, "it was lost"
     (file,) = (home / "data" / "days").iterdir()
     assert "failure" not in file.read_text()

@@ -28,7 +28,6 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import labels as page
 from pigaming_app.ui.widgets import player_card
-from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts, places
 from pigaming_app.ui.window import Canvas
 from tests.cases import one_in
@@ -118,7 +117,7 @@ def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytes
         return fits
 
     true_size = texts.fit_size
-    for module in (card, choice, dials, gadgets, game_tile, howto, page, player_card, texts):
+    for module in (card, choice, gadgets, game_tile, howto, page, player_card, texts):
         monkeypatch.setattr(module, "fit_size", measured)
     with empty_cache():
         walk(arcade, top(arcade, name))

@@ -7,8 +7,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.cast import Cast
-from pigaming_app.ai.experiments.rollout import compiled_rollout, plain_rollout
+from pigaming_app.ai.experiments.rollout import cast_with_baselines, compiled_rollout, plain_rollout
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
@@ -26,7 +25,7 @@ class LineUps:
         """`fast`: compiled; needs numba, and no brain that is `plain`. Raises ChoiceError for unknown brains."""
         self.game, self.fast = game, fast
         self.kinds: dict[str, BrainKind] = {OFF: IDLE} | {name: find_brain(game, name) for name in brains}
-        self._cast = Cast(self.kinds.values(), fast)
+        self._cast = cast_with_baselines(self.kinds.values(), fast)
 
     def played(self, setups: Sequence[Setup]) -> list[Any]:
         """The final state of each match; compiled ones share the cores. Raises ArenaError.

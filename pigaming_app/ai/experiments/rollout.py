@@ -4,11 +4,11 @@ A rollout is a closure over a game's rules and the families of brains that it ca
 single loop over NumPy records. The same closure runs uncompiled over plain records.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from typing import Any
 
-from pigaming_app.ai.brain.baselines import IDLE
+from pigaming_app.ai.brain.baselines import IDLE, RANDOM
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.cast import Cast, Family, Think, dispatcher
 from pigaming_app.games.batch import initial_states
@@ -54,6 +54,11 @@ def compiled_rollout(game: str, families: tuple[Family, ...]) -> Loop:
     return compiled(make_rollout(games()[game].judge, dispatcher(families)))
 
 
+def cast_with_baselines(kinds: Iterable[BrainKind], fast: bool) -> Cast:
+    """A cast of these brains and the baselines, which cost little: a loop for each would take long to compile."""
+    return Cast([*kinds, IDLE, RANDOM], fast)
+
+
 class Batch:
     """Many matches of one game with the same brains on their seats."""
 
@@ -62,11 +67,11 @@ class Batch:
     ) -> None:
         """One match per setup. `kinds`: brains by seat, idle where None or missing. `fast`: compiled; needs numba.
 
-        `cast`: brains that share the compiled loop, among them `kinds`; None: the brains on the seats.
+        `cast`: brains that share the compiled loop, among them `kinds`; None: `cast_with_baselines` of the seats'.
         """
         self.fast = fast
         self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
-        self.cast = cast or Cast(self.kinds, fast)
+        self.cast = cast or cast_with_baselines(self.kinds, fast)
         states = initial_states(setups)
         self.matches: Any = packed(states) if fast else states
         self.minds = self.cast.minds(

@@ -5,6 +5,8 @@ successor begins with these and replays what has been played since. Play depends
 the same bits as one without Ray, as long as the machines are of one kind.
 """
 
+import contextlib
+import logging
 import socket
 from collections.abc import Callable, Sequence
 from types import TracebackType
@@ -36,6 +38,14 @@ class ShardWorker:
     def __init__(self, task: Task) -> None:
         self._task = task
         self._shards: dict[int, Shard] = {}
+
+    def machine(self) -> str:
+        """Name of the machine."""
+        return socket.gethostname()
+
+    def compile(self, line_ups: Sequence[LineUp]) -> None:
+        """Leave the compiled loop in the cache of the machine."""
+        Shard(self._task, line_ups, seed=0).warm()
 
     def begin(self, number: int, line_ups: Sequence[LineUp], state: ShardState) -> None:
         """Take over a shard in this state."""
@@ -72,12 +82,15 @@ class RayShards:
             options = {"address": LOCAL, "num_cpus": workers, "include_dashboard": False}
         try:
             _reach(address)
-            ray.init(log_to_driver=False, logging_level="ERROR", **options)
+            ray.init(log_to_driver=False, logging_level=logging.ERROR, **options)
         except (OSError, OverflowError, RuntimeError, ValueError, RayError) as error:
             raise NoCluster(f"--ray: {address}: {' '.join(str(error).split())}") from None
         self._chunks: list[Any] = []  # played since the shards of the training were up to date
-        self._workers = [self._hired(number, workers) for number in range(workers)]
-        self.sync()  # when all have compiled
+        self._workers = [self._started() for _ in range(workers)]
+        self._compile()
+        for place, worker in enumerate(self._workers):
+            self._brief(worker, place)
+        self.sync()
 
     def __enter__(self) -> "RayShards":
         return self
@@ -118,20 +131,31 @@ class RayShards:
                 if attempts > ATTEMPTS:
                     raise NoCluster(f"--ray: workers fail: {str(error).splitlines()[0]}") from None
                 place = number % workers
-                worker = self._workers[place] = self._hired(place, workers)
+                worker = self._workers[place] = self._started()
+                self._brief(worker, place)
                 again = {other: request(worker, other) for other in self._numbers()[place::workers]}
                 pending |= {other: answer for other, answer in again.items() if other not in found}
         return [found[number] for number in self._numbers()]
 
-    def _hired(self, place: int, workers: int) -> Any:
-        """A worker with every shard of this place, as it was before the present request."""
-        worker = self._ray.remote(ShardWorker).options(scheduling_strategy="SPREAD").remote(self._training.task)
-        for number in self._numbers()[place::workers]:
+    def _started(self) -> Any:
+        """A new worker."""
+        return self._ray.remote(ShardWorker).options(scheduling_strategy="SPREAD").remote(self._training.task)
+
+    def _compile(self) -> None:
+        """Let one worker on each machine compile; the others load what it leaves in the cache."""
+        with contextlib.suppress(*self._lost):  # then each compiles
+            machines = self._ray.get([worker.machine.remote() for worker in self._workers])
+            first = dict(zip(reversed(machines), reversed(self._workers), strict=True))
+            line_ups = self._training.shards[0].line_ups[:1]
+            self._ray.get([worker.compile.remote(line_ups) for worker in first.values()])
+
+    def _brief(self, worker: Any, place: int) -> None:
+        """Give a worker every shard of this place, as it was before the present request."""
+        for number in self._numbers()[place :: len(self._workers)]:
             shard = self._training.shards[number]
             worker.begin.remote(number, shard.line_ups, shard.state())
             for chunk in self._chunks:
                 worker.replay.remote(number, chunk)
-        return worker
 
     def _numbers(self) -> range:
         return range(len(self._training.shards))
@@ -145,5 +169,9 @@ def _reach(address: str) -> None:
 
 
 def _sources() -> dict[str, Any]:
-    """This program, for machines that do not have it."""
-    return {"py_modules": [str(PACKAGE)]} if INSTALLED else {"working_dir": str(ROOT), "excludes": NOT_SENT}
+    """This program, for machines that do not have it.
+
+    Without bytecode: what numba caches for functions read from bytecode, it does not find for those read from source.
+    """
+    program = {"py_modules": [str(PACKAGE)]} if INSTALLED else {"working_dir": str(ROOT), "excludes": NOT_SENT}
+    return program | {"env_vars": {"PYTHONDONTWRITEBYTECODE": "1"}}

@@ -7,6 +7,7 @@ waiting belongs to it; drawing, radio and Wi-Fi do not.
 
 import asyncio
 import contextlib
+import os
 import random
 import threading
 import time
@@ -24,12 +25,14 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.sim.world import HZ
+from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Device, StickState
 from pigaming_app.ui.input.filters import apply_dead_zone
 from pigaming_app.ui.input.phones.protocol import REACH, Touches, pack
 from pigaming_app.ui.input.phones.registry import MAX_PHONES
 from pigaming_app.ui.input.phones.server import PhoneServer
+from pigaming_app.ui.window import Canvas
 
 FPS, RATE = 60, 60  # frames of the arcade, messages of a phone, each per second
 MOVE_SECONDS = 0.12, 0.2  # between two moves of a stick
@@ -85,6 +88,8 @@ def measure(seconds: float = SECONDS) -> dict[str, Any]:
     """The figures: latencies in ms, messages a second of each phone. Raises PhonesUnavailable, or Refusal if
     other programs leave no time to measure.
     """
+    os.environ["SDL_VIDEODRIVER"] = "dummy"
+    Canvas.open(Settings(fullscreen=False), headless=True)  # SDL names the keys of the keyboard
     controls = Controls()
     server = PhoneServer(controls.phones, "127.0.0.1", 0, {})
     server.start()

@@ -1,7 +1,9 @@
 """Building of a bundle by PyInstaller, in a temporary folder that finally replaces the previous bundle."""
 
+import compileall
 import contextlib
 import os
+import py_compile
 import shutil
 import subprocess
 import sys
@@ -16,7 +18,14 @@ from pigaming_app.storage.parsing import describe_error, one_line
 
 SPEC = Path(__file__).with_name("pigaming.spec")
 NAME = "pigaming"
-STRIPPED = ("libpython3*.so*", "llvmlite/binding/*.so")  # the libraries of NumPy and OpenCV do not survive it
+# The libraries of NumPy and OpenCV do not survive it.
+STRIPPED = (
+    "libpython3*.so*",
+    "python3*/lib-dynload/*.so",
+    "llvmlite/binding/*.so",
+    "aiohttp/**/*.so",
+    "multidict/*.so",
+)
 APP = "PiGaming.app"  # on macOS, beside the folder
 # %k is the path of the file itself, so that the folder can lie anywhere.
 DESKTOP = f"""[Desktop Entry]
@@ -54,6 +63,7 @@ def build(out: Path) -> Built:
         _run_pyinstaller(scratch)
         made = scratch / "dist"
         folder = made / NAME
+        _compile(folder / "_internal" / "pigaming_app")
         (folder / "pigaming.png").write_bytes(icons.png(256))
         if sys.platform.startswith("linux"):
             entry = folder / "pigaming.desktop"
@@ -102,6 +112,12 @@ def _run_pyinstaller(scratch: Path) -> None:
     if done.returncode:
         lines = (done.stderr or done.stdout).strip().splitlines() or ["no reason given"]
         raise BuildFailed(one_line(f"PyInstaller failed: {lines[-1]}"))
+
+
+def _compile(package: Path) -> None:
+    """Write the bytecode beside the sources; it is valid whatever dates these get when they are copied or unpacked."""
+    mode = py_compile.PycInvalidationMode.UNCHECKED_HASH
+    compileall.compile_dir(package, quiet=2, invalidation_mode=mode)
 
 
 def _strip(libraries: Path) -> None:

@@ -24,6 +24,7 @@ from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.events.seats import Seats
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.match_words import match_length
@@ -31,6 +32,7 @@ from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.robots.start_match import match_of
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
@@ -55,6 +57,7 @@ class NextMatch:
         self.context, self.running, self.show = context, running, show
         self.seats, self._seated = Seats(context, running), self.fixture
         self.quick: QuickMatches | None = None  # matches of AIs in the background
+        self.access = Access(context, lambda: [self.seats.claims.get(seat) for seat in range(ROBOTS)])  # of phones
         self.clock, self.ready = 0.0, 0.0
         self.going = False  # a match is wanted, but not loaded yet
         self.message, self.message_left = said, MESSAGE_SECONDS if said else 0.0

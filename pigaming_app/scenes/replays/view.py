@@ -31,7 +31,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.text import fit_size, fit_text
 from pigaming_app.ui.i18n import Words
 
 ROWS = 7
@@ -123,7 +123,8 @@ def damaged(line: str) -> Steps[LitImage]:
     layer = _frame()
     icon(layer.glow, "cross", GAME + 20, HIGH / 2, 18, ALARM, THIN)
     room = W - GAME - 64 - CROSS - 40
-    layer.canvas.body(line, GAME + 64, HIGH / 2, MIST, "l", fit_size(line, BODY, room, "body"))
+    line, size = fit_text(line, BODY, room, "body")
+    layer.canvas.body(line, GAME + 64, HIGH / 2, MIST, "l", size)
     yield
     return (yield from layer.render_steps())
 

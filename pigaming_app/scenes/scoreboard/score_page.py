@@ -65,7 +65,7 @@ def paint_side(side: Side, place: int, surface: pygame.Surface) -> None:
     w, h = surface.get_size()
     color, middle = color_of(side), h / 2
     surface.blit(text.outline(w, h, color if side.leads else STEEL), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
-    r, size = min(84, round(0.3 * h)), min(112, max(SUB, round(0.36 * h)))
+    r, size = min(84 if len(side.seats) == 1 else 60, round(0.3 * h)), min(112, max(SUB, round(0.36 * h)))
     x = 40 + 1.5 * r
     for seat, sign in zip(side.seats, side.signs, strict=True):
         text.put(surface, text.player_badge(seat, r), x, middle)

@@ -1,79 +1,34 @@
-"""The route of the walk: every screen, in both languages."""
+"""The route of the walk: every screen, in all languages."""
 
 from dataclasses import replace
 from functools import partial
-from typing import Any, Protocol
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.stack import Push
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.walk.events_tour import events
+from pigaming_app.scenes.walk.steps import TourWalker, choose, home
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.i18n import LANGUAGES
 
-MENU = 3  # spots of the title before those of its foot
 BRAINS = 5  # presses of F4 to cycle through all AIs of a match
 
 
-class TourWalker(Protocol):
-    """Interface of the walker, see walker.py."""
-
-    app: Any
-    context: Any
-
-    @property
-    def top(self) -> Any: ...
-
-    def shows(self, class_name: str) -> bool: ...
-
-    def set_screen(self, screen: str) -> None: ...
-
-    def wait(self, seconds: float) -> None: ...
-
-    def wait_until(self, condition: Any) -> None: ...
-
-    def press(self, *keys: str, pause: float = 0.1) -> None: ...
-
-
 def tour(walker: TourWalker) -> None:
-    """The whole tour, in two languages. In the second only the first arena of each game."""
-    for language in LANGUAGES[:2]:
+    """The whole tour, in all languages; every arena of each game only in the first."""
+    for language in LANGUAGES:
         lessons(walker)
         options(walker)
         for game in games():
             play(walker, game, every_arena=language == LANGUAGES[0])
         ladder(walker)
+        events(walker)
         lab(walker)
         home(walker)
         replays(walker)
         walker.press("tab")
     attract(walker)
-
-
-def home(walker: TourWalker) -> None:
-    """Return to the title."""
-    for _ in range(12):
-        if walker.shows("Title"):
-            break
-        walker.press("escape", pause=0.8)
-    walker.set_screen("title")
-    walker.wait_until(lambda: walker.shows("Title"))
-    walker.wait(0.5)
-
-
-def choose(walker: TourWalker, name: str) -> None:
-    """Focus and open an item of the title."""
-    focus = walker.top.focus
-    for _ in range(20):
-        names = [spot.name for spot in focus.spots]
-        here, there = names.index(focus.name), names.index(name)
-        if here == there:
-            break
-        if (here < MENU) != (there < MENU):
-            walker.press("s" if here < MENU else "w", pause=0.0)
-        else:
-            walker.press("d" if here < there else "a", pause=0.0)
-    walker.press("space")
 
 
 def lessons(walker: TourWalker) -> None:

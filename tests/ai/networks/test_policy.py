@@ -6,8 +6,7 @@ from math import floor
 import numpy as np
 import pytest
 
-from pigaming_app.ai.experiments.cast import Cast
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.experiments.rollout import Batch, cast_with_baselines
 from pigaming_app.ai.networks.encoding import UNIT, saturating, whole
 from pigaming_app.ai.networks.layers import EXACT, Layers, squash_all
 from pigaming_app.ai.networks.pitanks import ENCODING
@@ -80,7 +79,8 @@ def test_both_bodies_of_networks_play_the_same_match_to_the_last_bit():
     ]
     line_up = [one, two, kinds["random"], two]
     plain, fast = (  # the loop of another test, which is in the cache
-        Batch(setups, line_up, fast, Cast([*line_up, *company("pitanks")], fast)) for fast in (False, True)
+        Batch(setups, line_up, fast, cast_with_baselines([*line_up, *company("pitanks")], fast))
+        for fast in (False, True)
     )
     for batch in (plain, fast):
         batch.play(400)

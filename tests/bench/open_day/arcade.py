@@ -7,6 +7,7 @@ import json
 import os
 import sys
 import traceback
+from dataclasses import replace
 from pathlib import Path
 from time import sleep
 from typing import Any
@@ -14,6 +15,7 @@ from typing import Any
 from tests.bench.open_day import clock as day_clock
 
 STEP = 0.08  # s of a frame: as many ticks as the arcade plays in one
+IDLE_STEP = 0.32  # s of a frame while nobody is there: attract mode then shows a quarter of its ticks
 DRAWN = 25
 RESTART = 15.0  # s of the day that a kill and a restart take
 PHONE_PAUSE = 0.004  # s of real time a frame with phones on the stage: they live in real time
@@ -46,7 +48,7 @@ def main(folder: Path) -> int:
     begin = clock.seconds + (RESTART if seen.lives else 0.0)
     clock.write(begin, os.getpid(), "other", 0)
     crew: list[tuple[App, Watch, Stage]] = []
-    frames = 0
+    frames, now = 0, begin
 
     def place(top: Any) -> str:
         if isinstance(top, MatchScene):
@@ -65,25 +67,26 @@ def main(folder: Path) -> int:
             raise SystemExit(0) from None
 
     def after_frame() -> bool:
-        nonlocal frames
+        nonlocal frames, now
         frames += 1
         app, watch, stage = crew[0]
-        now = begin + frames * STEP
+        now += app.options.step or 0.0
         watch.look(now, stage.group)
         clock.write(now, os.getpid(), place(app.stack.scenes[-1] if app.stack.scenes else None), frames)
         stage.play(now)
         if any(isinstance(player.hands, PhoneHands) for player in stage.players):
             sleep(PHONE_PAUSE)
+        app.options = replace(app.options, step=STEP if stage.busy else IDLE_STEP)
         return now >= day.seconds and not stage.busy and not watch.pending
 
-    settings = {"phones": True, "phones_network": "127.0.0.1", "phones_port": int(os.environ[PORT]), "language": "en"}
+    phones = {"phones": True, "phones_network": "127.0.0.1", "phones_port": int(os.environ[PORT])}
     options = Options(
         headless=True,
         kiosk=True,
         step=STEP,
         should_close=over,
         heartbeat=child.heartbeat(),
-        changed_settings=settings if not seen.lives else {},
+        changed_settings=phones,  # in each run, as a supervisor starts the same command again
     )
     with opened(options) as app:
         draw_rarely(app)

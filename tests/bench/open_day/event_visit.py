@@ -86,9 +86,9 @@ class EventVisit:
         below = stage.app.stack.scenes[-2]
         wanted = [self.wish.late] if isinstance(below, NextMatch) else self.names
         missing = [name for name in wanted if name not in page.names()]
-        player, picker = stage.players[0], page.spelling.picker
-        if stage.ready(player, FAST):
-            stage.tap(player.hands, next_letter(picker, missing[0]) if missing else Button.BACK)
+        picker = page.spelling.picker
+        if stage.speaker and stage.ready(stage.speaker[0], FAST):
+            stage.tap(stage.speaker[0].hands, next_letter(picker, missing[0]) if missing else Button.BACK)
 
     def next_match(self) -> None:
         stage, page = self.stage, self.stage.top
@@ -118,8 +118,9 @@ class EventVisit:
             stage.all_press(Button.FIRE, free[: len(page.waiting)])
 
     def _odd(self, button: Button, name: str) -> None:
-        self.stage.tap(self.stage.players[0].hands, button)
-        self.stage.watch.count(name)
+        for player in self.stage.speaker:
+            self.stage.tap(player.hands, button)
+            self.stage.watch.count(name)
 
     def _note_event(self, path: str) -> None:
         stage = self.stage

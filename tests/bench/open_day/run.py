@@ -72,6 +72,7 @@ def play(day: Day, folder: Path, environment: dict[str, str]) -> tuple[int, list
     """Run the supervisor to the end of the day, and kill the arcade as planned. Returns its code and troubles."""
     clock = DayClock(folder / "clock")
     arcade = [sys.executable, "-m", "tests.bench.open_day.arcade", str(folder)]
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends the supervisor, too
     supervisor = subprocess.Popen([sys.executable, "-c", SUPERVISOR, *arcade], cwd=ROOT, env=environment)
     kills, frames, since = list(day.kills), 0, time.monotonic()
     try:

@@ -51,6 +51,7 @@ class Stage:
         self.now = self.came = self.changed = now  # s; the last two: when the group came, and the top scene changed
         self.top: Any = None
         self.looked = self.mishap_over = False
+        self.focused: tuple[Focus, str] | None = None  # at the last press that was to move it
         self.held: list[tuple[float, Hands, Button]] = []  # buttons to release, and when
         self.keys = KeyHands()
         self.tasks = [task for task in day.tasks if task.at >= now]
@@ -182,8 +183,13 @@ class Stage:
                 self.tap(player.hands, button)
 
     def one_presses(self, button: Button) -> None:
-        """The first player taps a button."""
-        self.all_press(button, self.players[:1])
+        """The first player who has a device taps a button."""
+        self.all_press(button, self.speaker)
+
+    @property
+    def speaker(self) -> list[Player]:
+        """The first player who has a device, if there is one."""
+        return [player for player in self.players if player.hands.device][:1]
 
     def focus(self, focus: Focus, name: str, player: Player | None = None) -> bool:
         """Move the focus one step towards a spot; true if it is there."""
@@ -192,9 +198,13 @@ class Stage:
         (x, y), (to_x, to_y) = focus.rect(focus.name).center, focus.rect(name).center
         across = Button.RIGHT if to_x > x else Button.LEFT
         along = Button.DOWN if to_y > y else Button.UP
-        wanted = across if abs(to_y - y) < 20 else along
-        button = wanted if self.rng.random() < 0.8 else self.rng.choice(ARROWS)
-        self.all_press(button, [player or self.players[0]])
+        button = across if abs(to_y - y) < 20 else along
+        for one in [player] if player else self.speaker:
+            if self.ready(one):
+                if self.focused == (focus, focus.name):  # the last press has not moved it: no way there
+                    button = self.rng.choice(ARROWS)
+                self.focused = focus, focus.name
+                self.tap(one.hands, button)
         return False
 
     # ---- the operator

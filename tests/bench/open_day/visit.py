@@ -25,6 +25,7 @@ FAST = 0.1  # s between two letters
 AWAY = 4.0  # s for which a pad is pulled, or a phone locked
 LOOK = 8.0  # s on a page of the title's menu
 REST = 95.0  # s for which nobody drives
+MINUTES, GOAL = 2, 3  # of a match, at most
 MISHAP_AT = 8.0  # s of the match
 
 
@@ -88,11 +89,6 @@ class Visit:
         assert lobby is not None
         seated = lobby.seats.devices()
         absent = [player for player in stage.players if player.hands.device not in seated]
-        if isinstance(stage.top, JoinByPhone) and not any(isinstance(one.hands, PhoneHands) for one in absent):
-            stage.one_presses(Button.BACK if stage.players[0].hands.device in seated else Button.FIRE)
-            if isinstance(stage.players[0].hands, PhoneHands):
-                stage.all_press(Button.FIRE)
-            return
         if absent:
             stage.all_press(Button.FIRE, absent)
         elif lobby.seats.robots < 2:
@@ -107,12 +103,19 @@ class Visit:
         return any(place.device == player.hands.device and place.ready for place in lobby.seats.places)
 
     def setup(self) -> None:
-        """Change something, now and then; then start."""
-        stage = self.stage
+        """Change something; then make it a short match, since others wait, and start."""
+        stage, page = self.stage, self.stage.top
+        choice, variant = page.chosen, page.variant
         if stage.now - stage.changed < 3.0:
             stage.one_presses(stage.rng.choice((Button.DOWN, Button.RIGHT)))
-        else:
+            return
+        long = {"minutes": choice.rounds == 1 and choice.minutes > max(MINUTES, min(variant.minutes))}
+        long["goal"] = bool(variant.goals) and choice.goal > max(GOAL, min(variant.goals))
+        rows = [row for row, is_long in long.items() if is_long and row in page.rows]
+        if not rows:
             stage.one_presses(Button.START)
+        elif stage.focus(page.focus, rows[0]):
+            stage.one_presses(Button.LEFT)
 
     # ---- the match
 
@@ -201,8 +204,8 @@ class Visit:
             return
         if not stage.finished:
             stage.all_press(Button.FIRE)
-        elif stage.ready(stage.players[0]):
-            stage.tap(stage.players[0].hands, Button.BACK, 0.8)
+        elif stage.speaker and stage.ready(stage.speaker[0]):
+            stage.tap(stage.speaker[0].hands, Button.BACK, 0.8)
 
     def leave_page(self) -> None:
         """An unexpected page is left."""

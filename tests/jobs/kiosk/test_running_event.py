@@ -1,5 +1,6 @@
 """A kiosk killed by SIGKILL during a match of an event comes back to that event, with every result."""
 
+import json
 import os
 import signal
 import subprocess
@@ -120,3 +121,109 @@ def test_event_run_in_a_kiosk_is_supervised_and_returns_to_its_event(data: Path,
     kiosk.terminate()
     assert kiosk.wait(20) == 0
     assert [one.detail for one in restarts(data)] == ["ended by SIGKILL"]
+
+
+KILLS = 200
+KILLED = """
+import json, os, random, signal, sys, time
+from importlib import import_module
+from pathlib import Path
+
+from pigaming_app.ai.registry import new_match
+from pigaming_app.events.event import Event
+from pigaming_app.events.event_files import load, save
+from pigaming_app.events.match_setup import setup_of
+from pigaming_app.events.spec import Entrant, EventSpec, Format
+from pigaming_app.games.engine_hash import engine_hash
+from pigaming_app.scenes.app import App, Options, opened
+from pigaming_app.scenes.events import choice, next_page
+from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.preloaded import MODULES
+from pigaming_app.scenes.results import winner
+from pigaming_app.storage import resume
+
+App._paint = lambda app, began: True  # drawing saves nothing, and takes longer than everything else
+MatchRunner.prewarm = lambda runner, milliseconds: True
+
+file, kills = Path(sys.argv[1]), int(sys.argv[2])
+entrants = tuple(Entrant(name, "random") for name in ("ANA", "BEA", "EVA", "IDA", "LIA"))
+new = Event(EventSpec("Cup", Format.ROUND_ROBIN, ("pitanks",), entrants, rounds=2, minutes={"pitanks": 0.1}))
+chance = random.Random(1)
+
+def arcade(pipe):
+    with opened(Options(headless=True, kiosk=True, step=0.1)) as app:
+        shown, results = None, 0
+        while True:
+            app.compose(0.1)
+            top = app.stack.top
+            name = type(top).__name__
+            if name != shown:
+                shown = name
+                if name in ("NextMatch", "PodiumPage"):
+                    results = len(top.running.event.outcomes)
+                elif name == "WinnersMoment":
+                    results += 1
+                os.write(pipe, f"{name} {results}\\n".encode())
+            if name == "NextMatch":
+                top.clock = max(top.clock, next_page.SHOW_AFTER)
+            if name == "MatchScene":  # without its countdown, a second long
+                top.countdown.seconds_left = min(top.countdown.seconds_left, 0.05)
+                top.match.state.rules.ticks = min(top.match.state.rules.ticks, 60)
+
+engine_hash()  # what every arcade needs is loaded once
+for module in MODULES:
+    import_module(module)
+match = new_match(setup_of(new, new.open[0]))
+for _ in range(60):
+    match.tick()
+save(file, new)
+resume.mark(file.parent.parent, file)
+before, counted, moments = [], 0, {}
+for _ in range(kills):
+    reading, writing = os.pipe()
+    pid = os.fork()
+    if not pid:
+        os.close(reading)
+        try:
+            arcade(writing)
+        finally:
+            os._exit(1)
+    os.close(writing)
+    told = os.read(reading, 10_000)
+    time.sleep(chance.uniform(0.0, 2.5))
+    os.kill(pid, signal.SIGKILL)
+    assert os.WTERMSIG(os.waitpid(pid, 0)[1]) == signal.SIGKILL
+    with open(reading, "rb") as pipe:
+        lines = (told + pipe.read()).decode().splitlines()
+    assert lines[0] == f"NextMatch {len(before)}", (lines, len(before))  # back to the event, with every result
+    event, problems = load(file)
+    assert event and not problems, problems
+    acknowledged = max(int(line.split()[1]) for line in lines)
+    assert acknowledged <= len(event.outcomes) <= acknowledged + 1, (lines, len(event.outcomes))
+    assert list(event.journal[: len(before)]) == before
+    numbers = [entry.outcome.fixture for entry in event.journal]
+    assert len(numbers) == len({*numbers})
+    counted += len(event.outcomes) - len(before)
+    moment = lines[-1].split()[0]
+    moments[moment] = moments.get(moment, 0) + 1
+    before = list(event.journal)
+    assert resume.marked(file.parent.parent) == file
+    if event.over:
+        save(file, new)
+        before = []
+print(json.dumps({"results": counted, "moments": moments}))
+"""
+
+
+def test_two_hundred_kills_of_a_real_arcade_at_any_moment_lose_no_result(data: Path) -> None:
+    """Each arcade, which does all but draw, is back in the event, with each result that a screen had followed."""
+    file = data / "events" / "cup.json"
+    file.parent.mkdir(parents=True)
+    ended = subprocess.run(
+        [sys.executable, "-c", KILLED, str(file), str(KILLS)], stdout=subprocess.PIPE, text=True, timeout=3000
+    )
+    assert ended.returncode == 0
+    told = json.loads(ended.stdout.splitlines()[-1])
+    assert told["results"] > KILLS / 4
+    assert {*told["moments"]} >= {"NextMatch", "MatchScene", "WinnersMoment"}
+    assert sum(told["moments"].values()) == KILLS

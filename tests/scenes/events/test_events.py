@@ -26,6 +26,7 @@ from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.stack import Pop
+from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
@@ -34,6 +35,8 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.phones.protocol import SeatView
+from pigaming_app.ui.input.phones.registry import Phones
 from pigaming_app.ui.widgets import setting_row
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events.drawn import an_event, played, result_of, running, saved
@@ -258,6 +261,35 @@ def test_each_pad_takes_its_own_seat_first(arcade: Arcade) -> None:
         assert page.seats.claims == {0: pads[1]}
         arcade.press(Button.BACK, pads[1])
         assert page.seats.claims == {}
+
+
+def test_a_phone_takes_a_seat_shows_it_and_frees_it_when_locked(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: dict[int, SeatView] = {}
+    monkeypatch.setattr(Phones, "show", lambda self, number, view: shown.__setitem__(number, view))
+    phones, link = arcade.context.controls.phones, PhoneLink(arcade.context)
+    page = at_next(arcade, running(an_event()))
+    numbers = [phones.connect(), phones.connect()]
+    arcade.frame()
+    two = Device("phone", numbers[1])
+    arcade.press(Button.FIRE, two)
+    assert page.seats.claims == {1: two}, "the second handheld has the second seat"
+    page.draw(arcade.screen)
+    assert page.seats._driver(1, "") == ("phone", "Phone")
+    link.update(arcade.stack.scenes)
+    assert [shown[number].seat for number in numbers] == [-1, 1]
+    phones.disconnect(two.number)
+    arcade.frame()
+    assert page.seats.claims == {}
+    phones.connect(two.number)
+    arcade.frame()
+    arcade.press(Button.FIRE, two)
+    arcade.press(Button.FIRE, Device("phone", numbers[0]))
+    arcade.wait(ALL_READY + 0.2)
+    assert [device.number for device in arcade.shown(MatchScene).devices if device] == numbers
+    for number in numbers:
+        phones.disconnect(number)
 
 
 def test_a_match_ended_by_hand_is_still_to_be_played(arcade: Arcade) -> None:

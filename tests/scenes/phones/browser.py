@@ -5,8 +5,10 @@ import itertools
 import shutil
 import subprocess
 import tempfile
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+import time
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from pathlib import Path
 from typing import Any
 
 from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
@@ -15,8 +17,10 @@ NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable"
 OPTIONS = (
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run", "--mute-audio",
     "--remote-debugging-port=0", "--disable-extensions", "--disable-background-networking", "--disable-sync",
+    "--disable-component-update", "--disable-default-apps", "--disable-breakpad",
     "--disable-background-timer-throttling", "--disable-renderer-backgrounding",
 )  # fmt: skip
+START_SECONDS = 30.0
 LANDSCAPE, PORTRAIT = (844, 390), (390, 844)
 WATCH_VIBRATION = "window.shaken = []; navigator.vibrate = (ms) => { window.shaken.push(ms); return true; };"
 
@@ -33,6 +37,7 @@ class Browser:
         self._socket = socket
         self._numbers = itertools.count(1)
         self._answers: dict[int, asyncio.Future[Any]] = {}
+        self.contexts: list[str] = []  # one of each phone
         self.errors: list[str] = []  # exceptions, and messages of the console, of all pages
 
     async def ask(self, method: str, session: str | None = None, **parameters: Any) -> Any:
@@ -61,13 +66,14 @@ class Browser:
     async def phone(self, url: str, size: tuple[int, int] = LANDSCAPE, vibrates: bool = True) -> "Page":
         """A page in a window of its own that shares nothing with the others."""
         context = (await self.ask("Target.createBrowserContext"))["browserContextId"]
+        self.contexts.append(context)
         target = await self.ask("Target.createTarget", url="about:blank", browserContextId=context, newWindow=True)
         attached = await self.ask("Target.attachToTarget", targetId=target["targetId"], flatten=True)
         page = Page(self, attached["sessionId"], size)
         for domain in ("Page", "Runtime", "Log"):
             await page.ask(f"{domain}.enable")
         await page.ask(
-            "Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=2, mobile=True
+            "Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1, mobile=True
         )
         await page.ask("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         await page.ask("Emulation.setFocusEmulationEnabled", enabled=True)
@@ -133,45 +139,43 @@ class Page:
         await self.ask("Input.dispatchTouchEvent", type=kind, touchPoints=points)
 
 
-@asynccontextmanager
-async def browsing() -> AsyncIterator[Browser]:
-    """A browser with an empty profile, ended and deleted afterwards."""
+@contextmanager
+def running_browser() -> Iterator[str]:
+    """The address of a browser with an empty profile, ended and deleted afterwards."""
     path = chromium()
     assert path
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         command = [path, *OPTIONS, f"--user-data-dir={profile}", "about:blank"]
-        process = await asyncio.create_subprocess_exec(
-            *command, stdout=subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE, limit=1 << 20
-        )
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
-            async with asyncio.timeout(30.0):
-                address = await _address(process)
-            async with ClientSession() as session, session.ws_connect(address, max_msg_size=0) as socket:
-                browser = Browser(socket)
-                tasks = [asyncio.create_task(browser.listen()), asyncio.create_task(_drain(process))]
-                yield browser
-                for task in tasks:
-                    task.cancel()
+            yield _address(process, Path(profile) / "DevToolsActivePort")
         finally:
-            if process.returncode is None:
-                process.terminate()
-                try:
-                    async with asyncio.timeout(5.0):
-                        await process.wait()
-                except TimeoutError:
-                    process.kill()
-                    await process.wait()
+            process.terminate()
+            try:
+                process.wait(5.0)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
 
 
-async def _address(process: asyncio.subprocess.Process) -> str:
-    assert process.stderr
-    async for line in process.stderr:
-        if b"DevTools listening on " in line:
-            return line.decode().split("listening on ")[1].strip()
-    raise RuntimeError("the browser has ended")
+@asynccontextmanager
+async def browsing(address: str) -> AsyncIterator[Browser]:
+    """A running browser; the pages opened in it are closed afterwards."""
+    async with ClientSession() as session, session.ws_connect(address, max_msg_size=0) as socket:
+        browser = Browser(socket)
+        listener = asyncio.create_task(browser.listen())
+        yield browser
+        for context in browser.contexts:
+            await browser.ask("Target.disposeBrowserContext", browserContextId=context)
+        listener.cancel()
 
 
-async def _drain(process: asyncio.subprocess.Process) -> None:
-    assert process.stderr
-    while await process.stderr.read(65536):
-        pass
+def _address(process: subprocess.Popen[bytes], port_file: Path) -> str:
+    """From the file that Chromium writes when it listens: the port, and the path of its socket."""
+    end = time.monotonic() + START_SECONDS
+    while time.monotonic() < end and process.poll() is None:
+        lines = port_file.read_text().split() if port_file.exists() else []
+        if len(lines) == 2:
+            return f"ws://127.0.0.1:{lines[0]}{lines[1]}"
+        time.sleep(0.05)
+    raise RuntimeError("the browser has not started")

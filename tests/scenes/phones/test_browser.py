@@ -3,7 +3,7 @@
 import asyncio
 import threading
 import time
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Device
 from tests.scenes.arcade import Arcade
-from tests.scenes.phones.browser import PORTRAIT, Browser, Page, browsing, chromium
+from tests.scenes.phones.browser import PORTRAIT, Browser, Page, browsing, chromium, running_browser
 
 pytestmark = [
     pytest.mark.long,
@@ -33,9 +33,9 @@ MINUTES = 0.2
 class Visitors(threading.Thread):
     """Runs a story in the browser beside the arcade, which has the main thread."""
 
-    def __init__(self, story: Callable[[Browser], Coroutine[Any, Any, None]]) -> None:
+    def __init__(self, address: str, story: Callable[[Browser], Coroutine[Any, Any, None]]) -> None:
         super().__init__(daemon=True)
-        self.story = story
+        self.address, self.story = address, story
         self.error: BaseException | None = None
 
     def run(self) -> None:
@@ -45,7 +45,7 @@ class Visitors(threading.Thread):
             self.error = error
 
     async def _run(self) -> None:
-        async with browsing() as browser:
+        async with browsing(self.address) as browser:
             await self.story(browser)
             assert browser.errors == []
 
@@ -53,8 +53,8 @@ class Visitors(threading.Thread):
 class OpenDay:
     """An arcade in real time, with phones on."""
 
-    def __init__(self, arcade: Arcade) -> None:
-        self.arcade, self.link = arcade, PhoneLink(arcade.context)
+    def __init__(self, arcade: Arcade, browser: str) -> None:
+        self.arcade, self.link, self.browser = arcade, PhoneLink(arcade.context), browser
         settings = arcade.context.settings
         settings.phones, settings.phones_network, settings.phones_port = True, "127.0.0.1", 0
         self.link.update(arcade.stack.scenes)
@@ -63,8 +63,9 @@ class OpenDay:
     def url(self) -> str:
         return self.arcade.context.phone_host.url
 
-    def run(self, visitors: Visitors, seconds: float = 90.0) -> None:
+    def run(self, story: Callable[[Browser], Coroutine[Any, Any, None]], seconds: float = 90.0) -> None:
         """Frames until the visitors are through."""
+        visitors = Visitors(self.browser, story)
         visitors.start()
         last = end = time.perf_counter()
         end += seconds
@@ -85,10 +86,17 @@ class OpenDay:
                 await asyncio.sleep(0.02)
 
 
+@pytest.fixture(scope="module")
+def browser() -> Iterator[str]:
+    """One browser for all tests: to start it takes more time than most of them."""
+    with running_browser() as address:
+        yield address
+
+
 @pytest.fixture
-def day(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+def day(browser: str, controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    day = OpenDay(Arcade(controls))
+    day = OpenDay(Arcade(controls), browser)
     yield day
     day.arcade.context.phone_host.close()
 
@@ -130,6 +138,8 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
         while match.countdown.locked:
             await asyncio.sleep(0.05)
         starts = [(robot.x, robot.y, robot.heading) for robot in match.match.state.robots]
+        await pages[0].until("/^0:\\d\\d$/.test(document.getElementById('clock').textContent)")
+        assert await pages[0].value("document.getElementById('score').textContent") == "0"
         for page, (x, y) in zip(pages, ((0, -1), (0.7, -0.7), (-1, 0), (1, 0.3)), strict=True):
             await steer(page, x, y)
             await page.touch(1, *await page.middle("fire"))  # a second finger
@@ -170,9 +180,11 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
                 await steer(page, (-1) ** seat, -0.5)
             await asyncio.sleep(0.1)
         scores.extend(robot.score for robot in match.match.state.robots)
-        assert not any([await page.value("document.body.classList.contains('playing')") for page in pages])
+        for page in pages:
+            await page.until("!document.body.classList.contains('playing')")
+            await page.until("['1st', '2nd', '3rd', '4th'].includes(document.getElementById('seat').textContent)")
 
-    day.run(Visitors(story))
+    day.run(story)
     assert len(scores) == 4
 
 
@@ -197,7 +209,7 @@ def test_the_page_reports_what_went_wrong(day: OpenDay) -> None:
         assert 1 in numbers, "a reloaded page is the same device"
         browser.errors.clear()  # the refused page is an entry in the log
 
-    day.run(Visitors(story))
+    day.run(story)
 
 
 def test_touches_become_stick_and_buttons(day: OpenDay) -> None:
@@ -234,4 +246,4 @@ def test_touches_become_stick_and_buttons(day: OpenDay) -> None:
             await page.lift(1)
             await drives(device, lambda state: not state.turbo)
 
-    day.run(Visitors(story))
+    day.run(story)

@@ -1,5 +1,6 @@
 """Phones in the arcade: the code in the lobby, seats, the reconnect page, and the operator's page."""
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,11 +12,12 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import CODE_SECONDS, Lobby
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.phones.join import JoinByPhone
-from pigaming_app.scenes.phones.link import PhoneLink
+from pigaming_app.scenes.phones.link import TALLY_SECONDS, PhoneLink
 from pigaming_app.scenes.phones.settings_page import PhonesPage
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import TIMEOUT, Reconnect
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.scene import Results
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.input.controls import Controls
@@ -230,7 +232,8 @@ def test_the_pause_shows_the_code_while_phones_are_on(open_to_phones: Arcade) ->
 def test_phones_are_told_their_seats(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     shown: dict[int, SeatView] = {}
     monkeypatch.setattr(Phones, "show", lambda self, number, view: shown.__setitem__(number, view))
-    link = PhoneLink(arcade.context)
+    now = [0.0]
+    link = PhoneLink(arcade.context, lambda: now[0])
     lobby = lobby_of(arcade)
     free, seated = join(arcade), join(arcade)
     tap(arcade, seated, Button.FIRE)
@@ -239,14 +242,76 @@ def test_phones_are_told_their_seats(arcade: Arcade, monkeypatch: pytest.MonkeyP
     assert shown[seated.number] == SeatView(0, "#{:02x}{:02x}{:02x}".format(*PLAYERS[0]), False)
     assert arcade.stack.top is lobby
     match_with(arcade, None, seated)
+    now[0] += TALLY_SECONDS
     link.update(arcade.stack.scenes)
-    assert shown[seated.number] == SeatView(1, "#{:02x}{:02x}{:02x}".format(*PLAYERS[1]), True)
+    assert shown[seated.number] == SeatView(1, "#{:02x}{:02x}{:02x}".format(*PLAYERS[1]), True, "0", "2:00")
     assert not shown[free.number].playing
     tap(arcade, seated, Button.START)
     arcade.shown(Pause)
     link.update(arcade.stack.scenes)
     assert shown[seated.number].seat == 1
     assert not shown[seated.number].playing, "X and Y count in a menu"
+
+
+def test_a_phone_shows_its_score_four_times_a_second_at_most_and_its_place(arcade: Arcade) -> None:
+    sent: list[tuple[float, SeatView]] = []
+    now = [0.0]
+    phones = arcade.context.controls.phones
+    one, two = join(arcade), join(arcade)
+    match = match_with(arcade, one, two)
+
+    def note(number: int, text: str) -> None:
+        message = json.loads(text)
+        if number == two.number and "state" in message:
+            sent.append((now[0], SeatView(**message["state"])))
+
+    phones.send = note
+    link = PhoneLink(arcade.context, lambda: now[0])
+    for frame in range(180):
+        now[0] = frame / 60
+        match.match.state.robots[1].score = frame
+        phones.receive(two.number, Touches())
+        link.update(arcade.stack.scenes)
+    assert [int(view.score) for _, view in sent] == list(range(0, 180, 15))
+    assert all(view.clock == "2:00" for _, view in sent)
+    outcome = match.match.outcome()
+    arcade.open(Results(arcade.context, outcome, match.setup, match.devices, lambda *_: arcade.title))
+    now[0] += TALLY_SECONDS
+    link.update(arcade.stack.scenes)
+    view = sent[-1][1]
+    assert view.place == {1: "1st", 2: "2nd", 3: "3rd", 4: "4th"}[next(r.place for r in outcome.rows if r.seat == 1)]
+    assert (view.seat, view.playing, view.clock) == (1, False, "")
+
+
+@pytest.mark.parametrize("kiosk", [False, True])
+@pytest.mark.parametrize("name", ["title", "lobby", "match", "pause", "results", "phones"])
+def test_a_phone_may_come_and_go_on_any_screen(arcade: Arcade, name: str, kiosk: bool) -> None:
+    arcade.context.kiosk = kiosk
+    link, phones = PhoneLink(arcade.context), arcade.context.controls.phones
+    one = join(arcade)
+    if name in ("match", "pause", "results"):
+        match = match_with(arcade, one, KEYS[0])
+        if name == "pause":
+            tap(arcade, one, Button.START)
+            arcade.shown(Pause)
+        if name == "results":
+            outcome = match.match.outcome()
+            arcade.open(Results(arcade.context, outcome, match.setup, match.devices, lambda *_: arcade.title))
+    elif name != "title":
+        arcade.open(Lobby(arcade.context, "pitanks") if name == "lobby" else PhonesPage(arcade.context))
+    top = arcade.stack.top
+    two = join(arcade)
+    for _ in range(3):
+        arcade.frame()
+        link.update(arcade.stack.scenes)
+        top.draw(arcade.screen)
+    phones.disconnect(two.number)
+    arcade.frame()
+    link.update(arcade.stack.scenes)
+    assert arcade.stack.top is top, "a phone that only comes and goes disturbs nobody"
+    phones.connect(two.number)
+    arcade.frame()
+    assert arcade.context.controls.connected(two)
 
 
 def test_the_link_follows_the_settings(arcade: Arcade) -> None:

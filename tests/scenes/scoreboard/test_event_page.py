@@ -9,6 +9,7 @@ import pytest
 
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import Format
+from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.next_page import EventMatch, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
@@ -22,6 +23,7 @@ from pigaming_app.scenes.scoreboard.event_now import event_now, next_line, now_l
 from pigaming_app.scenes.scoreboard.event_page import CALL, FOOT, PODIUM, TURN, EventPage
 from pigaming_app.scenes.scoreboard.snapshot import MatchSnapshot, snapshot
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage
+from pigaming_app.scenes.walk import second_screen
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
@@ -273,3 +275,24 @@ def test_standby_shows_who_is_next_while_an_event_runs(arcade: Arcade) -> None:
     assert any(run.event.open[0].entrants[0] in repr(part.content) for part in during)
     boxes = [pygame.Rect(part.box) for part in during]
     assert all(box.collidelist(boxes[i + 1 :]) == -1 for i, box in enumerate(boxes))
+
+
+def test_its_cost_is_measured_over_all_of_its_pages(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[tuple[str, bool]] = []
+    whole = second_screen.frame
+
+    def frame(app: App, shown: bool) -> float:
+        spent = whole(app, shown)
+        assert app.desk.window
+        assert app.desk.window.window
+        seen.append((app.desk.window.board.page, shown))
+        return spent
+
+    monkeypatch.setattr(second_screen, "frame", frame)
+    for name, value in (("WARM", 60), ("BLOCK", 40), ("BLOCKS", 6)):
+        monkeypatch.setattr(second_screen, name, value)
+    ratios = second_screen.compare()
+    assert ratios.keys() == {"median", "p99"}
+    assert min(ratios.values()) > 0.0
+    assert {page for page, shown in seen[60:] if shown} == {*second_screen.PAGES}
+    assert [shown for _, shown in seen[60:]] == ([True] * 40 + [False] * 40) * 3

@@ -27,7 +27,7 @@ IDLE = 60.0  # s without input before the return to the table
 MESSAGE_SECONDS = 5.0
 ROWS, TOP, HIGH, PITCH = 7, 212, 88, 104  # px
 NOTES = ("note_referee", "note_robot", "note_agreed", "note_seats")
-MAX_NOTE = 80  # characters
+MAX_NOTE = 40  # characters
 NOTE, SAVE = " note", " save"  # rows below the entrants, whose names begin with no space
 
 log = logging.getLogger("pigaming")

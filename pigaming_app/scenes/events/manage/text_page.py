@@ -11,6 +11,7 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.labels import black_out, heading
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
 
@@ -31,13 +32,14 @@ class TextPage:
         self.picker = LetterPicker(ALPHABET, ALPHABET[0])
         self.refusal = ""
         self.age = 0.0
-        hints = [
-            (Button.FIRE, "events.hint_letter"),
-            (Button.X, "events.hint_erase"),
-            (Button.START, "events.hint_save"),
-            (Button.BACK, "events.hint_back"),
-        ]
-        self.prompts = context.prompts(hints)
+
+    @property
+    def prompts(self) -> ButtonPrompts:
+        """The prompts of a pad, or of the keyboard, whose letters and space are typed."""
+        own = [(Button.FIRE, "events.hint_letter"), (Button.X, "events.hint_erase")]
+        typed = self.context.controls.last.kind == "keys"
+        ways_out = [(Button.START, "events.hint_save"), (Button.BACK, "events.hint_back")]
+        return self.context.prompts([*([] if typed else own), *ways_out])
 
     def on_enter(self) -> None:
         """Take over the letters of the keyboard."""

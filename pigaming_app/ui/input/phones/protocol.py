@@ -2,11 +2,13 @@
 
 A phone sends its whole state in a binary frame of four bytes: the version, x and y of the stick (signed, -127..127, y
 down), and a bit for each button held down. The arcade answers with JSON: `{"state": {...}}` describes the seat,
-`{"rumble": [strong, weak, milliseconds]}` shakes the phone, `{"resume": "..."}` identifies it when it returns.
+`{"rumble": [strong, weak, milliseconds]}` shakes the phone, `{"texts": {...}}` sets the language of its page,
+`{"resume": "..."}` identifies it when it returns.
 """
 
 import json
 import struct
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
 from pigaming_app.ui.input.events import Button
@@ -32,11 +34,17 @@ class Touches:
 
 @dataclass(frozen=True)
 class SeatView:
-    """What a phone shows: its seat (0..3; -1: none), the seat's colour as #rrggbb, and whether a match is running."""
+    """What a phone shows: its seat (0..3; -1: none), the seat's colour as #rrggbb, and whether a match is running.
+
+    `score` and `clock` of a match, and the final `place`, as shown on the screen; empty: none.
+    """
 
     seat: int = -1
     color: str = ""
     playing: bool = False
+    score: str = ""
+    clock: str = ""
+    place: str = ""
 
 
 def parse(frame: bytes) -> Touches | None:
@@ -62,6 +70,11 @@ def rumble_text(strong: float, weak: float, seconds: float) -> str:
 def state_text(view: SeatView) -> str:
     """The message that describes the seat."""
     return json.dumps({"state": asdict(view)})
+
+
+def texts_text(texts: Mapping[str, str]) -> str:
+    """The message with the texts of the page."""
+    return json.dumps({"texts": dict(texts)})
 
 
 def resume_text(token: str) -> str:

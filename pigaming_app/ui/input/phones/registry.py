@@ -6,11 +6,11 @@ phone that has been silent for a moment stands still, and is unplugged by the se
 
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 from pigaming_app.ui.input.events import Button, StickState
 from pigaming_app.ui.input.filters import ButtonChange, StickDirection, apply_dead_zone
-from pigaming_app.ui.input.phones.protocol import BITS, SeatView, Touches, rumble_text, state_text
+from pigaming_app.ui.input.phones.protocol import BITS, SeatView, Touches, rumble_text, state_text, texts_text
 
 MAX_PHONES = 4
 FRESH_SECONDS = 0.6  # age of the last message after which a stick counts as released
@@ -46,6 +46,7 @@ class Phones:
         self._connected: dict[int, Phone] = {}  # for the server
         self._queue: deque[tuple[int, ButtonChange | Button]] = deque()
         self._shown: dict[int, SeatView] = {}
+        self._texts: dict[int, Mapping[str, str]] = {}  # last sent to each phone
         self._next = 0
 
     # ---- for the server's thread
@@ -89,6 +90,7 @@ class Phones:
                 if phone := self._connected.get(number):
                     self.plugged[number] = phone
                     self._shown.pop(number, None)
+                    self._texts.pop(number, None)
                     yield number, change
             elif change is Button.LOST:
                 if self.plugged.pop(number, None):
@@ -119,6 +121,12 @@ class Phones:
         if number in self.plugged and self._shown.get(number) != view:
             self._shown[number] = view
             self.send(number, state_text(view))
+
+    def translate(self, number: int, texts: Mapping[str, str]) -> None:
+        """Send a phone the texts of its page, if they have changed or it has just come."""
+        if number in self.plugged and self._texts.get(number) != texts:
+            self._texts[number] = texts
+            self.send(number, texts_text(texts))
 
     @staticmethod
     def _press(phone: Phone, change: ButtonChange) -> None:

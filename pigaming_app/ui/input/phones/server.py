@@ -6,7 +6,9 @@ for: the arcade only ever reads queues.
 """
 
 import asyncio
+import base64
 import errno
+import hashlib
 import hmac
 import html
 import json
@@ -38,6 +40,10 @@ FILES = {
     "page.js": ("phones/page.js", "text/javascript"),
     "oxanium.woff2": ("fonts/oxanium-latin-700-normal.woff2", "font/woff2"),
 }
+REFUSAL_STYLE = (
+    "body{background:#000;color:#e2eeff;font:24px sans-serif;text-align:center;margin:35vh 8vw 0;text-wrap:balance}"
+)
+STYLE_HASH = base64.b64encode(hashlib.sha256(REFUSAL_STYLE.encode()).digest()).decode()
 FORBIDDEN_ERRORS = (errno.EACCES, errno.EPERM, 10013)  # 10013: Windows' WSAEACCES
 
 
@@ -151,7 +157,8 @@ class PhoneServer:
     def _headers(self) -> dict[str, str]:
         sockets = f"connect-src 'self' ws://{self.address}:{self.port}"
         policy = (
-            "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src data:; base-uri 'none'"
+            "default-src 'none'; script-src 'self'; font-src 'self'; img-src data:; base-uri 'none'; "
+            f"style-src 'self' 'sha256-{STYLE_HASH}'"
         )
         return {
             "Server": "PiGaming",
@@ -164,8 +171,11 @@ class PhoneServer:
     def _refused(self, kind: str, request: web.Request) -> web.StreamResponse:
         self.refusals.note(kind, request.remote or "")
         sentence = html.escape(self.texts.get("page_old", ""))
-        meta = '<meta name="viewport" content="width=device-width"><meta charset="utf-8">'
-        return web.Response(status=403, text=f"<!doctype html>{meta}<p>{sentence}</p>", content_type="text/html")
+        meta = (
+            '<meta name="viewport" content="width=device-width"><meta charset="utf-8"><link rel="icon" href="data:,">'
+        )
+        page = f"<!doctype html>{meta}<style>{REFUSAL_STYLE}</style><p>{sentence}</p>"
+        return web.Response(status=403, text=page, content_type="text/html")
 
     async def _get_page(self, request: web.Request) -> web.StreamResponse:
         self.visited = True

@@ -1,5 +1,7 @@
 """Phones as devices of `Controls`: as pads behave."""
 
+import json
+
 import pytest
 
 from pigaming_app.ui.input.controls import Controls
@@ -137,11 +139,27 @@ def test_a_rumble_and_the_seat_are_sent_once(controls: Controls, clock: Clock) -
     assert sent == [(number, '{"rumble": [0.9, 0.6, 280]}')]
     for seat in (1, 1, 2):
         controls.phones.show(number, SeatView(seat, "#ff9200", True))
-    assert sent[1:] == [
-        (number, f'{{"state": {{"seat": {seat}, "color": "#ff9200", "playing": true}}}}') for seat in (1, 2)
+    assert [(to, json.loads(text)) for to, text in sent[1:]] == [
+        (number, {"state": {"seat": seat, "color": "#ff9200", "playing": True, "score": "", "clock": "", "place": ""}})
+        for seat in (1, 2)
     ]
     controls.stop_rumble()
     assert sent[3:] == [(number, '{"rumble": [0.0, 0.0, 0]}')]
+
+
+def test_the_language_of_the_page_follows_the_screen(controls: Controls, clock: Clock) -> None:
+    sent: list[str] = []
+    controls.phones.send = lambda number, text: sent.append(text)
+    number, device = join(controls)
+    for word in ("fire", "fire", "Feuer"):
+        controls.phones.translate(number, {"page_fire": word})
+    controls.phones.disconnect(number)
+    assert noticed(controls) == [(Button.LOST, device)]
+    controls.phones.translate(number, {"page_fire": "tir"})
+    controls.phones.connect(number)
+    assert noticed(controls) == [(Button.FOUND, device)]
+    controls.phones.translate(number, {"page_fire": "Feuer"})
+    assert [json.loads(text)["texts"]["page_fire"] for text in sent] == ["fire", "Feuer", "Feuer"]
 
 
 def test_what_is_queued_while_nobody_reads_is_limited() -> None:

@@ -55,8 +55,9 @@ def test_a_phone_joins_drives_and_is_told_its_seat(controls: Controls, server: P
         number = next(iter(server.phones.plugged))
         device = Device("phone", number)
         await until(lambda: pressed(controls) or controls.drive(device) == StickState(1.0, 0.0, True))
-        controls.phones.show(number, SeatView(2, "#14e48c", True))
-        assert await one.told() == {"state": {"seat": 2, "color": "#14e48c", "playing": True}}
+        controls.phones.show(number, SeatView(2, "#14e48c", True, "3", "1:05"))
+        tally = {"score": "3", "clock": "1:05", "place": ""}
+        assert await one.told() == {"state": {"seat": 2, "color": "#14e48c", "playing": True, **tally}}
         controls.rumble(device, 1.0, 0.5, 0.2)
         assert await one.told() == {"rumble": [1.0, 0.5, 200]}
         await one.socket.close()
