@@ -37,6 +37,9 @@ def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
         picture=lambda: pygame.Surface((1920, 1080)),
         draw_overlay=lambda screen: None,
         advance_paused=lambda seconds: None,
+        advance_examined=lambda seconds: None,
+        preparing=False,
+        watch=SimpleNamespace(note=lambda screen: None, examine=lambda: None, places=[]),
     )
     page = FaultPage(match)
     page.update(0.0)
