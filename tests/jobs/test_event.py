@@ -216,7 +216,7 @@ def test_a_wrong_option_is_one_line(words, reason, capsys):
         (["run", "cup.json", "--json"], "need --headless"),
         (["run", "cup.json", "--headless", "--speed", "fast"], "'fast' is not a number"),
         (["show", "."], "cannot be read"),
-        (["export", "cup.json"], "--csv, --matches or --json"),
+        (["export", "cup.json"], "--csv, --matches, --json or --poster"),
         (["export", "cup.json", "--csv", "cup.json"], "a name of its own"),
         (["export", "cup.json", "--csv", "a", "--json", "./a"], "a name of its own"),
         (["export", "cup.json", "--csv", "."], "it is a folder"),

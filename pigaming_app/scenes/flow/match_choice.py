@@ -1,6 +1,7 @@
 """The playable arenas, and the match options, initially those of the last match."""
 
 import logging
+from collections.abc import Iterator
 from functools import lru_cache
 
 from pigaming_app.games.arenas import arenas, load
@@ -25,14 +26,22 @@ def load_cached(game: str, name: str) -> Arena:
 @lru_cache(maxsize=4)
 def playable_arenas(game: str) -> tuple[str, ...]:
     """The arenas of a game with valid files; errors of the others are logged."""
-    names = []
+    return tuple(_playable(game))
+
+
+@lru_cache(maxsize=16)
+def first_arena(game: str) -> str:
+    """The first of them, without loading the others."""
+    return next(_playable(game))
+
+
+def _playable(game: str) -> Iterator[str]:
     for name in arenas(game):
         try:
             load_cached(game, name)
-            names.append(name)
+            yield name
         except ArenaError as trouble:
             log.warning("%s", trouble)
-    return tuple(names)
 
 
 def arena_title(arena: Arena, language: str) -> str:

@@ -6,7 +6,7 @@ from itertools import permutations
 from pigaming_app.events.spec import DEFAULT_AI, SEATS, Entrant, EventSpec, Format
 from pigaming_app.games.game import Variant
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.match_choice import playable_arenas
+from pigaming_app.scenes.flow.match_choice import first_arena
 
 BY_TURNS = "turns"  # another game in every round
 LENGTHS = ("short", "normal", "long")
@@ -46,7 +46,7 @@ class Draft:
 
     def arenas(self, game: str) -> tuple[str, ...]:
         """The arenas of a game, in the order of their turns; at least one."""
-        return self.chosen.get(game) or playable_arenas(game)[:1]
+        return self.chosen.get(game) or (first_arena(game),)
 
     def toggle_arena(self, game: str, arena: str) -> bool:
         """Add an arena behind the others of a game, or leave it out; false for the only one."""
