@@ -13,7 +13,7 @@ from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
 from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
-from pigaming_app.scenes.views.game_tile import tile, tile_rect
+from pigaming_app.scenes.views.game_tile import TileStrip, tile
 from pigaming_app.ui.draw import (
     FOCUS,
     LINE,
@@ -50,6 +50,7 @@ class Title:
         self.context = context
         self.clock = 0.0
         self.kiosk_unlock = KioskUnlock(context)
+        self.tiles = TileStrip(SHOWN)
         self.focus = Focus(self._spots())
         self.game = next(iter(games()))  # the game whose tile was focused last
         self.lab: Scene | None = None
@@ -72,6 +73,8 @@ class Title:
             self._next_language()
         elif self.focus.handle(event):
             self.context.sounds.play("move")
+            if self.tiles.follow(self.focus):
+                self.focus.set_spots(self._spots())
         self.game = self.focus.name if self.focus.name in games() else self.game
         chosen = self.focus.activated(event)
         return self._open(chosen) if chosen else None
@@ -80,6 +83,7 @@ class Title:
         """Animate; start attract mode when idle."""
         self.clock += seconds
         self.focus.update(seconds)
+        self.tiles.update(seconds)
         self._keep_quiet()
         if self.kiosk_unlock.unlocked(seconds):
             from pigaming_app.scenes.options.page import OptionsPage
@@ -97,15 +101,17 @@ class Title:
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
         blit_sprite(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
-        for i, game in enumerate(games()):
-            line = tagline(words, game, last_goal(self.context.settings, game))
-            lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
-            lit.draw(screen, *tile_rect(i).topleft)
+        self.tiles.draw(screen, self._tile)
         self._prompt(screen)
         self._foot(screen)
         self.focus.draw(screen)
 
     # ---- internals
+
+    def _tile(self, game: str) -> LitImage:
+        words = self.context.words
+        line = tagline(words, game, last_goal(self.context.settings, game))
+        return tile(game, words(f"games.{game}"), line, self.focus.name == game)
 
     def _keep_quiet(self) -> None:
         """Stop the music when the quiet hours begin, and start it when they end."""
@@ -166,7 +172,7 @@ class Title:
         self.focus.set_spots(self._spots())
 
     def _spots(self) -> list[FocusSpot]:
-        spots = [FocusSpot(game, tile_rect(i)) for i, game in enumerate(games())]
+        spots = self.tiles.spots()
         widths = [chip_width(self.context.words(f"title.{name}")) for name in self._menu()]
         room = RIGHT - LEFT - LANGUAGES_W - MENU_GAP * len(widths)
         x, share = LEFT, min(1.0, room / sum(widths))
@@ -222,10 +228,10 @@ class Title:
 @cached
 @resumable
 def ground() -> Steps[pygame.Surface]:
-    """The static part: floor dots, the name, and black behind the tiles."""
+    """The static part: floor dots and the name."""
     layer = Layer(LEFT, 54, 1210, 260)
     logo(layer.glow, *LOGO)
     name = yield from layer.render_steps()
     out = backdrop().copy()
     name.draw(out)
-    return black_out(out, *map(tile_rect, range(len(games()))))
+    return out
