@@ -5,7 +5,6 @@ After a while without input, attract mode starts.
 
 import pygame
 
-from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import reset_rules
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
@@ -14,6 +13,7 @@ from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
 from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
 from pigaming_app.scenes.views.game_tile import TileStrip, tile
+from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.ui.draw import (
     FOCUS,
     LINE,
@@ -21,13 +21,12 @@ from pigaming_app.ui.draw import (
     button_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import NAMES
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import (
-    black_out,
     blit_sprite,
     button_label,
     call_to_action,
@@ -50,9 +49,9 @@ class Title:
         self.context = context
         self.clock = 0.0
         self.kiosk_unlock = KioskUnlock(context)
-        self.tiles = TileStrip(SHOWN)
+        self.tiles = TileStrip(shown_games())
+        self.game = self.tiles.names[0]  # the game whose tile was focused last
         self.focus = Focus(self._spots())
-        self.game = next(iter(games()))  # the game whose tile was focused last
         self.lab: Scene | None = None
         self.music = True  # off in the quiet hours
 
@@ -75,7 +74,7 @@ class Title:
             self.context.sounds.play("move")
             if self.tiles.follow(self.focus):
                 self.focus.set_spots(self._spots())
-        self.game = self.focus.name if self.focus.name in games() else self.game
+        self.game = self.focus.name if self.focus.name in self.tiles.names else self.game
         chosen = self.focus.activated(event)
         return self._open(chosen) if chosen else None
 
@@ -129,7 +128,7 @@ class Title:
 
     def _scene(self, name: str) -> Scene | None:
         """The page of a menu item; imported late, so that the title appears at once."""
-        if name in games():
+        if name in self.tiles.names:
             from pigaming_app.scenes.lobby.scene import Lobby
 
             return Lobby(self.context, name)
@@ -207,7 +206,7 @@ class Title:
         """The call to action and the label of its button."""
         words, name = self.context.words, self.focus.name
         label = words.key_name(self.context.controls.label(None, Button.FIRE))
-        if name in games():
+        if name in self.tiles.names:
             return words("title.press", button="{button}"), label
         what = words("options.language") if name == "language" else self._item_name(name)
         return words("title.choose", button="{button}", what=what), label

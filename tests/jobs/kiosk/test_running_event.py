@@ -125,7 +125,7 @@ def test_event_run_in_a_kiosk_is_supervised_and_returns_to_its_event(data: Path,
 
 KILLS = 200
 KILLED = """
-import json, os, random, signal, sys, time
+import json, os, random, signal, sys, time, traceback
 from importlib import import_module
 from pathlib import Path
 
@@ -168,13 +168,13 @@ def arcade(pipe):
                 top.clock = max(top.clock, next_page.SHOW_AFTER)
             if name == "MatchScene":  # without its countdown, a second long
                 top.countdown.seconds_left = min(top.countdown.seconds_left, 0.05)
-                top.match.state.rules.ticks = min(top.match.state.rules.ticks, 60)
+                top.match.state.rules.ticks = min(top.match.state.rules.ticks, 15)
 
 engine_hash()  # what every arcade needs is loaded once
 for module in MODULES:
     import_module(module)
 match = new_match(setup_of(new, new.open[0]))
-for _ in range(60):
+for _ in range(15):
     match.tick()
 save(file, new)
 resume.mark(file.parent.parent, file)
@@ -187,10 +187,11 @@ for _ in range(kills):
         try:
             arcade(writing)
         finally:
+            traceback.print_exc()
             os._exit(1)
     os.close(writing)
     told = os.read(reading, 10_000)
-    time.sleep(chance.uniform(0.0, 2.5))
+    time.sleep(chance.uniform(0.0, 0.8))
     os.kill(pid, signal.SIGKILL)
     assert os.WTERMSIG(os.waitpid(pid, 0)[1]) == signal.SIGKILL
     with open(reading, "rb") as pipe:
