@@ -77,19 +77,31 @@ class PadHands:
 
 
 class PhoneHands:
-    """A visitor's phone. `taken`: the numbers of other phones."""
+    """A visitor's phone. `new`: one that scans the code; `others`: the group's other phones.
 
-    def __init__(self, handset: Handset, phones: Phones, taken: Callable[[], set[int]]) -> None:
-        self.handset, self._phones, self._taken = handset, phones, taken
+    They scan it one after the other, after the phones of the group before have gone: so each knows its number.
+    """
+
+    def __init__(self, new: Callable[[], Handset], phones: Phones, others: "Callable[[], list[PhoneHands]]") -> None:
+        self._new, self._phones, self._others = new, phones, others
+        self.handset: Handset | None = None
         self.number: int | None = None
         self._touches = Touches()
 
     @property
     def device(self) -> Device | None:
         if self.number is None:
-            new = sorted(set(self._phones.plugged) - self._taken())
-            self.number = new[0] if new else None
+            self._join()
         return Device("phone", self.number) if self.number in self._phones.plugged else None
+
+    def _join(self) -> None:
+        others = self._others()
+        strange = sorted(set(self._phones.plugged) - {other.number for other in others})
+        if self.handset is None:
+            scanning = any(other.handset and other.number is None for other in others)
+            self.handset = None if strange or scanning else self._new()
+        elif strange:
+            self.number = strange[0]
 
     def press(self, button: Button) -> None:
         if button in STICK:
@@ -107,17 +119,20 @@ class PhoneHands:
         self._send(x, y, BITS[Button.FIRE] * fire | BITS[Button.BACK] * turbo)
 
     def unplug(self) -> None:
-        self.handset.lock()
+        if self.handset:
+            self.handset.lock()
 
     def plug(self) -> None:
         self._touches = Touches()
-        self.handset.unlock()
+        if self.handset:
+            self.handset.unlock()
 
     def _send(self, x: float, y: float, buttons: int) -> None:
         touches = Touches(x, y, buttons)
         if touches != self._touches:
             self._touches = touches
-            self.handset.touch(touches)
+            if self.handset:
+                self.handset.touch(touches)
 
 
 class KeyHands:

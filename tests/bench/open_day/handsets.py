@@ -22,6 +22,7 @@ class Handset:
         self._now = Touches()
         self._resume = ""
         self.connections = self.texts = 0
+        self.error: Exception | None = None  # the last one
         self._task: asyncio.Task[None] | None = None
         self.unlock()
 
@@ -47,8 +48,10 @@ class Handset:
 
     async def _live(self) -> None:
         while True:
-            with suppress(ClientError, OSError, TimeoutError):
+            try:
                 await self._serve()
+            except (ClientError, OSError, TimeoutError, RuntimeError) as error:
+                self.error = error
             await asyncio.sleep(RETRY)
 
     async def _serve(self) -> None:
@@ -62,7 +65,8 @@ class Handset:
             while not socket.closed:
                 await socket.send_bytes(pack(self._now))
                 with suppress(TimeoutError):
-                    self._now = await asyncio.wait_for(self._touches.get(), BEAT)
+                    async with asyncio.timeout(BEAT):  # unlike `wait_for`, it never swallows a cancellation
+                        self._now = await self._touches.get()
         finally:
             reader.cancel()
             if socket._response.connection and socket._response.connection.transport:

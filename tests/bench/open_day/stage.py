@@ -74,9 +74,12 @@ class Stage:
             return
         if self.group is None:
             self._next_group()
+        for player in self.players:
+            _ = player.hands.device  # a phone scans the code
         if self.group is not None:
             if now - self.came > self.patience:
-                self.watch.trouble(f"group {self.group.number} is stuck at {type(top).__name__}")
+                devices = [player.hands.device for player in self.players]
+                self.watch.trouble(f"group {self.group.number} is stuck at {type(top).__name__} with {devices}")
                 self.leave()
             elif isinstance(top, Title) and self.finished:
                 self.leave()
@@ -136,13 +139,14 @@ class Stage:
             self.watch.count("phones")
 
     def _phone(self) -> PhoneHands:
-        url = self.app.context.phone_host.url
+        host = self.app.context.phone_host
 
-        def taken() -> set[int]:
+        def others() -> list[PhoneHands]:
             phones = [player.hands for player in self.players if isinstance(player.hands, PhoneHands)]
-            return {phone.number for phone in phones if phone.number is not None}
+            return [phone for phone in phones if phone is not hands]
 
-        return PhoneHands(self.handsets.new(url), self.app.context.controls.phones, taken)
+        hands = PhoneHands(lambda: self.handsets.new(host.url), self.app.context.controls.phones, others)
+        return hands
 
     def leave(self) -> None:
         """The group goes home; its phones are locked."""

@@ -1,5 +1,7 @@
 """What visitors do on the screens of a game: title, lobby, set-up, match, results."""
 
+from pigaming_app.ai.brain.kind import BrainPlayer
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
@@ -22,6 +24,7 @@ from tests.bench.open_day.hands import PadHands, PhoneHands
 from tests.bench.open_day.stage import Player, Stage
 
 FAST = 0.1  # s between two letters
+DRIVING, RACING = 0.7, 0.15  # s between two movements of the stick
 AWAY = 4.0  # s for which a pad is pulled, or a phone locked
 LOOK = 8.0  # s on a page of the title's menu
 REST = 95.0  # s for which nobody drives
@@ -36,6 +39,8 @@ class Visit:
         self.stage = stage
         self.away: tuple[float, Player] | None = None  # s when a device comes back, and whose
         self.resting = 0.0  # s until which nobody drives
+        self.raced: MatchScene | None = None
+        self.drivers: dict[int, BrainPlayer] = {}  # of that race, by seat
         self.leaves_match = False  # ends the match in the pause
         stage.fallback = self.leave_page
         stage.reactions |= {
@@ -129,9 +134,24 @@ class Visit:
                 player.hands.steer(0.0, 0.0, False, False)
             return
         for player in stage.players:
-            if stage.ready(player, 0.7):
+            racing = scene.setup.game == "race" and player.hands.device in scene.devices
+            if racing and stage.ready(player, RACING):
+                player.hands.steer(*self._racing_line(scene, scene.devices.index(player.hands.device)))
+            elif not racing and stage.ready(player, DRIVING):
                 x, y = stage.rng.uniform(-1.0, 1.0), stage.rng.choice((-1.0, -1.0, -1.0, 0.6, 0.0))
                 player.hands.steer(x, y, stage.rng.random() < 0.5, stage.rng.random() < 0.3)
+
+    def _racing_line(self, scene: MatchScene, seat: int) -> tuple[float, float, bool, bool]:
+        """Stick and buttons that an AI would choose: without them, each race would last until its time is up.
+
+        Its action is not played: the device's own replaces it in the next tick.
+        """
+        if self.raced is not scene:
+            self.raced, self.drivers = scene, {}
+        driver = self.drivers.setdefault(seat, make_brain("race", "level3", seat + 1))
+        driver.think(scene.match.state, seat)
+        action = scene.match.state.actions[seat]
+        return float(action.angular), -float(action.linear), bool(action.fire), bool(action.turbo)
 
     def _mishap(self, scene: MatchScene) -> None:
         """The mishap of the group, once."""
