@@ -49,7 +49,7 @@ class EventVisit:
     def events(self) -> None:
         """Open the own event, or begin a new one."""
         stage, page = self.stage, self.stage.top
-        if stage.group is None or stage.group.event is None:
+        if stage.group is None or stage.group.event is None or stage.finished:
             stage.one_presses(Button.BACK)
             return
         own = [str(i) for i, listed in enumerate(page.saved) if self._is_own(listed.event)]
