@@ -96,7 +96,6 @@ class Title:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        words = self.context.words
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
         blit_sprite(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))

@@ -125,7 +125,7 @@ def test_event_run_in_a_kiosk_is_supervised_and_returns_to_its_event(data: Path,
 
 KILLS = 200
 KILLED = """
-import json, os, random, signal, sys, time, traceback
+import json, os, random, signal, sys, time
 from importlib import import_module
 from pathlib import Path
 
@@ -149,12 +149,14 @@ file, kills = Path(sys.argv[1]), int(sys.argv[2])
 entrants = tuple(Entrant(name, "random") for name in ("ANA", "BEA", "EVA", "IDA", "LIA"))
 new = Event(EventSpec("Cup", Format.ROUND_ROBIN, ("pitanks",), entrants, rounds=2, minutes={"pitanks": 0.1}))
 chance = random.Random(1)
+FRAMES = 80  # about as many as a match takes, with what follows it
 
-def arcade(pipe):
+def arcade(pipe, beats):
     with opened(Options(headless=True, kiosk=True, step=0.1)) as app:
         shown, results = None, 0
         while True:
             app.compose(0.1)
+            os.write(beats, b".")
             top = app.stack.top
             name = type(top).__name__
             if name != shown:
@@ -181,21 +183,27 @@ resume.mark(file.parent.parent, file)
 before, counted, moments = [], 0, {}
 for _ in range(kills):
     reading, writing = os.pipe()
+    beating, beats = os.pipe()
     pid = os.fork()
     if not pid:
         os.close(reading)
         try:
-            arcade(writing)
+            arcade(writing, beats)
         finally:
-            traceback.print_exc()
             os._exit(1)
     os.close(writing)
-    told = os.read(reading, 10_000)
-    time.sleep(chance.uniform(0.0, 0.8))
+    os.close(beats)
+    lived, lives = 0, chance.randrange(1, FRAMES)
+    while lived < lives:
+        beat = os.read(beating, lives - lived)
+        assert beat
+        lived += len(beat)
+    os.close(beating)
+    time.sleep(chance.uniform(0.0, 0.005))
     os.kill(pid, signal.SIGKILL)
     assert os.WTERMSIG(os.waitpid(pid, 0)[1]) == signal.SIGKILL
     with open(reading, "rb") as pipe:
-        lines = (told + pipe.read()).decode().splitlines()
+        lines = pipe.read().decode().splitlines()
     assert lines[0] == f"NextMatch {len(before)}", (lines, len(before))  # back to the event, with every result
     event, problems = load(file)
     assert event and not problems, problems
