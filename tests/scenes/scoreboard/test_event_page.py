@@ -153,11 +153,11 @@ def test_a_seat_that_is_taken_shows_its_own_device(arcade: Arcade) -> None:
     arcade.open(scene)
     arcade.wait(1.0)
     arcade.press(Button.FIRE, KEYS[2])
-    scene.claims[1] = Device("phone", 0)
+    scene.seats.claims[1] = Device("phone", 0)
     now = event_now(arcade.context, arcade.stack.scenes)
     assert now
     assert [(one.sign, one.device) for one in now.called] == [("keys", "IJKL"), ("phone", "Phone")]
-    run.change(run.event.substitute(run.event.open[0].entrants[0], "level3"))
+    run.change(lambda event: event.substitute(event.open[0].entrants[0], "level3"))
     now = event_now(arcade.context, arcade.stack.scenes)
     assert now
     assert (now.called[0].sign, now.called[0].brain) == ("ai", "★★★☆☆")
@@ -227,7 +227,7 @@ def test_a_result_repaints_only_what_it_changes(arcade: Arcade) -> None:
     clock.seconds += TURN
     before = page.parts([scene])
     assert before
-    run.change(played(run.event, 1))
+    run.change(lambda event: played(event, 1))
     page.parts([scene])
     clock.seconds += TURN
     after = page.parts([scene])
