@@ -18,10 +18,11 @@ from pigaming_app.scenes.flow.board_page import Part
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.snapshot import MatchSnapshot
 from pigaming_app.scenes.scoreboard.board import SIZE, Board
 from pigaming_app.scenes.scoreboard.event_now import event_now, next_line, now_line
 from pigaming_app.scenes.scoreboard.event_page import CALL, FOOT, PODIUM, TURN, EventPage
-from pigaming_app.scenes.scoreboard.snapshot import MatchSnapshot, snapshot
+from pigaming_app.scenes.scoreboard.score_page import shown_match
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage
 from pigaming_app.scenes.walk import second_screen
 from pigaming_app.ui.draw.surface_cache import surfaces
@@ -79,7 +80,7 @@ def every_page(page: EventPage, clock: Clock, scenes: Sequence[Scene]) -> list[l
 
 
 def of_match(arcade: Arcade, scene: MatchScene) -> MatchSnapshot:
-    return snapshot(scene, arcade.context.words, True)
+    return shown_match(scene, arcade.context.words, True)
 
 
 def test_without_an_event_it_gives_way(arcade: Arcade) -> None:
