@@ -30,7 +30,7 @@ def run(arguments: Namespace) -> int:
     folder = user_folder() / name
     write(folder, name)
     switch(name, True)
-    print(f"{folder}\nplay it: main.py play {name}; test it: main.py test tests/test_every_game.py -k {name}")
+    print(f"{folder}\nplay it: main.py play {name}; test it: main.py test --quick tests/test_every_game.py -k {name}")
     return 0
 
 

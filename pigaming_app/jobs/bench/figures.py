@@ -22,6 +22,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import environments, networks, yardsticks
+from pigaming_app.jobs.bench.memory import driver
 from pigaming_app.jobs.bench.memory import measure as measure_memory
 from pigaming_app.jobs.bench.walk import measure as measure_screens
 from pigaming_app.jobs.bench.walk import second_screen
@@ -76,10 +77,10 @@ def _network(game: str, variant: str) -> dict[str, float | None]:
 def batch(game: str, variant: str, seed: int, matches: int, fast: bool) -> Batch:
     """The scene as a batch of `matches` matches."""
     rules = games()[game].variants[variant]
-    one, two, three, four = (Seat("hand2", team) for team in rules.teams)
+    one, two, three, four = (Seat(driver(game), team) for team in rules.teams)
     arena, goal = arenas(game)[0], max(rules.goals, default=0)
     setups = [Setup(game, arena, (one, two, three, four), 5.0, seed + i, variant, goal) for i in range(matches)]
-    return Batch(setups, [BRAINS[game]["hand2"]] * 4, fast)
+    return Batch(setups, [BRAINS[game][driver(game)]] * 4, fast)
 
 
 def compiled_ticks(game: str, variant: str, seed: int) -> float:

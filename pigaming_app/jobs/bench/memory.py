@@ -14,6 +14,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app import ROOT
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -118,12 +119,17 @@ def lobby(context: "Context", state: str) -> "Scene":
     return Lobby(context, state if state in games() else next(iter(games())))
 
 
+def driver(game: str) -> str:
+    """The AI that drives in benchmarks."""
+    return "hand2" if "hand2" in BRAINS[game] else "level3"
+
+
 def match(context: "Context", state: str) -> "Scene":
-    """A match of four hand2 AIs in the first arena of the game `state`."""
+    """A match of four AIs in the first arena of the game `state`."""
     from pigaming_app.scenes.play.scene import MatchScene
 
     rules = games()[state].default
-    one, two, three, four = (Seat("hand2", team) for team in rules.teams)
+    one, two, three, four = (Seat(driver(state), team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     return MatchScene(context, Setup(state, arenas(state)[0], (one, two, three, four), MINUTES, 1, rules.name, goal))
 

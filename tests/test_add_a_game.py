@@ -1,0 +1,64 @@
+"""docs/add-a-game.md: its files make a game, and each of its commands runs."""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.jobs.new_game import write
+from pigaming_app.storage.plugins.consent import switch
+from pigaming_app.storage.plugins.found import user_folder
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = (ROOT / "docs" / "add-a-game.md").read_text(encoding="utf-8")
+FILES = dict(re.findall(r"^`(\w+\.py)`:.*?^```python\n(.*?)^```", PAGE, re.M | re.S))
+COMMANDS = re.findall(r"^    python3 main\.py (.*)$", PAGE, re.M)
+WINDOWLESS = {"play tag": "play tag --headless --minutes 0.2 --seats easy,hard"}
+
+
+@pytest.fixture
+def tag(home: Path) -> Path:
+    """The package of Tag, as the page makes it."""
+    folder = user_folder() / "tag"
+    write(folder, "tag")
+    for name, code in FILES.items():
+        (folder / name).write_text(code, encoding="utf-8")
+    switch("tag", True)
+    return folder
+
+
+def run(command: str) -> str:
+    words = [sys.executable, "-X", "pigaming", "main.py", *shlex.split(command)]
+    environment = os.environ | {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    ended = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, env=environment, timeout=500)
+    assert ended.returncode == 0, (command, ended.stdout[-2000:], ended.stderr)
+    return ended.stdout
+
+
+def test_the_page_has_the_files_of_a_game_in_this_style() -> None:
+    assert {*FILES} == {"rules.py", "ai.py", "screens.py"}
+    for name, code in FILES.items():
+        for tool in (("check", "--ignore", "INP"), ("format", "--check")):
+            words = [sys.executable, "-m", "ruff", *tool, "--quiet", f"--stdin-filename=tests/{name}", "-"]
+            assert subprocess.run(words, input=code, text=True, cwd=ROOT).returncode == 0, name
+
+
+def test_tag_is_played_by_its_rules(tag: Path) -> None:
+    points = run("play tag --headless --minutes 0.5 --seats hard,hard,hard,hard --seed 1 --json")
+    scores = [int(score) for score in re.findall(r'"score": (\d+)', points)]
+    assert len(scores) == 4
+    assert 3 * 29 <= sum(scores) <= 3 * 30, "three robots score each second"
+    assert len({*scores}) > 1, "it was passed on"
+
+
+@pytest.mark.long
+def test_every_command_of_the_page_runs(tag: Path, tmp_path: Path) -> None:
+    assert len(COMMANDS) > 8
+    assert COMMANDS[0] == "new-game tag"
+    for command in COMMANDS[1:]:
+        run(WINDOWLESS.get(command, command).replace("tag.png", str(tmp_path / "tag.png")))
+    assert (tmp_path / "tag.png").stat().st_size > 50_000
