@@ -176,9 +176,8 @@ def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None)
         halves = [*_both_ways(setups, _line_up(variant, left, right))]
     batches: list[Batch] = []
     for half, order in halves:
-        same = bool(batches) and half == halves[0][0][: len(half)]
-        start = batches[0].matches[: len(half)] if same else None
-        batches.append(Batch(half, [kinds[name] for name in order], fast, start=start))
+        twin = batches[0] if batches and half == halves[0][0][: len(half)] else None
+        batches.append(Batch(half, [kinds[name] for name in order], fast, twin=twin))
     for batch in batches:
         batch.play(ticks)
     seconds = perf_counter() - began

@@ -68,20 +68,22 @@ class Batch:
         kinds: Sequence[BrainKind | None],
         fast: bool,
         cast: Cast | None = None,
-        start: Any = None,
+        twin: "Batch | None" = None,
     ) -> None:
         """One match per setup. `kinds`: brains by seat, idle where None or missing. `fast`: compiled; needs numba.
 
         `cast`: brains that share the compiled loop, among them `kinds`; None: `cast_with_baselines` of the seats'.
-        `start`: `matches` of a batch of equal setups, not yet played, to be copied; None: they are made.
+        `twin`: a batch not yet played whose setups begin with these; its matches are copied instead of made anew.
         """
         self.fast = fast
         self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
         self.cast = cast or cast_with_baselines(self.kinds, fast)
-        if start is None:
+        self.matches: Any
+        if twin is None:
             states = initial_states(setups)
-            self.matches: Any = packed(states) if fast else states
+            self.matches = packed(states) if fast else states
         else:
+            start = twin.matches[: len(setups)]
             self.matches = start.copy() if fast else [copy(state) for state in start]
         self.minds = self.cast.minds(
             [[(kind, setup.seed * ROBOTS + seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
