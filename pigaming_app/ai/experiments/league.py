@@ -174,7 +174,10 @@ def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None)
         halves = [(setups, [name] * ROBOTS) for name in (left, right)]
     else:
         halves = [*_both_ways(setups, _line_up(variant, left, right))]
-    batches = [Batch(half, [kinds[name] for name in order], fast) for half, order in halves]
+    batches: list[Batch] = []
+    for half, order in halves:
+        twin = batches[0] if batches and half == halves[0][0][: len(half)] else None
+        batches.append(Batch(half, [kinds[name] for name in order], fast, twin=twin))
     for batch in batches:
         batch.play(ticks)
     seconds = perf_counter() - began
@@ -223,9 +226,8 @@ def _setups(
     require_one_of("variant", variant, list(variants))
     brains, kinds = _line_up(variants[variant], left, right), known_brains(game, [left, right])
     each = 1 if variants[variant].team_mode == ALLIES else 2
-    return [
-        make_setup(game, brains, arena, minutes, seed + i // each, variant, None, kinds, goal) for i in range(matches)
-    ]
+    first = make_setup(game, brains, arena, minutes, seed, variant, None, kinds, goal)
+    return [replace(first, seed=seed + i // each) for i in range(matches)]
 
 
 def _line_up(variant: Variant, left: str, right: str) -> list[str]:

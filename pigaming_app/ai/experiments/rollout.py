@@ -16,7 +16,7 @@ from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
-from pigaming_app.sim.record import packed, unpack
+from pigaming_app.sim.record import copy, packed, unpack
 from pigaming_app.sim.world import ROBOTS
 
 Loop = Callable[[Any, Any, Any, int], None]
@@ -63,17 +63,28 @@ class Batch:
     """Many matches of one game with the same brains on their seats."""
 
     def __init__(
-        self, setups: Sequence[Setup], kinds: Sequence[BrainKind | None], fast: bool, cast: Cast | None = None
+        self,
+        setups: Sequence[Setup],
+        kinds: Sequence[BrainKind | None],
+        fast: bool,
+        cast: Cast | None = None,
+        twin: "Batch | None" = None,
     ) -> None:
         """One match per setup. `kinds`: brains by seat, idle where None or missing. `fast`: compiled; needs numba.
 
         `cast`: brains that share the compiled loop, among them `kinds`; None: `cast_with_baselines` of the seats'.
+        `twin`: a batch not yet played whose setups begin with these; its matches are copied instead of made anew.
         """
         self.fast = fast
         self.kinds = tuple(kind or IDLE for kind in [*kinds, *[None] * (ROBOTS - len(kinds))])
         self.cast = cast or cast_with_baselines(self.kinds, fast)
-        states = initial_states(setups)
-        self.matches: Any = packed(states) if fast else states
+        self.matches: Any
+        if twin is None:
+            states = initial_states(setups)
+            self.matches = packed(states) if fast else states
+        else:
+            start = twin.matches[: len(setups)]
+            self.matches = start.copy() if fast else [copy(state) for state in start]
         self.minds = self.cast.minds(
             [[(kind, setup.seed * ROBOTS + seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
         )

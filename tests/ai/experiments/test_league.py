@@ -6,8 +6,11 @@ import pytest
 
 from pigaming_app.ai.experiments import league
 from pigaming_app.ai.experiments.league import duel, wilson
+from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.record import digest
 
 
 def test_hundred_wins_of_hundred_say_at_least_96_percent():
@@ -49,8 +52,9 @@ class Rigged:
 
     seen: list[tuple[list[str], list[int]]]
 
-    def __init__(self, setups, kinds, fast):
+    def __init__(self, setups, kinds, fast, twin):
         self.setups = setups
+        assert twin is None or twin.setups[: len(setups)] == setups
         self.seen.append(([kind.name for kind in kinds], [setup.seed for setup in setups]))
 
     def play(self, ticks):
@@ -76,6 +80,23 @@ def test_each_seed_is_played_from_both_sides(monkeypatch):
     assert Rigged.seen == [(["hand1", "hand3"], [7, 8, 9]), (["hand3", "hand1"], [7, 8, 9])]
     assert (result.wins, result.losses, result.ties) == (3, 3, 0)
     assert result.mean_score_left == result.mean_score_right == 2.0
+
+
+@pytest.mark.parametrize(
+    "fast", [False, pytest.param(True, marks=pytest.mark.skipif(not can_compile(), reason="numba"))]
+)
+def test_a_twin_starts_with_equal_matches_of_its_own(fast):
+    setups = league._setups("pitanks", "hand1", "hand3", 6, 7, None, None, "party", None)
+    first = Batch(setups[::2], [], fast)
+    again, twin = Batch(setups[1:5:2], [], fast), Batch(setups[1:5:2], [], fast, twin=first)
+    before = [digest(match) for match in first.ended()]
+    assert [digest(match) for match in twin.ended()] == [digest(match) for match in again.ended()] == before[:2]
+    if fast:
+        twin.matches["robots"]["score"] = 1
+    else:
+        twin.matches[0].robots[0].score = 1
+    assert digest(twin.ended()[0]) != before[0]
+    assert [digest(match) for match in first.ended()] == before
 
 
 def test_left_and_right_swapped_is_the_same_duel_seen_from_the_other_side():
