@@ -70,7 +70,7 @@ def has_both_pygames(installed: dict[str, str]) -> bool:
 
 
 def environment_folders() -> list[Path]:
-    """Possible folders of the environment, in order: next to main.py, and in the user's data folder, if there is one."""
+    """Possible folders of the environment, in order: next to main.py, and in the user's data folder, if any."""
     try:
         return [ROOT / ".venv", _data_folder() / f"venv-{zlib.crc32(bytes(ROOT)):08x}"]
     except RuntimeError:

@@ -54,7 +54,8 @@ def folders() -> Folders:
     try:
         return Folders(place.user_config_path, place.user_data_path, place.user_cache_path)
     except RuntimeError:
-        raise NoHome("this user has no home folder: set HOME or PIGAMING_HOME to a folder that can be written.") from None
+        advice = "set HOME or PIGAMING_HOME to a folder that can be written."
+        raise NoHome(f"this user has no home folder: {advice}") from None
 
 
 class Validator(Protocol):
