@@ -214,6 +214,9 @@ def test_a_full_disk_is_reported(furnished):
 def test_a_network_failure_is_reported(furnished):
     down = "numpy:WARNING: Retrying (Retry(total=4)) after connection broken: Temporary failure in name resolution"
     assert "connect this machine to the internet" in refused(started(furnished, MOOD=down))
+    started(furnished)
+    without = refused(started(furnished, "bundle", MOOD=down.replace("numpy", "pyinstaller")))
+    assert "pyinstaller could not be fetched: connect this machine" in without
 
 
 def test_stopped_while_installing_it_goes_on_next_time(furnished):

@@ -1,9 +1,8 @@
 """Building of a bundle by PyInstaller, in a temporary folder that finally replaces the previous bundle."""
 
-import compileall
 import contextlib
+import errno
 import os
-import py_compile
 import shutil
 import subprocess
 import sys
@@ -63,7 +62,6 @@ def build(out: Path) -> Built:
         _run_pyinstaller(scratch)
         made = scratch / "dist"
         folder = made / NAME
-        _compile(folder / "_internal" / "pigaming_app")
         (folder / "pigaming.png").write_bytes(icons.png(256))
         if sys.platform.startswith("linux"):
             entry = folder / "pigaming.desktop"
@@ -99,7 +97,7 @@ def _scratch(out: Path) -> Iterator[Path]:
 
 
 def _run_pyinstaller(scratch: Path) -> None:
-    """Run PyInstaller; the bundle is in `scratch`/dist. Raises OSError or BuildFailed."""
+    """Run PyInstaller; the bundle is in `scratch`/dist. Raises OSError, as for a full disk, or BuildFailed."""
     environment = dict(os.environ)
     if picture := {"win32": icons.ico, "darwin": icons.icns}.get(sys.platform):
         environment["PIGAMING_ICON"] = str(scratch / f"pigaming.{picture.__name__}")
@@ -111,13 +109,9 @@ def _run_pyinstaller(scratch: Path) -> None:
     )
     if done.returncode:
         lines = (done.stderr or done.stdout).strip().splitlines() or ["no reason given"]
+        if os.strerror(errno.ENOSPC) in done.stderr:
+            raise OSError(errno.ENOSPC, lines[-1])
         raise BuildFailed(one_line(f"PyInstaller failed: {lines[-1]}"))
-
-
-def _compile(package: Path) -> None:
-    """Write the bytecode beside the sources; it is valid whatever dates these get when they are copied or unpacked."""
-    mode = py_compile.PycInvalidationMode.UNCHECKED_HASH
-    compileall.compile_dir(package, quiet=2, invalidation_mode=mode)
 
 
 def _strip(libraries: Path) -> None:
@@ -131,4 +125,9 @@ def _replace(made: Path, target: Path, aside: Path) -> None:
     """Put a finished folder in the place of an older one, which goes `aside`. Raises OSError."""
     if target.exists():
         target.rename(aside)
-    shutil.move(made, target)
+    try:
+        made.rename(target)
+    except OSError:
+        if aside.exists():
+            aside.rename(target)
+        raise

@@ -1,7 +1,9 @@
 """What a bundle contains beside the libraries that PyInstaller finds by itself."""
 
+import py_compile
 import re
 import sys
+from importlib.util import cache_from_source
 from pathlib import Path
 
 from pigaming_app import ASSETS, ROOT
@@ -20,8 +22,26 @@ SHARED = "micropython"  # folders with programs of another interpreter
 
 def modules() -> list[str]:
     """All modules of this package: jobs are imported by name."""
-    found = (path.relative_to(ROOT).with_suffix("") for path in PACKAGE.rglob("*.py") if SHARED not in path.parts)
+    found = (path.relative_to(ROOT).with_suffix("") for path in _sources())
     return sorted(".".join(path.parts).removesuffix(".__init__") for path in found)
+
+
+def bytecode(folder: Path) -> list[tuple[str, str]]:
+    """The bytecode of all modules, made in a folder: files to copy, each with its folder in the bundle.
+
+    It is valid whatever dates the sources get when they are copied or unpacked.
+    """
+    made = []
+    for path in _sources():
+        beside = Path(cache_from_source(str(path.relative_to(ROOT))))
+        mode = py_compile.PycInvalidationMode.UNCHECKED_HASH
+        py_compile.compile(str(path), str(folder / beside), doraise=True, invalidation_mode=mode)
+        made.append((str(folder / beside), str(beside.parent)))
+    return made
+
+
+def _sources() -> list[Path]:
+    return sorted(path for path in PACKAGE.rglob("*.py") if SHARED not in path.parts)
 
 
 def files() -> list[tuple[str, str]]:

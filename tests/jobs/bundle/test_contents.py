@@ -3,6 +3,7 @@
 import io
 import struct
 import tomllib
+from importlib.util import cache_from_source
 from pathlib import Path
 
 import pygame
@@ -61,33 +62,13 @@ def test_modules_files_and_assets_are_in_it() -> None:
     assert {"numpy", "pygame-ce"} <= set(contents.distributions())
 
 
-def test_a_folder_that_is_no_bundle_is_never_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "pigaming").mkdir()
-    (tmp_path / "pigaming" / "thesis.txt").write_text("all my work")
-    with pytest.raises(build.BuildFailed, match="choose another folder"):
-        build.build(tmp_path)
-    assert (tmp_path / "pigaming" / "thesis.txt").read_text() == "all my work"
-
-
-def test_a_folder_that_cannot_be_written_is_one_line(tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
-    with pytest.raises(build.BuildFailed):
-        build.build(tmp_path / "file" / "out")
-
-
-def test_a_failure_of_the_builder_is_its_last_line_and_the_older_bundle_stays(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    program = tmp_path / "pigaming" / build.program_name()
-    (tmp_path / "pigaming" / "_internal").mkdir(parents=True)
-    program.touch()
-    broken = tmp_path / "broken.spec"
-    broken.write_text("raise SystemExit('no library')")
-    monkeypatch.setattr(build, "SPEC", broken)
-    with pytest.raises(build.BuildFailed, match="PyInstaller"):
-        build.build(tmp_path)
-    assert program.is_file()
-    assert not list(tmp_path.glob(".pigaming-*"))
+def test_the_bytecode_goes_along_and_is_valid_whatever_the_dates(tmp_path: Path) -> None:
+    made = contents.bytecode(tmp_path)
+    assert len(made) == len(contents.modules())
+    path, folder = next(one for one in made if Path(one[0]).name.startswith("kernel."))
+    assert folder == "pigaming_app/sim/__pycache__"
+    assert Path(path).name == Path(cache_from_source("kernel.py")).name
+    assert int.from_bytes(Path(path).read_bytes()[4:8], "little") == 0b01, "PEP 552: by hash, unchecked"
 
 
 def test_the_desktop_entry_starts_the_program_beside_it() -> None:
