@@ -84,8 +84,10 @@ def _claimed() -> tuple[Path, IO[str]]:
             _wait_for(lock)
             return place, lock
         lock.close()
-    parents = " nor ".join(str(place.parent) for place in environment_folders())
-    raise StartError(f"neither {parents} can be written: allow one of them.")
+    parents = [str(place.parent) for place in environment_folders()]
+    if len(parents) == 1:
+        raise StartError(f"{parents[0]} cannot be written, and this user has no home folder: allow one of them.")
+    raise StartError(f"neither {' nor '.join(parents)} can be written: allow one of them.")
 
 
 def _wait_for(lock: IO[str]) -> None:

@@ -70,17 +70,22 @@ def has_both_pygames(installed: dict[str, str]) -> bool:
 
 
 def environment_folders() -> list[Path]:
-    """Possible folders of the environment, in order: next to main.py, and in the user's data folder."""
-    home = Path.home()
+    """Possible folders of the environment, in order: next to main.py, and in the user's data folder, if there is one."""
+    try:
+        return [ROOT / ".venv", _data_folder() / f"venv-{zlib.crc32(bytes(ROOT)):08x}"]
+    except RuntimeError:
+        return [ROOT / ".venv"]
+
+
+def _data_folder() -> Path:
+    """The user's data folder. Raises RuntimeError for a user without a home folder."""
     if override := os.environ.get("PIGAMING_HOME"):
-        data = Path(override)
-    elif WINDOWS:
-        data = Path(os.environ.get("LOCALAPPDATA") or home, "pigaming")
-    elif sys.platform == "darwin":
-        data = home / "Library" / "Application Support" / "pigaming"
-    else:
-        data = Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share", "pigaming")
-    return [ROOT / ".venv", data / f"venv-{zlib.crc32(bytes(ROOT)):08x}"]
+        return Path(override)
+    if WINDOWS:
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home(), "pigaming")
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Application Support" / "pigaming"
+    return Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share", "pigaming")
 
 
 def python_of(place: Path) -> Path:

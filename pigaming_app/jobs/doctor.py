@@ -23,7 +23,7 @@ from pigaming_app.jobs.terminal.refusal import remedy
 from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.restarts import restarts
 from pigaming_app.storage.scores import migrations
-from pigaming_app.storage.settings import folders
+from pigaming_app.storage.settings import Folders, NoHome, folders
 
 MIN_FREE = 100_000_000  # bytes of free disk space, below which the report has a note
 TIMEOUT = 15.0  # s for the drivers to answer
@@ -75,7 +75,7 @@ def run(arguments: Namespace) -> int:
 
 def report() -> list[Line]:
     """All findings. It never raises: a failed check becomes a line."""
-    return [*_system(), *_packages(), *_folders(), *_restarts(), *_older_scores(), *_assets(), *_devices(), _engine()]
+    return [*_system(), *_packages(), *_files(), *_assets(), *_devices(), _engine()]
 
 
 def _system() -> Iterator[Line]:
@@ -125,8 +125,19 @@ def _advice(extra: str) -> str:
     )
 
 
-def _folders() -> Iterator[Line]:
-    where = folders()
+def _files() -> Iterator[Line]:
+    """The user's folders, and findings in the data folder."""
+    try:
+        where = folders()
+    except NoHome as trouble:
+        yield Line("folders", "problem", str(trouble))
+        return
+    yield from _folders(where)
+    yield from _restarts(where.data)
+    yield from _older_scores(where.data)
+
+
+def _folders(where: Folders) -> Iterator[Line]:
     for what, folder in (("settings", where.config), ("scores", where.data), ("cache", where.cache)):
         existing = _nearest(folder)
         try:
@@ -139,9 +150,8 @@ def _folders() -> Iterator[Line]:
         yield Line(what, "note" if full else "ok", str(folder), full)
 
 
-def _restarts() -> Iterator[Line]:
+def _restarts(data: Path) -> Iterator[Line]:
     """Restarts of a kiosk after a crash or a hang."""
-    data = folders().data
     if found := restarts(data):
         last = found[-1]
         text = (
@@ -150,9 +160,8 @@ def _restarts() -> Iterator[Line]:
         yield Line("kiosk restarts", "note", text, f"the reports in {data / 'crashes'} give the reasons")
 
 
-def _older_scores() -> Iterator[Line]:
+def _older_scores(data: Path) -> Iterator[Line]:
     """Scores carried over from version 1.3.0: when, how many, and their backup."""
-    data = folders().data
     done, waits = migrations(data)
     for migration in done:
         games = ", ".join(f"{one_line(game, 20)} {rows}" for game, rows in migration.rows.items()) or "none"

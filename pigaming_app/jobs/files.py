@@ -1,5 +1,7 @@
 """The user's files before and after a job."""
 
+import contextlib
+
 FOLDERS = ("crashes", "events", "ghosts", "pictures", "replays", "reports", "robots")  # below the data folder
 
 
@@ -13,9 +15,10 @@ def sweep() -> None:
 
 
 def log(line: str) -> None:
-    """Add a line to the arcade's log."""
+    """Add a line to the arcade's log, if this user has one."""
     from pigaming_app.storage.log import append_line
     from pigaming_app.storage.parsing import one_line
-    from pigaming_app.storage.settings import folders
+    from pigaming_app.storage.settings import NoHome, folders
 
-    append_line(folders().data, one_line(line))
+    with contextlib.suppress(NoHome):
+        append_line(folders().data, one_line(line))

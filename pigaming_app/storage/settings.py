@@ -37,14 +37,24 @@ class Folders:
     cache: Path
 
 
+class NoHome(OSError):
+    """There is no folder for the user's files. The text is a sentence for the operator."""
+
+
 def folders() -> Folders:
-    """The platform's standard folders, or subfolders of the environment variable PIGAMING_HOME if set."""
+    """The platform's standard folders, or subfolders of the environment variable PIGAMING_HOME if set.
+
+    Raises NoHome for a user without a home folder.
+    """
     if home := os.environ.get("PIGAMING_HOME"):
         return Folders(Path(home, "config"), Path(home, "data"), Path(home, "cache"))
     from platformdirs import PlatformDirs
 
     place = PlatformDirs("pigaming", appauthor=False)
-    return Folders(place.user_config_path, place.user_data_path, place.user_cache_path)
+    try:
+        return Folders(place.user_config_path, place.user_data_path, place.user_cache_path)
+    except RuntimeError:
+        raise NoHome("this user has no home folder: set HOME or PIGAMING_HOME to a folder that can be written.") from None
 
 
 class Validator(Protocol):

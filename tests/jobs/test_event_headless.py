@@ -79,7 +79,7 @@ def test_filled_seats_have_no_place():
     ("changes", "reason"),
     [
         ({"games": ("chess",)}, "no game 'chess'"),
-        ({"arenas": {"pitanks": "nowhere"}}, "nowhere"),
+        ({"arenas": {"pitanks": ("nowhere",)}}, "nowhere"),
         ({"variants": {"pitanks": "nothing"}}, "no variant 'nothing'"),
         ({"minutes": {"pitanks": 500.0}}, "500 minutes"),
         ({"games": ("factory",), "variants": {"factory": "together"}}, "nobody wins"),

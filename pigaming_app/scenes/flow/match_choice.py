@@ -36,12 +36,16 @@ def first_arena(game: str) -> str:
 
 
 def _playable(game: str) -> Iterator[str]:
-    for name in arenas(game):
-        try:
-            load_cached(game, name)
-            yield name
-        except ArenaError as trouble:
-            log.warning("%s", trouble)
+    return (name for name in arenas(game) if _is_playable(game, name))
+
+
+def _is_playable(game: str, name: str) -> bool:
+    try:
+        load_cached(game, name)
+    except ArenaError as trouble:
+        log.warning("%s", trouble)
+        return False
+    return True
 
 
 def arena_title(arena: Arena, language: str) -> str:
@@ -50,10 +54,11 @@ def arena_title(arena: Arena, language: str) -> str:
 
 
 def last_choice(context: Context, game: str) -> Choice:
-    """The options of the last match, or the game's defaults where those are no longer available."""
-    rules, last, names = games()[game], context.settings.choice(game), playable_arenas(game)
+    """The options of the last match, or the game's defaults where those are no longer available. Loads one arena."""
+    rules, last = games()[game], context.settings.choice(game)
     variant = rules.variants.get(last.variant, rules.default)
-    arena = last.arena if last.arena in names else names[0]
+    there = last.arena in arenas(game) and _is_playable(game, last.arena)
+    arena = last.arena if there else first_arena(game)
     rounds = last.rounds if last.rounds in rules.rounds else rules.rounds[0]
     choice = Choice(arena=arena, minutes=last.minutes, variant=variant.name, goal=last.goal, rounds=rounds)
     fit_choice(variant, choice)

@@ -12,7 +12,7 @@ from pigaming_app.scenes.ladder.climbers import Climbers
 from pigaming_app.scenes.ladder.rungs import LadderPage
 from pigaming_app.scenes.ladder.strengths import Strengths
 from pigaming_app.scenes.ladder.summit import Summit
-from pigaming_app.scenes.views.game_tile import TILE_H, TILE_Y, tile, tile_rect
+from pigaming_app.scenes.views.game_tile import TILE_H, TileStrip, tile
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, dim, panel
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
@@ -41,8 +41,9 @@ class LadderChoice:
 
     def __init__(self, context: Context, game: str) -> None:
         self.context = context
-        spots = [FocusSpot(name, tile_rect(i).move(0, TOP - TILE_Y)) for i, name in enumerate(climbed_games())]
-        self.focus = Focus([*spots, FocusSpot(ALL, ALL_BOX)], game)
+        self.tiles = TileStrip(climbed_games(), TOP)
+        self.focus = Focus(self._spots(), game)
+        self._follow()
         self.navigation = Navigation(context, self.focus, HINTS, IDLE, MESSAGE_SECONDS)
         self.saved: dict[str, Climber] = {}
 
@@ -65,26 +66,23 @@ class LadderChoice:
             return Push(Strengths(self.context, self.focus.name if self.focus.name in climbed else climbed[0]))
         chosen = self.focus.activated(event)
         if chosen is None:
-            return self.navigation.handle(event)
+            operation = self.navigation.handle(event)
+            self._follow()
+            return operation
         self.context.sounds.play("accept")
         return Push(self._page(chosen, event))
 
     def update(self, seconds: float) -> StackOperation:
+        self.tiles.update(seconds)
         return self.navigation.update(seconds)
 
     def draw(self, screen: pygame.Surface) -> None:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("ladder.title"), words("ladder.invitation")).draw(screen)
-        black_out(screen, *(spot.rect for spot in self.focus.spots))
-        for spot in self.focus.spots:
-            hot = spot.name == self.focus.name
-            if spot.name == ALL:
-                wide_tile(words("ladder.all"), self._line(ALL), hot).draw(screen, *spot.rect.topleft)
-            else:
-                tile(spot.name, words(f"games.{spot.name}"), self._line(spot.name), hot).draw(
-                    screen, *spot.rect.topleft
-                )
+        self.tiles.draw(screen, self._tile)
+        black_out(screen, ALL_BOX)
+        wide_tile(words("ladder.all"), self._line(ALL), self.focus.name == ALL).draw(screen, *ALL_BOX.topleft)
         self.focus.draw(screen)
         text(words("ladder.rules"), BODY, MIST).draw(screen, 960, RULES_Y)
         if self.navigation.sentence:
@@ -93,6 +91,17 @@ class LadderChoice:
             self.navigation.prompts.draw(screen)
 
     # ---- inside
+
+    def _spots(self) -> list[FocusSpot]:
+        return [*self.tiles.spots(), FocusSpot(ALL, ALL_BOX)]
+
+    def _follow(self) -> None:
+        """Keep the focused tile in the picture."""
+        if self.tiles.follow(self.focus):
+            self.focus.set_spots(self._spots())
+
+    def _tile(self, game: str) -> LitImage:
+        return tile(game, self.context.words(f"games.{game}"), self._line(game), game == self.focus.name)
 
     def _page(self, game: str, event: InputEvent) -> LadderPage | Summit:
         """The page of a climb that was left, or of a new one."""

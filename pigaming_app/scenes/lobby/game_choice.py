@@ -5,19 +5,19 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from pigaming_app.games.game import Setup
-from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Home, Pop, Scene, StackOperation
-from pigaming_app.scenes.views.game_tile import TILE_H, tile, tile_rect
-from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.scenes.views.game_tile import TILE_H, TileStrip, tile
+from pigaming_app.scenes.views.registry import shown_games
+from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.focus import Focus
+from pigaming_app.ui.widgets.labels import heading
 
 IDLE = 60.0  # s without input before the return to the title
-DOWN = (1080 - TILE_H) // 2 - tile_rect(0).y + 20  # px, offset of the tiles below their position on the title screen
+TILES_Y = (1080 - TILE_H) // 2 + 20  # px
 
 LobbyOf = Callable[[Context, str, Sequence[Device | str | None]], Scene]  # lobby factory: context, game, drivers
 
@@ -28,9 +28,10 @@ class GameChoice:
     def __init__(self, context: Context, setup: Setup, devices: Sequence[Device | None], lobby: LobbyOf) -> None:
         self.context, self.setup, self.devices, self.lobby = context, setup, list(devices), lobby
         self.access = Access(context, lambda: self.devices)
-        names = list(games())
-        after = names[(names.index(setup.game) + 1) % len(names)]
-        self.focus = Focus([FocusSpot(game, tile_rect(i).move(0, DOWN)) for i, game in enumerate(names)], after)
+        names = shown_games()
+        self.tiles = TileStrip(names, TILES_Y)
+        self.focus = Focus(self.tiles.spots(), names[(names.index(setup.game) + 1) % len(names)])
+        self._follow()
         hints = [(Button.FIRE, "choice.hint_ok"), (Button.BACK, "choice.hint_back")]
         self.prompts = context.prompts(hints, device=lambda: self.access.hint_device)
 
@@ -47,12 +48,14 @@ class GameChoice:
             return Pop()
         if self.focus.handle(admitted):
             self.context.sounds.play("move")
+            self._follow()
         game = self.focus.activated(admitted)
         return self._open(game) if game else None
 
     def update(self, seconds: float) -> StackOperation:
         """Animate the focus; leave when idle or abandoned."""
         self.focus.update(seconds)
+        self.tiles.update(seconds)
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()
@@ -62,14 +65,19 @@ class GameChoice:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
         heading(words("choice.title")).draw(screen)
-        black_out(screen, *(spot.rect for spot in self.focus.spots))
-        for spot in self.focus.spots:
-            game = spot.name
-            line = tagline(words, game, last_goal(self.context.settings, game))
-            lit = tile(game, words(f"games.{game}"), line, game == self.focus.name)
-            lit.draw(screen, *spot.rect.topleft)
+        self.tiles.draw(screen, self._tile)
         self.focus.draw(screen)
         self.prompts.draw(screen)
+
+    def _tile(self, game: str) -> LitImage:
+        words = self.context.words
+        line = tagline(words, game, last_goal(self.context.settings, game))
+        return tile(game, words(f"games.{game}"), line, game == self.focus.name)
+
+    def _follow(self) -> None:
+        """Keep the focused tile in the picture."""
+        if self.tiles.follow(self.focus):
+            self.focus.set_spots(self.tiles.spots())
 
     def _open(self, game: str) -> StackOperation:
         """Open the lobby of a game with the connected devices and the AIs already seated."""

@@ -9,7 +9,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.headline import EndedMatch
-from pigaming_app.scenes.scoreboard.snapshot import match_of, snapshot
+from pigaming_app.scenes.results.snapshot import match_of, snapshot
 from pigaming_app.ui.draw import MIST, PLAYERS
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device

@@ -8,9 +8,11 @@ import pygame
 from pigaming_app.scenes.flow.board_page import Box, Part
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.results.snapshot import MatchSnapshot, ShownMatch, Side, match_of, snapshot
 from pigaming_app.scenes.scoreboard import text
-from pigaming_app.scenes.scoreboard.snapshot import MatchSnapshot, Side, match_of, snapshot
+from pigaming_app.scenes.scoreboard.event_now import event_match, round_line
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, PLAYERS, STEEL, SUB, Color
+from pigaming_app.ui.i18n import Words
 
 CLOCK_SIZE, TOP, BOTTOM, LEFT, W = 190, 300, 1050, 60, 1800
 ROW_MAX = 372  # px
@@ -32,7 +34,7 @@ class ScorePage:
         """The current or last match; None before the first one."""
         found, on_top = match_of(scenes)
         if found is not None:
-            self.last = snapshot(found, self.context.words, on_top)
+            self.last = shown_match(found, self.context.words, on_top)
         elif self.last is not None and self.last.state != "over":
             self.last = None  # it was left
         return match_parts(self.context, self.last) if self.last else None
@@ -102,3 +104,11 @@ def _state(state: str, round_line: str, surface: pygame.Surface) -> None:
         text.write(surface, state, SUB, w, h / 2 - (34 if round_line else 0), FOCUS, "head", "r", w)
     if round_line:
         text.write(surface, round_line, LABEL, w, h / 2 + 62, MIST, "body", "r", w)
+
+
+def shown_match(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
+    """The match of a scene now, with the entrants and the round of an event."""
+    event = event_match(scene)
+    if event is None:
+        return snapshot(scene, words, on_top)
+    return snapshot(scene, words, on_top, event.fixture.entrants, round_line(words, event))

@@ -5,7 +5,6 @@ After a while without input, attract mode starts.
 
 import pygame
 
-from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import reset_rules
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
@@ -13,7 +12,8 @@ from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
 from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
-from pigaming_app.scenes.views.game_tile import tile, tile_rect
+from pigaming_app.scenes.views.game_tile import TileStrip, tile
+from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.ui.draw import (
     FOCUS,
     LINE,
@@ -21,13 +21,12 @@ from pigaming_app.ui.draw import (
     button_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import NAMES
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import (
-    black_out,
     blit_sprite,
     button_label,
     call_to_action,
@@ -50,8 +49,9 @@ class Title:
         self.context = context
         self.clock = 0.0
         self.kiosk_unlock = KioskUnlock(context)
+        self.tiles = TileStrip(shown_games())
+        self.game = self.tiles.names[0]  # the game whose tile was focused last
         self.focus = Focus(self._spots())
-        self.game = next(iter(games()))  # the game whose tile was focused last
         self.lab: Scene | None = None
         self.music = True  # off in the quiet hours
 
@@ -72,7 +72,9 @@ class Title:
             self._next_language()
         elif self.focus.handle(event):
             self.context.sounds.play("move")
-        self.game = self.focus.name if self.focus.name in games() else self.game
+            if self.tiles.follow(self.focus):
+                self.focus.set_spots(self._spots())
+        self.game = self.focus.name if self.focus.name in self.tiles.names else self.game
         chosen = self.focus.activated(event)
         return self._open(chosen) if chosen else None
 
@@ -80,6 +82,7 @@ class Title:
         """Animate; start attract mode when idle."""
         self.clock += seconds
         self.focus.update(seconds)
+        self.tiles.update(seconds)
         self._keep_quiet()
         if self.kiosk_unlock.unlocked(seconds):
             from pigaming_app.scenes.options.page import OptionsPage
@@ -93,19 +96,20 @@ class Title:
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        words = self.context.words
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
         blit_sprite(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
-        for i, game in enumerate(games()):
-            line = tagline(words, game, last_goal(self.context.settings, game))
-            lit = tile(game, words(f"games.{game}"), line, self.focus.name == game)
-            lit.draw(screen, *tile_rect(i).topleft)
+        self.tiles.draw(screen, self._tile)
         self._prompt(screen)
         self._foot(screen)
         self.focus.draw(screen)
 
     # ---- internals
+
+    def _tile(self, game: str) -> LitImage:
+        words = self.context.words
+        line = tagline(words, game, last_goal(self.context.settings, game))
+        return tile(game, words(f"games.{game}"), line, self.focus.name == game)
 
     def _keep_quiet(self) -> None:
         """Stop the music when the quiet hours begin, and start it when they end."""
@@ -123,7 +127,7 @@ class Title:
 
     def _scene(self, name: str) -> Scene | None:
         """The page of a menu item; imported late, so that the title appears at once."""
-        if name in games():
+        if name in self.tiles.names:
             from pigaming_app.scenes.lobby.scene import Lobby
 
             return Lobby(self.context, name)
@@ -166,7 +170,7 @@ class Title:
         self.focus.set_spots(self._spots())
 
     def _spots(self) -> list[FocusSpot]:
-        spots = [FocusSpot(game, tile_rect(i)) for i, game in enumerate(games())]
+        spots = self.tiles.spots()
         widths = [chip_width(self.context.words(f"title.{name}")) for name in self._menu()]
         room = RIGHT - LEFT - LANGUAGES_W - MENU_GAP * len(widths)
         x, share = LEFT, min(1.0, room / sum(widths))
@@ -201,7 +205,7 @@ class Title:
         """The call to action and the label of its button."""
         words, name = self.context.words, self.focus.name
         label = words.key_name(self.context.controls.label(None, Button.FIRE))
-        if name in games():
+        if name in self.tiles.names:
             return words("title.press", button="{button}"), label
         what = words("options.language") if name == "language" else self._item_name(name)
         return words("title.choose", button="{button}", what=what), label
@@ -222,10 +226,10 @@ class Title:
 @cached
 @resumable
 def ground() -> Steps[pygame.Surface]:
-    """The static part: floor dots, the name, and black behind the tiles."""
+    """The static part: floor dots and the name."""
     layer = Layer(LEFT, 54, 1210, 260)
     logo(layer.glow, *LOGO)
     name = yield from layer.render_steps()
     out = backdrop().copy()
     name.draw(out)
-    return black_out(out, *map(tile_rect, range(len(games()))))
+    return out

@@ -1,5 +1,7 @@
 """Tile of a game for the title screen and the game selection: picture, name, tagline."""
 
+from collections.abc import Callable, Sequence
+
 import pygame
 
 from pigaming_app.scenes.views.registry import SCREENS
@@ -19,14 +21,53 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import MARGIN, Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.labels import black_out
 
 TILE_Y, TILE_H = 416, 416
+IN_VIEW = 3  # tiles
+SLIDE = 0.09  # s, time constant of a moving row
 
 
-def tile_rect(i: int) -> pygame.Rect:
-    """Rectangle of the i-th tile from the left."""
+def tile_rect(i: int, y: int = TILE_Y) -> pygame.Rect:
+    """Rectangle of the i-th tile from the left; beyond the third they lie outside the picture."""
     x, w = span(4 * i, 4)
-    return pygame.Rect(x, TILE_Y, w, TILE_H)
+    return pygame.Rect(x, y, w, TILE_H)
+
+
+class TileStrip:
+    """A row of tiles, three in the picture; the row moves when the focus goes beyond, and the next tile peeks in."""
+
+    def __init__(self, names: Sequence[str], y: int = TILE_Y) -> None:
+        self.names, self.y = list(names), y
+        self.first = 0  # index of the leftmost tile in the picture
+        self.offset = 0.0  # the same while the row moves
+
+    def spots(self) -> list[FocusSpot]:
+        """The tiles as spots of a focus, where they will come to rest."""
+        return [FocusSpot(name, tile_rect(i - self.first, self.y)) for i, name in enumerate(self.names)]
+
+    def follow(self, focus: Focus) -> bool:
+        """Bring the focused tile into the picture. True if the row moves; the spots are others then."""
+        if focus.name not in self.names:
+            return False
+        i, before = self.names.index(focus.name), self.first
+        self.first = min(max(self.first, i - IN_VIEW + 1), i)
+        return self.first != before
+
+    def update(self, seconds: float) -> None:
+        """Move the row."""
+        left = self.first - self.offset
+        self.offset = float(self.first) if abs(left) < 0.002 else self.offset + left * min(1.0, seconds / SLIDE)
+
+    def draw(self, screen: pygame.Surface, lit: Callable[[str], LitImage]) -> None:
+        """Draw the tiles; `lit(name)` is the picture of one."""
+        pitch = tile_rect(1).x - tile_rect(0).x
+        for i, name in enumerate(self.names):
+            box = tile_rect(i, self.y).move(-round(self.offset * pitch), 0)
+            if box.colliderect(screen.get_rect()):
+                black_out(screen, box)
+                lit(name).draw(screen, *box.topleft)
 
 
 @cached

@@ -36,3 +36,8 @@ SCREENS: Mapping[str, GameScreens] = {
     "race": race.SCREENS,
     **parts("screens", "SCREENS", GameScreens, _lacks),
 }  # by game
+
+
+def shown_games() -> list[str]:
+    """The games that can be played on the screen, in the order of the title."""
+    return [name for name in games() if name in SCREENS]

@@ -6,7 +6,7 @@ from pathlib import Path
 from pigaming_app.storage.parsing import parse_json
 from pigaming_app.storage.plugins.found import NAME, Plugin
 from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
-from pigaming_app.storage.settings import folders
+from pigaming_app.storage.settings import NoHome, folders
 
 FILE = "games.json"  # in the configuration folder: {"tag": true, …}
 
@@ -23,7 +23,10 @@ def switch(name: str, on: bool) -> None:
 
 
 def _decisions() -> dict[str, bool]:
-    found, _damage = read_or_restore(_file(), _parsed)
+    try:
+        found, _damage = read_or_restore(_file(), _parsed)
+    except NoHome:
+        return {}
     return found or {}
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from pigaming_app import INSTALLED, ROOT
 from pigaming_app.storage.plugins import user
-from pigaming_app.storage.settings import folders
+from pigaming_app.storage.settings import NoHome, folders
 
 GROUP = "pigaming.games"  # of entry points, named after the games
 PREFIX = "pigaming_"  # of packages beside this one, in a clone
@@ -46,7 +46,7 @@ def found() -> tuple[Plugin, ...]:
 
 
 def user_folder() -> Path:
-    """The folder of the user's games."""
+    """The folder of the user's games. Raises NoHome."""
     return folders().data / user.FOLDER
 
 
@@ -59,7 +59,11 @@ def _beside() -> Iterator[Plugin]:
 
 
 def _of_user() -> Iterator[Plugin]:
-    for folder in _packages(user_folder()):
+    try:
+        folders_of_user = _packages(user_folder())
+    except NoHome:
+        return
+    for folder in folders_of_user:
         if NAME.fullmatch(folder.name):
             yield Plugin(folder.name, f"{user.__name__}.{folder.name}", folder)
 

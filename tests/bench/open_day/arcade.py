@@ -90,6 +90,7 @@ def main(folder: Path) -> int:
     )
     with opened(options) as app:
         draw_rarely(app)
+        preload(app.context.preloader)
         file = ledgers.LedgerFile(folder / "ledger")
         watch = Watch(app, day, file, seen.lives + 1)
         stage = Stage(app, day, seen, watch, begin)
@@ -101,6 +102,14 @@ def main(folder: Path) -> int:
         finally:
             stage.handsets.close()
             file.close()
+
+
+def preload(preloader: Any) -> None:
+    """Load what the title loads in the background in real time only. The compilers of the Lab are not needed."""
+    preloader.on_done = lambda: None
+    preloader.start()
+    while preloader.busy:
+        sleep(0.01)
 
 
 def draw_rarely(app: Any) -> None:

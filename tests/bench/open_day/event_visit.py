@@ -49,7 +49,7 @@ class EventVisit:
     def events(self) -> None:
         """Open the own event, or begin a new one."""
         stage, page = self.stage, self.stage.top
-        if stage.group is None or stage.group.event is None:
+        if stage.group is None or stage.group.event is None or stage.finished:
             stage.one_presses(Button.BACK)
             return
         own = [str(i) for i, listed in enumerate(page.saved) if self._is_own(listed.event)]
@@ -105,17 +105,17 @@ class EventVisit:
         if self.decided[0] != fixture.number:
             self.decided = fixture.number, stage.rng.random()
         odd = self.decided[1]
-        if not page.people:
+        if not page.seats.people:
             stage.one_presses(Button.Y if odd < 0.5 else Button.FIRE)
         elif odd < ODDITIES and len(page.running.event.open) > 1:
             self.decided = fixture.number, 1.0
             self._odd(Button.X, "matches skipped")
-        elif odd > 1.0 - ODDITIES and odd < 1.0 and page.waiting:
+        elif odd > 1.0 - ODDITIES and odd < 1.0 and page.seats.waiting:
             self.decided = fixture.number, 1.0
             self._odd(Button.Y, "entrants absent")
-        elif page.waiting:
-            free = [player for player in stage.players if player.hands.device not in page.claims.values()]
-            stage.all_press(Button.FIRE, free[: len(page.waiting)])
+        elif page.seats.waiting:
+            free = [player for player in stage.players if player.hands.device not in page.seats.claims.values()]
+            stage.all_press(Button.FIRE, free[: len(page.seats.waiting)])
 
     def _odd(self, button: Button, name: str) -> None:
         for player in self.stage.speaker:

@@ -149,12 +149,14 @@ file, kills = Path(sys.argv[1]), int(sys.argv[2])
 entrants = tuple(Entrant(name, "random") for name in ("ANA", "BEA", "EVA", "IDA", "LIA"))
 new = Event(EventSpec("Cup", Format.ROUND_ROBIN, ("pitanks",), entrants, rounds=2, minutes={"pitanks": 0.1}))
 chance = random.Random(1)
+FRAMES = 80  # about as many as a match takes, with what follows it
 
-def arcade(pipe):
+def arcade(pipe, beats):
     with opened(Options(headless=True, kiosk=True, step=0.1)) as app:
         shown, results = None, 0
         while True:
             app.compose(0.1)
+            os.write(beats, b".")
             top = app.stack.top
             name = type(top).__name__
             if name != shown:
@@ -168,33 +170,40 @@ def arcade(pipe):
                 top.clock = max(top.clock, next_page.SHOW_AFTER)
             if name == "MatchScene":  # without its countdown, a second long
                 top.countdown.seconds_left = min(top.countdown.seconds_left, 0.05)
-                top.match.state.rules.ticks = min(top.match.state.rules.ticks, 60)
+                top.match.state.rules.ticks = min(top.match.state.rules.ticks, 15)
 
 engine_hash()  # what every arcade needs is loaded once
 for module in MODULES:
     import_module(module)
 match = new_match(setup_of(new, new.open[0]))
-for _ in range(60):
+for _ in range(15):
     match.tick()
 save(file, new)
 resume.mark(file.parent.parent, file)
 before, counted, moments = [], 0, {}
 for _ in range(kills):
     reading, writing = os.pipe()
+    beating, beats = os.pipe()
     pid = os.fork()
     if not pid:
         os.close(reading)
         try:
-            arcade(writing)
+            arcade(writing, beats)
         finally:
             os._exit(1)
     os.close(writing)
-    told = os.read(reading, 10_000)
-    time.sleep(chance.uniform(0.0, 2.5))
+    os.close(beats)
+    lived, lives = 0, chance.randrange(1, FRAMES)
+    while lived < lives:
+        beat = os.read(beating, lives - lived)
+        assert beat
+        lived += len(beat)
+    os.close(beating)
+    time.sleep(chance.uniform(0.0, 0.005))
     os.kill(pid, signal.SIGKILL)
     assert os.WTERMSIG(os.waitpid(pid, 0)[1]) == signal.SIGKILL
     with open(reading, "rb") as pipe:
-        lines = (told + pipe.read()).decode().splitlines()
+        lines = pipe.read().decode().splitlines()
     assert lines[0] == f"NextMatch {len(before)}", (lines, len(before))  # back to the event, with every result
     event, problems = load(file)
     assert event and not problems, problems

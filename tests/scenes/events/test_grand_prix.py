@@ -8,11 +8,12 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.next_page import INPUT_LOCKOUT, NextMatch
+from pigaming_app.scenes.events.overview import TEAMS
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
-from pigaming_app.scenes.events.table_page import TEAMS, TablePage
+from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import WinnersMoment
@@ -104,7 +105,7 @@ def test_teams_play_together_and_have_a_table_and_a_podium(arcade: Arcade) -> No
         "A": points["ANA"] + points["BEA"], "B": points["EVA"]
     }  # fmt: skip
     table = TablePage(arcade.context, run)
-    assert (TEAMS, 0) in table.pages
+    assert (TEAMS, 0) in table.overview.pages
     run.change(lambda event: played(event))
     assert {row.entrant for row in PodiumPage(arcade.context, run).best} == {"A", "B"}
 

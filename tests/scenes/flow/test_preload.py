@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.games.engine_hash import engine_hash
+from pigaming_app.games import engine_hash
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import Options, opened
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
@@ -53,11 +53,11 @@ def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tu
 
 
 def test_the_engine_is_hashed_before_the_first_robot_is_saved(prepared: list[tuple[str, str]]) -> None:
-    engine_hash.cache_clear()
+    engine_hash._hash.cache_clear()
     preloader = Preloader()
     preloader.start()
     until(lambda: not preloader.busy)
-    assert engine_hash.cache_info().currsize == 1
+    assert engine_hash._hash.cache_info().currsize == 1
 
 
 def test_a_failing_preload_does_not_block_matches(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,10 @@ import pytest
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.views.rumble import BEST, DELIVERED, FINISH, LAP, RUMBLES, TAKEN, rumbles
+from pigaming_app.scenes.views.factory import view as factory
+from pigaming_app.scenes.views.pitanks import view as pitanks
+from pigaming_app.scenes.views.race import view as race
+from pigaming_app.scenes.views.rumble import BEST, DELIVERED, FINISH, LAP, TAKEN, rumbles
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
@@ -95,12 +98,12 @@ def test_nothing_rumbles_if_the_option_is_off(
 
 def test_the_strongest_of_several_events_is_felt() -> None:
     events = [("line", 1), ("lap", 1), ("best", 1), ("finish", 1), ("lap", 0), ("best", 2)]
-    assert rumbles("race", events) == {0: LAP, 1: FINISH, 2: BEST}
-    assert rumbles("factory", [("delivered", 3), ("delivered", None), ("thaw", 2)]) == {3: DELIVERED}
+    assert rumbles(race.RUMBLES, events) == {0: LAP, 1: FINISH, 2: BEST}
+    assert rumbles(factory.RUMBLES, [("delivered", 3), ("delivered", None), ("thaw", 2)]) == {3: DELIVERED}
 
 
 def test_no_rumble_outlasts_the_picture_after_the_match() -> None:
-    for table in RUMBLES.values():
+    for table in (pitanks.RUMBLES, factory.RUMBLES, race.RUMBLES):
         for rumble in table.values():
             assert 0.0 < rumble.seconds <= 0.5
             assert 0.0 < max(rumble.strong, rumble.weak) <= 1.0

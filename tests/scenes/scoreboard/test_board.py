@@ -11,11 +11,11 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.snapshot import sides, snapshot
 from pigaming_app.scenes.scoreboard import text
 from pigaming_app.scenes.scoreboard.board import SIZE, Board, fit
 from pigaming_app.scenes.scoreboard.pages import complete
 from pigaming_app.scenes.scoreboard.score_page import ScorePage, match_parts
-from pigaming_app.scenes.scoreboard.snapshot import sides, snapshot
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage, best_today
 from pigaming_app.scenes.scoreboard.window import PERIOD, ScoreboardWindow
 from pigaming_app.storage.scores import Scores, ScoreTable

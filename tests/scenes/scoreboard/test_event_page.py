@@ -18,10 +18,11 @@ from pigaming_app.scenes.flow.board_page import Part
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.snapshot import MatchSnapshot
 from pigaming_app.scenes.scoreboard.board import SIZE, Board
 from pigaming_app.scenes.scoreboard.event_now import event_now, next_line, now_line
 from pigaming_app.scenes.scoreboard.event_page import CALL, FOOT, PODIUM, TURN, EventPage
-from pigaming_app.scenes.scoreboard.snapshot import MatchSnapshot, snapshot
+from pigaming_app.scenes.scoreboard.score_page import shown_match
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage
 from pigaming_app.scenes.walk import second_screen
 from pigaming_app.ui.draw.surface_cache import surfaces
@@ -79,7 +80,7 @@ def every_page(page: EventPage, clock: Clock, scenes: Sequence[Scene]) -> list[l
 
 
 def of_match(arcade: Arcade, scene: MatchScene) -> MatchSnapshot:
-    return snapshot(scene, arcade.context.words, True)
+    return shown_match(scene, arcade.context.words, True)
 
 
 def test_without_an_event_it_gives_way(arcade: Arcade) -> None:
@@ -153,11 +154,11 @@ def test_a_seat_that_is_taken_shows_its_own_device(arcade: Arcade) -> None:
     arcade.open(scene)
     arcade.wait(1.0)
     arcade.press(Button.FIRE, KEYS[2])
-    scene.claims[1] = Device("phone", 0)
+    scene.seats.claims[1] = Device("phone", 0)
     now = event_now(arcade.context, arcade.stack.scenes)
     assert now
     assert [(one.sign, one.device) for one in now.called] == [("keys", "IJKL"), ("phone", "Phone")]
-    run.change(run.event.substitute(run.event.open[0].entrants[0], "level3"))
+    run.change(lambda event: event.substitute(event.open[0].entrants[0], "level3"))
     now = event_now(arcade.context, arcade.stack.scenes)
     assert now
     assert (now.called[0].sign, now.called[0].brain) == ("ai", "★★★☆☆")
@@ -227,7 +228,7 @@ def test_a_result_repaints_only_what_it_changes(arcade: Arcade) -> None:
     clock.seconds += TURN
     before = page.parts([scene])
     assert before
-    run.change(played(run.event, 1))
+    run.change(lambda event: played(event, 1))
     page.parts([scene])
     clock.seconds += TURN
     after = page.parts([scene])

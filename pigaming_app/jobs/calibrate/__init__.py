@@ -65,7 +65,7 @@ def _prove(arguments: Namespace) -> int:
     """Calibrate the emulated arena unattended."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
     from pigaming_app.hardware.vision.markers import opencv
-    from pigaming_app.jobs.calibrate_unattended import calibrate
+    from pigaming_app.jobs.calibrate.unattended import calibrate
 
     with refused(OperatorError):
         opencv()

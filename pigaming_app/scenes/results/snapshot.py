@@ -1,4 +1,4 @@
-"""What the second screen shows of a match, as plain values: drivers, scores, clock."""
+"""A match as plain values: drivers, scores, clock; for the second screen and for phones."""
 
 import math
 from collections.abc import Sequence
@@ -11,7 +11,6 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.headline import is_allied, team_name
-from pigaming_app.scenes.scoreboard.event_now import event_match
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
 
@@ -78,8 +77,10 @@ def match_of(scenes: Sequence[Scene]) -> tuple[ShownMatch | None, bool]:
     return None, False
 
 
-def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
-    """The match of a scene now; `on_top`: no page lies over it."""
+def snapshot(
+    scene: ShownMatch, words: Words, on_top: bool, entrants: Sequence[str] = (), round_name: str = ""
+) -> MatchSnapshot:
+    """The match of a scene now; `on_top`: no page lies over it. `entrants`: of a match of an event, by seat."""
     match, setup = scene.match, scene.setup
     left = math.ceil(match.seconds_left)
     counts_up = match.game.timed
@@ -91,14 +92,14 @@ def snapshot(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
         f"{seconds // 60}:{seconds % 60:02}",
         not counts_up and left <= ALARM_SECONDS and not match.over,
         state,
-        round_line(scene, words),
-        sides(scene, words),
+        round_name,
+        sides(scene, words, entrants),
     )
 
 
-def sides(scene: ShownMatch, words: Words) -> tuple[Side, ...]:
+def sides(scene: ShownMatch, words: Words, entrants: Sequence[str] = ()) -> tuple[Side, ...]:
     """The robots of a match, or its teams, best first; robots of equal rank by seat."""
-    match, setup, event = scene.match, scene.setup, event_match(scene)
+    match, setup = scene.match, scene.setup
     keys, _winners = standings(match.game, match.state)
     robots = match.state.robots
     groups: dict[int, list[int]] = {}
@@ -117,22 +118,12 @@ def sides(scene: ShownMatch, words: Words) -> tuple[Side, ...]:
         name, driver = drivers[0][0], ""
         if teams:
             name = "" if is_allied(setup) else team_name(words, setup, team)
-        if event and (entrants := [event.fixture.entrants[i] for i in seats if i < len(event.fixture.entrants)]):
-            name, driver = "  ".join(entrants), name
+        if named := [entrants[i] for i in seats if i < len(entrants)]:
+            name, driver = "  ".join(named), name
         signs = tuple(sign for _, sign in drivers)
         leads = alone and keys[seats[0]] == best
         found.append(Side(tuple(seats), name, driver, signs, score_text(setup, total), leads))
     return tuple(found)
-
-
-def round_line(scene: ShownMatch, words: Words) -> str:
-    """Round or stage of a match of an event, and its number; empty for another."""
-    match = event_match(scene)
-    if match is None:
-        return ""
-    fixtures = match.running.event.fixtures
-    at = next((i for i, one in enumerate(fixtures, 1) if one.number == match.fixture.number), len(fixtures))
-    return words("events.progress", round=match.fixture.round, match=at, of=len(fixtures))
 
 
 def score_text(setup: Setup, score: int) -> str:
