@@ -82,12 +82,16 @@ def _cache_of_its_own() -> Iterator[None]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Of a test that runs in all languages, mark all cases `long` but those whose texts are the longest."""
+    """Of a test that runs in all languages, mark all cases `long` but those whose texts are the longest.
+
+    The longest tests come first: a worker that takes one up as its last keeps all others waiting.
+    """
     languages = [item for item in items if isinstance(item, pytest.Function) and "language" in _values(item)]
     both = {_twin(item) for item in languages if _values(item)["language"] in WORDY}
     for item in languages:
         if _values(item)["language"] not in WORDY and _twin(item) in both:
             item.add_marker(pytest.mark.long)
+    items.sort(key=lambda item: not any(mark.kwargs.get("first") for mark in item.iter_markers("long")))
 
 
 def _values(item: pytest.Function) -> Mapping[str, Any]:

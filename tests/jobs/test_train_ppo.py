@@ -127,7 +127,7 @@ def test_without_numba_it_names_the_extra(tmp_path, capsys, monkeypatch):
     assert "numba is missing (extra `train`)" in capsys.readouterr().err
 
 
-@pytest.mark.long
+@pytest.mark.long(first=True)
 def test_a_short_training_beats_a_driver_by_hand_whatever_the_threads(tmp_path):
     """The real task, compiled, in processes of their own: 60 updates, and the same bits with one processor."""
     job = [sys.executable, "-X", "pigaming", "main.py", "train", "ppo", "pitanks", "--updates", "60", "--json", "--out"]

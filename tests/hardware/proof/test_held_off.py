@@ -21,7 +21,7 @@ OPEN_FLOOR = '[title]\nen = "Open floor"\npt = "Sala"\n' + "".join(
 )
 
 
-@pytest.mark.long
+@pytest.mark.long(first=True)
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_robots_that_are_driven_into_things_at_full_stick_never_touch_them(seed):
     bed = MeasuredBed(seed, 30.0)

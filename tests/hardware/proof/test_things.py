@@ -18,7 +18,7 @@ def test_outlines_apart_by_a_millimetre_on_all_sides_differ_by_one():
     assert len(misses) == 320
 
 
-@pytest.mark.long
+@pytest.mark.long(first=True)
 @pytest.mark.parametrize("first", range(1, 51, 10))
 def test_in_fifty_scenes_every_thing_is_found_and_no_other(first):
     run = trial(range(first, first + 10))
@@ -29,7 +29,7 @@ def test_in_fifty_scenes_every_thing_is_found_and_no_other(first):
     assert max(map(abs, run.heights)) < 6.0
 
 
-@pytest.mark.long
+@pytest.mark.long(first=True)
 def test_a_tilted_camera_of_720p_finds_them_too():
     run = trial(range(1, 11), tilted=True)
     assert (run.missed, run.false) == (0, 0)
@@ -52,7 +52,7 @@ def test_an_empty_mat_is_empty_and_a_mat_without_robots_uses_the_projectors_know
     assert [thing.kind for thing in layout.things] == [ThingKind.TALL] * len(BETWEEN)
 
 
-@pytest.mark.long
+@pytest.mark.long(first=True)
 def test_things_are_watched_over_a_match_without_a_false_alarm_until_one_is_pushed():
     match = WatchedMatch(2)
     assert len(match.scan.layout.things) == len(BETWEEN)
