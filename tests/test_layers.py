@@ -187,7 +187,7 @@ def test_main_needs_nothing_but_the_standard_library():
 def test_the_arcade_is_imported_without_numba_and_numpy():
     code = (
         "import sys\nsys.modules['numba'] = None\n"
-        "import pigaming_app.cli, pigaming_app.scenes.app\n"
+        "import pigaming_app.cli, pigaming_app.scenes.start\n"
         "import pigaming_app.scenes.title.scene, pigaming_app.scenes.play.scene\n"
         "assert 'numpy' not in sys.modules, 'numpy costs a tenth of a second at the start'\n"
     )

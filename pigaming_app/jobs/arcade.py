@@ -83,7 +83,7 @@ def ros_width(arguments: Namespace) -> float | None:
 
 def show(options: "Options") -> int:
     """Run the arcade until it is closed; returns its exit code. Raises Refusal without a display."""
-    from pigaming_app.scenes.app import run
+    from pigaming_app.scenes.start import run
     from pigaming_app.ui.window import NoDisplay
 
     with refused(NoDisplay):

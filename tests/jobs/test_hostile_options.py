@@ -15,7 +15,8 @@ import pygame
 import pytest
 
 from pigaming_app import ASSETS, cli
-from pigaming_app.scenes import app
+from pigaming_app.scenes.app import Options
+from pigaming_app.scenes.start import run
 from pigaming_app.storage.parsing import MESSAGE_LENGTH
 from tests.ai.ppo.plain import SET
 from tests.cases import one_in
@@ -226,7 +227,7 @@ def test_an_odd_home_is_no_trouble(here, monkeypatch, capsys, home):
     for arguments in (DUEL, [*PLAY, "--record", "a.replay"], ["doctor", "--json"]):
         assert cli.main(arguments) in (0, 1)
         assert "Traceback" not in capsys.readouterr().err
-    assert app.run(app.Options(headless=True, frames=2, step=0.02)) == 0
+    assert run(Options(headless=True, frames=2, step=0.02)) == 0
     assert "Traceback" not in capsys.readouterr().err
 
 

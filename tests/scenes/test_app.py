@@ -11,11 +11,12 @@ from typing import Any
 import pygame
 import pytest
 
-from pigaming_app.scenes.app import App, Options, opened, run
+from pigaming_app.scenes.app import App, Options
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, StackOperation
 from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.start import opened, run
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
 from tests.scenes.arcade import Floor, setup

@@ -12,10 +12,11 @@ import pytest
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.app import Options, run
+from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.start import run
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.effects import beam, wave

@@ -14,11 +14,12 @@ from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import MOST, Entrant, EventSpec, Format
-from pigaming_app.scenes.app import App, Options, opened
+from pigaming_app.scenes.app import App, Options
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.start import opened
 from pigaming_app.storage.settings import folders
 
 FPS = 60

@@ -28,12 +28,13 @@ def main(folder: Path) -> int:
     day_clock.install(clock)
 
     from pigaming_app.jobs.kiosk import child
-    from pigaming_app.scenes.app import App, Options, opened
+    from pigaming_app.scenes.app import App, Options
     from pigaming_app.scenes.events.next_page import NextMatch
     from pigaming_app.scenes.play.scene import MatchScene
     from pigaming_app.scenes.results.initials import Initials
     from pigaming_app.scenes.results.scene import Results
     from pigaming_app.scenes.results.winner import WinnersMoment
+    from pigaming_app.scenes.start import opened
     from pigaming_app.scenes.title.scene import Title
     from tests.bench.open_day import ledger as ledgers
     from tests.bench.open_day.event_visit import EventVisit

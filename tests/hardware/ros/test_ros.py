@@ -109,7 +109,8 @@ def test_a_joystick_drives_the_seat_it_names_or_the_first_person():
 
 LOBBY = """
 import time
-from pigaming_app.scenes.app import Options, opened
+from pigaming_app.scenes.app import Options
+from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.ui.input.events import Button, Device, InputEvent

@@ -30,7 +30,8 @@ import os, signal, sys
 from pathlib import Path
 
 from pigaming_app.jobs.kiosk import child
-from pigaming_app.scenes.app import Options, opened
+from pigaming_app.scenes.app import Options
+from pigaming_app.scenes.start import opened
 
 diary = Path(sys.argv[1])
 kills = int(sys.argv[2])
@@ -135,7 +136,8 @@ from pigaming_app.events.event_files import load, save
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.games.engine_hash import engine_hash
-from pigaming_app.scenes.app import App, Options, opened
+from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.events import choice, next_page
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.preloaded import MODULES

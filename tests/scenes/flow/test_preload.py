@@ -10,12 +10,13 @@ import pytest
 from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.games import engine_hash
 from pigaming_app.games.game import Setup
-from pigaming_app.scenes.app import Options, opened
+from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
 from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.start import opened
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade

@@ -8,11 +8,12 @@ import pytest
 
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.hardware.session.emulated import EmulatedSession
-from pigaming_app.scenes.app import Options, run
+from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
+from pigaming_app.scenes.start import run
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent

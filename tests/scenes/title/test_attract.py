@@ -13,7 +13,7 @@ from pigaming_app.games.moments import CLOSE, KINDS, LAST, Moment
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay, recorded
 from pigaming_app.games.setup import make_setup
-from pigaming_app.scenes.app import Options, run
+from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.howto.scene import HowTo, taught
 from pigaming_app.scenes.play.runner import MatchRunner
@@ -22,6 +22,7 @@ from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.highlights import KEPT, Highlights
 from pigaming_app.scenes.results.high_score_tables import high_score_tables
 from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.start import run
 from pigaming_app.scenes.title.attract import Attract, DemoMatch, TimedPage
 from pigaming_app.scenes.title.clip import Clip
 from pigaming_app.storage.scores import ScoreTable
