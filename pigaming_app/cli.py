@@ -23,6 +23,7 @@ JOBS = {  # modules of `jobs`
     "event": "tournaments and Grand Prix of AIs and people",
     "train": "train an AI from nothing",
     "new-game": "a package for a game of your own",
+    "arena": "arenas of your own: list, export, import, check",
     "games": "games from elsewhere: list, on, off",
     "bench": "performance on this machine",
     "calibrate": "calibration of projector, mat and camera",

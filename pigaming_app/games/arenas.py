@@ -1,7 +1,13 @@
-"""Loading of arenas: files under assets/arenas/GAME/, or in a plug-in, parsed by their game, and arenas from a seed."""
+"""Loading of arenas: files under assets/arenas/GAME/, or in a plug-in, parsed by their game, and arenas from a seed.
 
+The user's own arenas are in `arenas/GAME/` of the data folder. Their names are never those of other arenas.
+"""
+
+import hashlib
+import logging
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import lru_cache
 from pathlib import Path
 
 from pigaming_app import ASSETS
@@ -10,15 +16,58 @@ from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_arena
 from pigaming_app.sim.things.spec import ThingSpec, written
 from pigaming_app.storage.plugins.parts import data_folders
+from pigaming_app.storage.settings import folders
 
 MAX_BYTES = 100_000  # per file; replays contain a copy
 SURPRISE = re.compile(r"surprise-(\d{1,9})")  # name of an arena that is made from this seed
 
 
+NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,39}")  # of a user's arena
+RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)")  # names of devices on Windows
+MOST_OWN = 60  # arenas of the user in a game; others are left out
+log = logging.getLogger("pigaming")
+
+
 def arenas(game: str) -> list[str]:
-    """The names of a game's arenas, `classic` first."""
+    """The names of a game's arenas, `classic` first, the user's own last; damaged ones of these are left out."""
+    return [*shipped_arenas(game), *own_arenas(game)]
+
+
+def shipped_arenas(game: str) -> list[str]:
+    """The names of the arenas that come with a game, `classic` first."""
     names = sorted(path.stem for path in _folder(game).glob("*.toml"))
     return sorted(names, key=lambda name: name != "classic")
+
+
+def own_arenas(game: str) -> list[str]:
+    """The names of the user's arenas of a game; damaged files are left out, each with one line in the log."""
+    try:
+        found = sorted(path.stem for path in own_folder(game).glob("*.toml"))
+    except OSError:
+        return []
+    shipped = shipped_arenas(game)
+    names = [name for name in found if _is_possible(name) and name not in shipped][:MOST_OWN]
+    return [name for name in names if isinstance(_own(game, name), Arena)]
+
+
+def own_folder(game: str) -> Path:
+    """The folder of the user's arenas of a game. It may be missing."""
+    return folders().data / "arenas" / game
+
+
+def is_own_name(game: str, name: str) -> bool:
+    """True if an arena of the user may have this name."""
+    return _is_possible(name) and name not in shipped_arenas(game)
+
+
+def _is_possible(name: str) -> bool:
+    return bool(NAME.fullmatch(name)) and not RESERVED.fullmatch(name) and not SURPRISE.fullmatch(name)
+
+
+def score_name(game: str, name: str) -> str:
+    """The name of an arena in high-score tables: the user's arenas begin new ones with each change of their file."""
+    own = _own(game, name) if is_own_name(game, name) else None
+    return f"{name}-{hashlib.sha256(own.source.encode()).hexdigest()[:8]}" if isinstance(own, Arena) else name
 
 
 def load(game: str, name: str) -> Arena:
@@ -26,11 +75,45 @@ def load(game: str, name: str) -> Arena:
     make, seed = games()[game].surprise, SURPRISE.fullmatch(name)
     if make and seed:
         return parse(game, make(int(seed[1])), name)
+    if is_own_name(game, name) and (own := _own(game, name)):
+        if isinstance(own, str):
+            raise ArenaError(own)
+        return own
     path = Path(name) if name.endswith(".toml") else _folder(game) / f"{name}.toml"
+    return _loaded(game, path, lambda: f"{name}: no such arena for {game}; there are {', '.join(arenas(game))}")
+
+
+def load_file(game: str, path: Path) -> Arena:
+    """Load an arena of a game from a file. Raises ArenaError."""
+    return _loaded(game, path, lambda: f"{path.name}: file: there is none")
+
+
+def _own(game: str, name: str) -> Arena | str | None:
+    """An arena of the user, the sentence why it is unusable, or None if there is none."""
+    path = own_folder(game) / f"{name}.toml"
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return _own_as_of(game, path, (status.st_ino, status.st_mtime_ns, status.st_size))
+
+
+@lru_cache(maxsize=4 * MOST_OWN)
+def _own_as_of(game: str, path: Path, stamp: tuple[int, int, int]) -> Arena | str:
+    """An arena of the user as its file was at a stamp; a track takes a second."""
+    try:
+        return load_file(game, path)
+    except ArenaError as error:
+        log.warning("%s", error)
+        return str(error)
+
+
+def _loaded(game: str, path: Path, missing: Callable[[], str]) -> Arena:
+    """Load a file. Raises ArenaError, if there is none with the sentence `missing`."""
     try:
         if not path.exists():
-            raise ArenaError(f"{name}: no such arena for {game}; there are {', '.join(arenas(game))}")
-        return parse(game, _read(path), path.name)
+            raise ArenaError(missing())
+        return parse(game, read_source(path), path.name)
     except OSError as error:
         raise ArenaError(f"{path.name}: file: cannot be read ({error.strerror or error})") from None
     except UnicodeDecodeError:
@@ -42,7 +125,7 @@ def _folder(game: str) -> Path:
     return dict(data_folders("arenas")).get(game, ASSETS / "arenas" / game)
 
 
-def _read(path: Path) -> str:
+def read_source(path: Path) -> str:
     """The text of a file, without a byte order mark. Raises OSError, UnicodeDecodeError."""
     if not path.is_file():  # opening a pipe would block
         raise OSError("it is not a file")

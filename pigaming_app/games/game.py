@@ -1,13 +1,13 @@
 """Interface of a game, setup of a match, and its outcome."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from pigaming_app.games import simple
 from pigaming_app.sim.arena import Arena, Layout
 from pigaming_app.sim.things.spec import ThingSpec
-from pigaming_app.sim.toml_table import TomlTable
+from pigaming_app.sim.toml_table import FieldError, TomlTable
 
 FREE, ALONE, PAIRS, ALLIES = "free", "alone", "pairs", "allies"
 """Team modes: free choice; none; two teams of at most two robots; all robots in one team."""
@@ -114,6 +114,7 @@ class Game:
     observation: type = simple.Observation
     observe: Callable[[Any, int, Any, Any], None] = simple.observe  # observe(match, seat, senses, observation)
     read: Callable[[TomlTable], Layout] = simple.read  # parse an arena file, except its title; raises FieldError
+    faults: Callable[[TomlTable], Iterable[FieldError]] | None = None  # where `read` is slow or ends at the first
     ranking_key: Callable[[Any, int], float] = simple.team_points  # of a seat, with its team; allies win above 0
     columns: tuple[str, ...] = ()  # keys of `stats`, in the order of the results table
     stats: Callable[[Any, int], Mapping[str, float]] = simple.no_stats

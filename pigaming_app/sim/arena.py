@@ -22,7 +22,7 @@ solid = true             # instead of health: indestructible
 Real things on the mat follow as [[thing]], see things/spec.py.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import pi, radians, sqrt
 from typing import Any
@@ -94,15 +94,18 @@ def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
     """Parse and validate an arena file; `read` is the game's. Raises ArenaError, with `file`, key and reason."""
     try:
         table = TomlTable.parse(source)
-        title = _title(table)
+        title = read_title(table)
         layout = read(table)
-        arena = Arena(
-            file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan, layout.things
-        )
-        _check_starts(arena)
+        raise_first(start_faults(layout))
     except FieldError as error:
         raise ArenaError(f"{file}: {error}") from None
-    return arena
+    return Arena(file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan, layout.things)
+
+
+def raise_first(faults: Iterable[FieldError]) -> None:
+    """Raises the first of these errors, if there is one."""
+    for fault in faults:
+        raise fault
 
 
 def build(world: World, arena: Arena) -> None:
@@ -167,7 +170,8 @@ def read_starts(table: TomlTable) -> tuple[StartPose, ...]:
     return starts
 
 
-def _title(table: TomlTable) -> Mapping[str, str]:
+def read_title(table: TomlTable) -> Mapping[str, str]:
+    """Parse the table [title]. Raises FieldError."""
     title = table.table("title", "a table with a text for each language is missing")
     title.only(*LANGUAGES)
     for language in LANGUAGES:
@@ -205,21 +209,22 @@ def _start(entry: TomlTable) -> StartPose:
     return StartPose(x, y, heading)
 
 
-def _check_starts(arena: Arena) -> None:
-    """Raises FieldError unless every start is free, no two overlap, and all are reachable from the first."""
+def start_faults(layout: Layout) -> Iterator[FieldError]:
+    """Starts in walls, too near to others, or with no way to the first. Raises FieldError as `build`."""
     world = World()
-    build(world, arena)
+    build(world, Arena("", {}, layout.walls, layout.starts, "", layout.plan, layout.things))
     nodes = []
-    for i, start in enumerate(arena.starts):
-        key = f"start[{i + 1}]"
+    for i, start in enumerate(layout.starts):
+        key, place = f"start[{i + 1}]", (start.x, start.y, RADIUS)
         if in_wall(world, start.x, start.y):
-            raise FieldError(key, f"a robot at ({start.x:g}, {start.y:g}) would stand inside a wall")
-        for j, other in enumerate(arena.starts[:i]):
+            yield FieldError(key, f"a robot at ({start.x:g}, {start.y:g}) would stand inside a wall", place)
+        for j, other in enumerate(layout.starts[:i]):
             if sqrt((start.x - other.x) ** 2 + (start.y - other.y) ** 2) < 2 * RADIUS:
-                raise FieldError(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide")
+                yield FieldError(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide", place)
         nodes.append(free_node(world, start.x, start.y))
     field = Route()
     expand(world, field, nodes[0], -1)
     for i, node in enumerate(nodes):
         if not field.reach[node] or not nodes[0]:
-            raise FieldError(f"start[{i + 1}]", "there is no way to it from start[1]")
+            place = layout.starts[i].x, layout.starts[i].y, RADIUS
+            yield FieldError(f"start[{i + 1}]", "there is no way to it from start[1]", place)

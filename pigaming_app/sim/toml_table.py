@@ -32,10 +32,13 @@ def quote(value: object) -> str:
 
 
 class FieldError(Exception):
-    """An entry of a file is invalid: the key, such as `wall[2].thick`, and the reason."""
+    """An entry of a file is invalid: the key, such as `wall[2].thick`, and the reason.
 
-    def __init__(self, key: str, reason: str) -> None:
-        self.key, self.reason = printable(key), reason
+    `place`: where in the arena, x, y and extent in px, if the key alone does not tell.
+    """
+
+    def __init__(self, key: str, reason: str, place: tuple[float, float, float] | None = None) -> None:
+        self.key, self.reason, self.place = printable(key), reason, place
         super().__init__(f"{self.key}: {reason}")
 
 

@@ -1,10 +1,11 @@
 """Robot Factory: bring your pallets through the machines and out, before the others do."""
 
-from pigaming_app.games.factory.layout import read
+from pigaming_app.games.factory.layout import faults, read
 from pigaming_app.games.factory.observation import Observation, Senses, observe
 from pigaming_app.games.factory.rules import judge
 from pigaming_app.games.factory.start import VARIANTS, ranking_key, records, rules_of, start, stats
 from pigaming_app.games.factory.state import Factory
+from pigaming_app.games.factory.surprise import surprise
 from pigaming_app.games.game import Game, LadderMatches, RecordKind
 
 FACTORY = Game(
@@ -16,6 +17,8 @@ FACTORY = Game(
     columns=("delivered", "steps", "bumps"),
     record_kinds=(RecordKind("time", timed=True, by_goal=True), RecordKind("points")),
     read=read,
+    faults=faults,
+    surprise=surprise,
     start=start,
     judge=judge,
     observe=observe,

@@ -20,11 +20,15 @@ at = [800, 450]
 
 [[shared]]               # up to four: slots on the floor for both teams, in the variant party
 at = [740, 130]
+
+and [[wall]] as in `sim.arena`; all walls are solid.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import sqrt
 
+from pigaming_app.games.drawing.gaps import narrow_gaps
 from pigaming_app.games.factory.state import (
     ENTRY,
     EXIT,
@@ -32,6 +36,7 @@ from pigaming_app.games.factory.state import (
     FORK,
     ICE,
     INPUT,
+    MACHINES,
     MAX_SHARED,
     NOBODY,
     OUTPUT,
@@ -45,7 +50,7 @@ from pigaming_app.games.factory.state import (
     B,
 )
 from pigaming_app.games.starts import clear_starts, free_place
-from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, read_starts
+from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, raise_first, read_starts, read_walls, start_faults
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.things.cover import from_capsule
@@ -94,11 +99,32 @@ class Floor:
     machines: tuple[MachineSpec, ...]
     homes: tuple[tuple[float, float], ...]
     aisle: tuple[float, float, float, float]
+    walls: tuple[WallSpec, ...] = ()
 
 
 def read(table: TomlTable) -> Layout:
     """Parse a floor: warehouses, machines, aisle and workers. Raises FieldError."""
-    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared", "thing")
+    layout, floor = _parsed(table)
+    raise_first(_reach_faults(layout, floor))
+    return layout
+
+
+def faults(table: TomlTable) -> Iterator[FieldError]:
+    """All that makes a floor unplayable."""
+    try:
+        layout, floor = _parsed(table)
+        yield from start_faults(layout)
+        yield from _reach_faults(layout, floor)
+        bodies = [f"machine[{m + 1}]" for m in range(MACHINES) for _ in range(2)]
+        walls = [f"wall[{i + 1}]" for i in range(len(layout.walls) - len(bodies))]
+        yield from narrow_gaps(layout.walls, [*bodies, *walls])
+    except FieldError as fault:
+        yield fault
+
+
+def _parsed(table: TomlTable) -> tuple[Layout, Floor]:
+    """A floor on which some places may be out of reach. Raises FieldError."""
+    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared", "wall", "thing")
     starts = read_starts(table)
     machines = tuple(_machine(entry) for entry in table.tables("machine"))
     if sorted(machine.kind for machine in machines) != [A, A, B, B]:
@@ -108,15 +134,14 @@ def read(table: TomlTable) -> Layout:
         raise table.error("worker", f"{len(homes)} workers, but there must be {WORKERS}")
     slots = (*_shelves(table), *_machine_slots(machines), *_shared_slots(table))
     bodies = tuple(wall for machine in machines for wall in _body(machine))
-    layout = Layout(bodies, starts, things=read_things(table))
+    walls = tuple(replace(wall, health=SOLID) for wall in read_walls(table))
+    layout = Layout((*bodies, *walls), starts, things=read_things(table))
     if layout.things:
         layout = replace(layout, starts=clear_starts(layout))
         machines, homes = _beside_things(layout, machines, homes)
         _check_slots(layout, slots)
-    floor = Floor(slots, machines, homes, _aisle(table.table("aisle")))
-    layout = replace(layout, plan=floor)
-    _check_reachable(layout, floor)
-    return layout
+    floor = Floor(slots, machines, homes, _aisle(table.table("aisle")), walls)
+    return replace(layout, plan=floor), floor
 
 
 def _machine(entry: TomlTable) -> MachineSpec:
@@ -213,27 +238,28 @@ def _check_slots(layout: Layout, slots: tuple[SlotSpec, ...]) -> None:
                 raise FieldError("thing", f"one covers the slot at ({slot.x:g}, {slot.y:g})")
 
 
-def _check_reachable(layout: Layout, floor: Floor) -> None:
-    """Raises FieldError unless robots can reach every slot, people every machine, and no slots overlap."""
+def _reach_faults(layout: Layout, floor: Floor) -> Iterator[FieldError]:
+    """Slots that no robot can reach or that overlap, and machines and resting places that no person can get to."""
     world = World()
     build(world, Arena("", {}, layout.walls, layout.starts, "", floor, layout.things))
     field = Route()
     expand(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
     free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]
     for k, slot in enumerate(floor.slots):
+        at = slot.x, slot.y, PALLET
         if not any(FORK - REACH < sqrt((x - slot.x) ** 2 + (y - slot.y) ** 2) < FORK + REACH for x, y in free):
-            raise FieldError(_name(k, slot), f"no robot can reach its slot at ({slot.x:g}, {slot.y:g})")
+            yield FieldError(_name(k, slot), f"no robot can reach its slot at ({slot.x:g}, {slot.y:g})", at)
         for other in floor.slots[:k]:
             if abs(slot.x - other.x) < 68 and abs(slot.y - other.y) < 68:
-                raise FieldError(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies over another")
+                yield FieldError(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies over another", at)
         for m, machine in enumerate(floor.machines):
             if slot.machine != m and abs(slot.x - machine.x) < BODY + 34 and abs(slot.y - machine.y) < BODY + 34:
-                raise FieldError(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies in machine[{m + 1}]")
+                yield FieldError(_name(k, slot), f"its slot at ({slot.x:g}, {slot.y:g}) lies in machine[{m + 1}]", at)
     places = [(f"machine[{m + 1}].worker", spec.spot_x, spec.spot_y) for m, spec in enumerate(floor.machines)]
     places += [(f"worker[{i + 1}].at", x, y) for i, (x, y) in enumerate(floor.homes)]
     for key, x, y in places:
         if in_wall(world, x, y) or not field.reach[free_node(world, x, y)]:
-            raise FieldError(key, f"no person can get to ({x:g}, {y:g})")
+            yield FieldError(key, f"no person can get to ({x:g}, {y:g})", (x, y, PALLET))
 
 
 def _name(k: int, slot: SlotSpec) -> str:

@@ -3,8 +3,20 @@
 from pigaming_app.games.game import Game, LadderMatches, RecordKind
 from pigaming_app.games.race.observation import Observation, Senses, observe
 from pigaming_app.games.race.rules import judge
-from pigaming_app.games.race.start import VARIANTS, ranking_key, read, records, reroute, rules_of, start, stats, times
+from pigaming_app.games.race.start import (
+    VARIANTS,
+    faults,
+    ranking_key,
+    read,
+    records,
+    reroute,
+    rules_of,
+    start,
+    stats,
+    times,
+)
 from pigaming_app.games.race.state import Race
+from pigaming_app.games.race.surprise import surprise
 
 RACE = Game(
     name="race",
@@ -15,6 +27,8 @@ RACE = Game(
     columns=("laps", "best", "total"),
     record_kinds=(RecordKind("lap", timed=True), RecordKind("race", timed=True, by_goal=True)),
     read=read,
+    faults=faults,
+    surprise=surprise,
     start=start,
     judge=judge,
     observe=observe,

@@ -3,12 +3,14 @@
 Validation guarantees that a course is drivable: closed, inside the arena, wide enough, without overlaps.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt, tan
+from itertools import chain
+from math import acos, atan2, ceil, cos, hypot, pi, sin, tan
 from typing import NamedTuple
 
 from pigaming_app.games.race.course import POINTS, Course
+from pigaming_app.sim.arena import raise_first
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH
 
@@ -41,24 +43,43 @@ class Bend(NamedTuple):
 
 def read_course(table: TomlTable) -> Course:
     """The course of the tables [[corner]]. It is cached: copy it before changing it. Raises FieldError."""
+    return course_of(read_corners(table))
+
+
+def read_corners(table: TomlTable) -> tuple[Corner, ...]:
+    """Parse the tables [[corner]]. Raises FieldError."""
     corners = tuple(_corner(entry) for entry in table.tables("corner"))
     if len(corners) < 3:
         raise table.error("corner", f"{len(corners)} corners, but at least 3 are needed to close a course")
-    return course_of(corners)
+    return corners
 
 
 @lru_cache(maxsize=32)
 def course_of(corners: tuple[Corner, ...]) -> Course:
     """The course of these corners, beginning at the start of the first arc. Raises FieldError."""
+    course = traced(corners)
+    raise_first(course_faults(course))
+    return course
+
+
+def traced(corners: Sequence[Corner]) -> Course:
+    """The line and width of a course, which may leave the arena or lie over itself. Raises FieldError."""
     course = Course()
     xs, ys, widths, length = _line(corners, _bends(corners))
     course.count, course.step, course.length = POINTS, length / POINTS, length
     course.xs[:], course.ys[:] = xs, ys
     course.half[:] = _smoothed([width / 2 for width in widths], max(1, round(EASE / course.step)))
-    _check_inside(course)
-    _check_apart(course)
-    _index_nodes(course)
     return course
+
+
+def course_faults(course: Course) -> Iterator[FieldError]:
+    """Places where a course leaves the arena or meets itself; if there are none, its nodes are indexed after that."""
+    found = 0
+    for fault in chain(_outside(course), _overlaps(course)):
+        found += 1
+        yield fault
+    if not found:
+        yield from _index_nodes(course)
 
 
 def _corner(entry: TomlTable) -> Corner:
@@ -159,8 +180,16 @@ def _smoothed(ring: Sequence[float], reach: int) -> list[float]:
     ]
 
 
-def _check_inside(course: Course) -> None:
-    """Raises FieldError unless both edges lie inside the arena."""
+@lru_cache(maxsize=8)
+def examined(corners: tuple[Corner, ...]) -> tuple[Course, tuple[FieldError, ...]]:
+    """A course that may be undrivable, and its faults; cached, do not change it. Raises FieldError."""
+    course = traced(corners)
+    return course, tuple(course_faults(course))
+
+
+def _outside(course: Course) -> Iterator[FieldError]:
+    """Stretches whose edges lie outside the arena."""
+    before = -2
     for i in range(POINTS):
         x, y, half = course.xs[i], course.ys[i], course.half[i]
         ex, ey = course.xs[(i + 1) % POINTS] - course.xs[i - 1], course.ys[(i + 1) % POINTS] - course.ys[i - 1]
@@ -168,41 +197,63 @@ def _check_inside(course: Course) -> None:
         for side in (across, -across):
             a, b = x - side * ey, y + side * ex
             if not (0 <= a <= WIDTH and 0 <= b <= HEIGHT):
-                raise FieldError(
-                    "corner", f"the edge at ({a:.0f}, {b:.0f}) lies outside the arena, {WIDTH:g} x {HEIGHT:g}"
-                )
+                if i > before + 1:
+                    reason = f"the edge at ({a:.0f}, {b:.0f}) lies outside the arena, {WIDTH:g} x {HEIGHT:g}"
+                    yield FieldError("corner", reason, (min(max(a, 0.0), WIDTH), min(max(b, 0.0), HEIGHT), half))
+                before = i
 
 
-def _check_apart(course: Course) -> None:
-    """Raises FieldError if stretches overlap; points closer along the line than a half turn are the same stretch."""
-    for i in range(POINTS):
-        x, y, half = course.xs[i], course.ys[i], course.half[i]
-        for j in range(i + 1, POINTS):
-            need = half + course.half[j]
-            dx, dy = course.xs[j] - x, course.ys[j] - y
-            if dx * dx + dy * dy < need * need and min(j - i, POINTS - j + i) * course.step > 0.5 * pi * need:
-                raise FieldError("corner", f"the course lies over itself near ({x + dx / 2:.0f}, {y + dy / 2:.0f})")
+def _overlaps(course: Course) -> Iterator[FieldError]:
+    """Places where stretches overlap; points closer along the line than a half turn are the same stretch."""
+    import numpy as np  # an arcade starts faster without
+
+    found: list[tuple[float, float]] = []
+    xs, ys, half = np.array(course.xs), np.array(course.ys), np.array(course.half)
+    dx, dy, need = xs[None, :] - xs[:, None], ys[None, :] - ys[:, None], half[:, None] + half[None, :]
+    apart = np.arange(POINTS)[None, :] - np.arange(POINTS)[:, None]
+    way = np.minimum(apart, POINTS - apart) * course.step
+    over = (apart > 0) & (dx * dx + dy * dy < need * need) & (way > 0.5 * pi * need)
+    for i, j in np.argwhere(over).tolist():
+        x, y = course.xs[i] + (course.xs[j] - course.xs[i]) / 2, course.ys[i] + (course.ys[j] - course.ys[i]) / 2
+        if all(hypot(x - a, y - b) > WIDEST for a, b in found):
+            found.append((x, y))
+            extent = (course.half[i] + course.half[j]) / 2
+            yield FieldError("corner", f"the course lies over itself near ({x:.0f}, {y:.0f})", (x, y, extent))
 
 
-def _index_nodes(course: Course) -> None:
-    """Set `near` and `other` of a course for each node of the grid. Raises FieldError if three stretches meet."""
+def _index_nodes(course: Course) -> Iterator[FieldError]:
+    """Set `near` and `other` of a course for each node of the grid, up to one at which three stretches meet."""
+    import numpy as np  # an arcade starts faster without
+
+    nodes = np.arange(NODES)
+    dx = np.array(course.xs)[None, :] - (nodes % COLUMNS * CELL)[:, None]
+    dy = np.array(course.ys)[None, :] - (nodes // COLUMNS * CELL)[:, None]
+    distances = np.sqrt(dx * dx + dy * dy)
+    lowest = (distances <= np.roll(distances, 1, axis=1)) & (distances < np.roll(distances, -1, axis=1))
     for node in range(NODES):
-        x, y = node % COLUMNS * CELL, node // COLUMNS * CELL
-        gaps = [sqrt((a - x) * (a - x) + (b - y) * (b - y)) for a, b in zip(course.xs, course.ys, strict=True)]
-        minima = [i for i in range(POINTS) if gaps[i] <= gaps[i - 1] and gaps[i] < gaps[(i + 1) % POINTS]]
+        minima = np.flatnonzero(lowest[node]).tolist()
+        gaps = dict(zip(minima, distances[node, minima].tolist(), strict=True))
         near: list[int] = []
+        if len(minima) > 1:
+            ridges = np.maximum.reduceat(distances[node], minima).tolist()
+            ridges[-1] = max([ridges[-1], *distances[node, : minima[0]].tolist()])
         for i in sorted(minima, key=lambda i: gaps[i] - course.half[i]):
-            if all(_separate(gaps, i, j) for j in near):
+            if all(_separate(minima, gaps, ridges, i, j) for j in near):
                 near.append(i)
         depths = [gaps[i] - course.half[i] for i in near]
         course.near[node] = near[0]
         course.other[node] = near[1] if len(near) > 1 and depths[1] < depths[0] + 2 * REACH else -1
         if len(near) > 2 and depths[2] < REACH:
-            raise FieldError("corner", f"three stretches of the course meet near ({x:g}, {y:g})")
+            x, y = node % COLUMNS * CELL, node // COLUMNS * CELL
+            yield FieldError("corner", f"three stretches of the course meet near ({x:g}, {y:g})", (x, y, REACH))
+            return
 
 
-def _separate(gaps: list[float], i: int, j: int) -> bool:
-    """True if i and j are on separate stretches: between them, both ways round, the distance rises above both."""
-    low, high = min(i, j), max(i, j)
+def _separate(minima: list[int], gaps: dict[int, float], ridges: list[float], i: int, j: int) -> bool:
+    """True if i and j are on separate stretches: between them, both ways round, the distance rises above both.
+
+    `ridges`: the largest distance from each of the minima to the next.
+    """
+    low, high = sorted((minima.index(i), minima.index(j)))
     ridge = max(gaps[i], gaps[j]) + RIDGE
-    return max(gaps[low:high]) > ridge and max(gaps[high:] + gaps[:low]) > ridge
+    return max(ridges[low:high]) > ridge and max(ridges[high:] + ridges[:low]) > ridge

@@ -14,11 +14,11 @@ Robots start beside the things that stand on the course. Tape that is a line, an
 nearest of the four lines to it.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from pigaming_app.games.game import ALONE, Setup, Variant, named
-from pigaming_app.games.race.circuit import read_course
+from pigaming_app.games.race.circuit import examined, read_corners, read_course
 from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.furniture import (
     BEHIND,
@@ -33,7 +33,7 @@ from pigaming_app.games.race.furniture import (
     taped,
 )
 from pigaming_app.games.race.laps import progress
-from pigaming_app.games.race.passages import Span
+from pigaming_app.games.race.passages import Span, passages
 from pigaming_app.games.race.racing_line import Line, line_round
 from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, Rules, TimingLine
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
@@ -41,7 +41,7 @@ from pigaming_app.sim.record import copy
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.things.cover import Capsule
 from pigaming_app.sim.things.spec import ThingSpec, read_things, wall_capsules
-from pigaming_app.sim.toml_table import TomlTable
+from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import DT, HZ, ROBOTS, WALLS
 
 LAPS = Rules().laps  # the default goal
@@ -91,11 +91,15 @@ def _lines(table: TomlTable, course: Course, tapes: Sequence[float]) -> tuple[fl
     if 1.0 in shares:
         raise table.error("lines", "1 is the same place as 0, write 0")
     if abs(sum(gaps) - 1.0) > 1e-9:
-        raise table.error("lines", "must lie in the order of the way round")
+        stray = next(
+            (i for i in range(1, LINES) if (shares[i] - shares[0]) % 1.0 < (shares[i - 1] - shares[0]) % 1.0), 0
+        )
+        reason = "must lie in the order of the way round"
+        raise FieldError("track.lines", reason, _line_place(course, shares[stray]))
     for i, gap in enumerate(gaps):
         if gap * course.length < APART:
             reason = f"{gap * course.length:.0f} px to the next, but at least {APART:g} px are needed"
-            raise table.error(f"lines[{i + 1}]", reason)
+            raise FieldError(f"track.lines[{i + 1}]", reason, _line_place(course, shares[i]))
     lines = [share * course.length for share in shares]
     for tape in tapes:
         moved = min(range(LINES), key=lambda i: separation(course, lines[i], tape))
@@ -105,6 +109,25 @@ def _lines(table: TomlTable, course: Course, tapes: Sequence[float]) -> tuple[fl
         ):
             lines[moved] = tape
     return tuple(lines)
+
+
+def _line_place(course: Course, share: float) -> tuple[float, float, float]:
+    """Middle and half the width of a line across the course, px; `share`: of a lap."""
+    along = share * course.length
+    return *point_at(course, along, 0.0), half_width_at(course, *segment_at(course, along))
+
+
+def faults(table: TomlTable) -> Iterator[FieldError]:
+    """All that makes a track unplayable, as far as it can be found without the fastest line, which takes a second."""
+    try:
+        table.only("title", "track", "corner", "thing")
+        (course, found), things = examined(read_corners(table)), read_things(table)
+        yield from found
+        lines = _lines(table.table("track"), course, taped(course, things) if not found else ())
+        if solid := tuple(wall_capsules(things, WALLS)):
+            passages(course, solid, [0.0] * POINTS, lines)
+    except FieldError as fault:
+        yield fault
 
 
 def start(match: Race, arena: Arena, setup: Setup) -> None:

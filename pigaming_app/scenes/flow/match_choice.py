@@ -4,7 +4,7 @@ import logging
 from collections.abc import Iterator
 from functools import lru_cache
 
-from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.arenas import arenas, is_own_name, load, own_arenas, score_name, shipped_arenas
 from pigaming_app.games.game import Game, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
@@ -17,15 +17,30 @@ KIOSK_RULES = "party"  # rule set that a kiosk offers at first, in the games tha
 log = logging.getLogger(__name__)
 
 
-@lru_cache(maxsize=32)
 def load_cached(game: str, name: str) -> Arena:
-    """An arena, cached. Raises ArenaError."""
+    """An arena, cached; those of the user as long as their files are the same. Raises ArenaError."""
+    return load(game, name) if is_own_name(game, name) else load_shipped(game, name)
+
+
+@lru_cache(maxsize=32)
+def load_shipped(game: str, name: str) -> Arena:
+    """An arena that comes with a game, or is made from a seed, cached. Raises ArenaError."""
     return load(game, name)
 
 
-@lru_cache(maxsize=4)
 def playable_arenas(game: str) -> tuple[str, ...]:
-    """The arenas of a game with valid files; errors of the others are logged."""
+    """The arenas of a game with valid files, the user's own last; errors of the others are logged."""
+    return *shipped_playable(game), *own_arenas(game)
+
+
+def arena_of_table(game: str, name: str) -> str:
+    """The arena of a high-score table, by its name there; empty if there is none any more."""
+    return next((arena for arena in playable_arenas(game) if score_name(game, arena) == name), "")
+
+
+@lru_cache(maxsize=4)
+def shipped_playable(game: str) -> tuple[str, ...]:
+    """The arenas with valid files that come with a game."""
     return tuple(_playable(game))
 
 
@@ -36,7 +51,7 @@ def first_arena(game: str) -> str:
 
 
 def _playable(game: str) -> Iterator[str]:
-    return (name for name in arenas(game) if _is_playable(game, name))
+    return (name for name in shipped_arenas(game) if _is_playable(game, name))
 
 
 def _is_playable(game: str, name: str) -> bool:

@@ -7,6 +7,7 @@ counts for a seat only if every opponent is a person or an AI at least as strong
 from dataclasses import dataclass, replace
 
 from pigaming_app.ai.registry import level_of
+from pigaming_app.games.arenas import score_name
 from pigaming_app.games.game import ALLIES, RecordKind, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, ScoreTable
@@ -46,7 +47,8 @@ def contest(setup: Setup, seat: int | None = None) -> ScoreTable:
     mates = [other for other in setup.seats if other.brain != "off" and other.team == own.team]
     side = sum(other.brain == "human" for other in mates) if len(mates) > 1 else 0
     length = setup.goal if games()[setup.game].variants[setup.variant].goals else setup.minutes
-    return ScoreTable(setup.game, setup.arena, "", False, setup.variant, length, max(1, len(people)), side)
+    arena = score_name(setup.game, setup.arena)
+    return ScoreTable(setup.game, arena, "", False, setup.variant, length, max(1, len(people)), side)
 
 
 def table_of(contest: ScoreTable, feat: RecordKind) -> ScoreTable:

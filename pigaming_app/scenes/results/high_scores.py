@@ -9,7 +9,7 @@ import pygame
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import arena_title, load_cached, playable_arenas
+from pigaming_app.scenes.flow.match_choice import arena_of_table, arena_title, load_cached
 from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.results.high_score_tables import (
@@ -42,7 +42,7 @@ class HighScores:
 
     def __init__(self, context: Context, contest: ScoreTable, fresh: Sequence[Score] = ()) -> None:
         self.context, self.fresh = context, list(fresh)
-        self.shelf = [table for table in contests(context.scores) if table.arena in playable_arenas(table.game)]
+        self.shelf = [table for table in contests(context.scores) if arena_of_table(table.game, table.arena)]
         self._show(nearest(contest, self.shelf))
         self.age = self.idle = 0.0
         self.prompts = context.prompts([(Button.FIRE, "results.on")])
@@ -126,8 +126,8 @@ class HighScores:
     def _where(self) -> str:
         """Game and arena titles."""
         words, contest = self.context.words, self.contest
-        there = contest.arena in playable_arenas(contest.game)
-        arena = arena_title(load_cached(contest.game, contest.arena), words.language) if there else contest.arena
+        name = arena_of_table(contest.game, contest.arena)
+        arena = arena_title(load_cached(contest.game, name), words.language) if name else contest.arena
         return f"{words('games.' + contest.game)}  ·  {arena}"
 
     def _board(self, screen: pygame.Surface, board: HighScoreTable, x: int, w: int) -> None:

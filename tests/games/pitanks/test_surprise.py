@@ -47,6 +47,6 @@ def test_the_seed_decides() -> None:
 
 
 def test_wrong_names_are_unknown_arenas() -> None:
-    for game, name in (("pitanks", "surprise-"), ("pitanks", "surprise-1234567890"), ("race", "surprise-1")):
+    for game, name in (("pitanks", "surprise-"), ("race", "surprise-1234567890"), ("factory", "surprise-x")):
         with pytest.raises(ArenaError, match="no such arena"):
             load(game, name)

@@ -118,13 +118,13 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
     (folder / "classic.toml").write_text((ASSETS / "arenas" / "pitanks" / "classic.toml").read_text())
     (folder / "broken.toml").write_text("title = 3")
     monkeypatch.setattr("pigaming_app.games.arenas.ASSETS", tmp_path)
-    match_choice.playable_arenas.cache_clear()
-    match_choice.load_cached.cache_clear()
+    match_choice.shipped_playable.cache_clear()
+    match_choice.load_shipped.cache_clear()
     try:
         assert playable_arenas("pitanks") == ("classic",)
     finally:
-        match_choice.playable_arenas.cache_clear()
-        match_choice.load_cached.cache_clear()
+        match_choice.shipped_playable.cache_clear()
+        match_choice.load_shipped.cache_clear()
 
 
 @pytest.mark.parametrize("game", [game for game in games() if games()[game].default.goals])

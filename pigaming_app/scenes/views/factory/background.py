@@ -63,6 +63,9 @@ def draw_floor(canvases: Inks, floor: Floor, allies: bool = False, party: bool =
         slots = floor.slots[first : first + SHELVES]
         _warehouse(canvases, slots, _color(slots, allies))
         yield
+    for wall in floor.walls:
+        ends = [(wall.ax, wall.ay), (wall.bx, wall.by)]
+        canvases[0].line(ends, WALL, 2 * wall.half).line(ends, dim(WALL, 0.8), 2 * wall.half - 4)
     for m, machine in enumerate(floor.machines):
         _machine(canvases, floor, m, machine.kind, machine.x, machine.y)
         yield

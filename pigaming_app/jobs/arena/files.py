@@ -1,0 +1,39 @@
+"""Arena files from elsewhere: the game that they belong to, and copies among the user's arenas."""
+
+from pathlib import Path
+
+from pigaming_app.games.arenas import is_own_name, load_file, own_folder
+from pigaming_app.games.registry import games
+from pigaming_app.games.setup import require_game
+from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.sim.arena import Arena, ArenaError
+from pigaming_app.storage.parsing import quote
+from pigaming_app.storage.safe_files import write_atomic
+
+
+def import_file(file: Path, game: str | None, name: str | None, replace: bool) -> str:
+    """Copy a file to the user's arenas; returns a sentence. Raises ArenaError, ChoiceError, Refusal, NotSaved."""
+    game, arena = read_file(file, game)
+    name = name if name is not None else file.stem.lower()
+    if not is_own_name(game, name):
+        raise Refusal(f"an arena cannot have the name {quote(name)}: --as NAME, of a-z, 0-9, - and _, not one of ours")
+    target = own_folder(game) / f"{name}.toml"
+    if target.exists() and not replace:
+        raise Refusal(f"{game} has an arena {name}: --as NAME for another name, --replace to replace it")
+    write_atomic(target, arena.source.encode())
+    return f"{name} is an arena of {game}, in {target}"
+
+
+def read_file(file: Path, game: str | None) -> tuple[str, Arena]:
+    """The game and the arena of a file. Raises ArenaError with the error of the game that its tables belong to."""
+    if game is not None:
+        require_game(game)
+        return game, load_file(game, file)
+    errors: list[ArenaError] = []
+    for name in games():
+        try:
+            return name, load_file(name, file)
+        except ArenaError as error:
+            errors.append(error)
+    known = [error for error in errors if "unknown key" not in str(error)]
+    raise (known or errors)[0]

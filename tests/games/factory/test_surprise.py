@@ -1,0 +1,65 @@
+"""Floors from a seed."""
+
+import pytest
+
+from pigaming_app.ai.registry import make_brain
+from pigaming_app.games.arenas import parse
+from pigaming_app.games.drawing.problems import problems
+from pigaming_app.games.drawing.values import drawing_of
+from pigaming_app.games.factory.surprise import WALLS, surprise
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+
+def check(seed: int) -> int:
+    """Check a floor; returns its number of walls."""
+    source = surprise(seed)
+    drawing = drawing_of(source)
+    assert not problems(games()["factory"], drawing)
+    arena = parse("factory", source, "a.toml")
+    sides = {}
+    for name, places in {
+        "starts": [[(start.x, start.y) for start in arena.starts[team::2]] for team in (0, 1)],
+        "slots": [[(slot.x, slot.y) for slot in arena.plan.slots[:16] if slot.team == team] for team in (0, 1)],
+        "machines": [[(machine.x, machine.y) for machine in arena.plan.machines[side::2]] for side in (0, 1)],
+    }.items():
+        ours, theirs = (sorted(some) for some in places)
+        mirrored = sorted((WIDTH - x, y) for x, y in ours) == theirs
+        turned = sorted((WIDTH - x, HEIGHT - y) for x, y in ours) == theirs
+        sides[name] = mirrored, turned
+    assert any(all(found) for found in zip(*sides.values(), strict=True)), sides
+    walls = drawing.of("wall")
+    assert len(walls) % 2 == 0
+    return len(walls)
+
+
+def deliver(seed: int) -> None:
+    """Two robots of the planner, one of either team, deliver one pallet each within the time."""
+    brains = ("level5", "level5", "off", "off")
+    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, (0, 1, 0, 1), strict=True))
+    match = Match(Setup("factory", f"surprise-{seed}", (one, two, three, four), 5.0, 1, "standard", 2))
+    for seat in (0, 1):
+        match.sit(seat, make_brain("factory", "level5", seed))
+    while not match.over:
+        match.tick()
+    assert match.state.winner
+
+
+def test_floors_are_playable_fair_and_differ() -> None:
+    walls = {check(seed) for seed in range(12)}
+    assert len(walls) > 1
+    assert len({surprise(seed).split("\n", 3)[3] for seed in range(12)}) == 12
+    assert surprise(3) == surprise(3)
+
+
+def test_the_planner_delivers() -> None:
+    deliver(1)
+
+
+@pytest.mark.long
+def test_a_thousand_seeds_can_be_played() -> None:
+    assert {check(seed) for seed in range(1000)} == {2 * count for count in range(WALLS + 1)}
+    for seed in range(0, 1000, 25):
+        deliver(seed)
