@@ -51,6 +51,7 @@ class Observation:
     ball_distance: float
     ball_bearing: float
     ball_out: float  # s until it is dropped there; 0: in play
+    ball_roll: float  # px/s, along x, when it is dropped
     worth: int  # goals for which it counts
     held: int  # FREE, or by whom
     charge: float  # of the shot, 0..1
@@ -77,6 +78,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     obs.ball_vx, obs.ball_vy = sign * ball.vx, sign * ball.vy
     obs.ball_distance, obs.ball_bearing = polar(obs, obs.ball_x, obs.ball_y)
     obs.ball_out, obs.worth = ball.out * DT, ball.worth
+    obs.ball_roll = sign * ball.roll if ball.out else 0.0
     obs.held, obs.charge = FREE, 0.0
     if ball.holder:
         obs.held = OPPONENT
@@ -111,5 +113,3 @@ def polar(obs: Any, x: float, y: float) -> tuple[float, float]:
     """Distance and bearing of a point from the own pose, px and rad."""
     dx, dy = x - obs.x, y - obs.y
     return sqrt(dx * dx + dy * dy), turn_to(atan2(dy, dx) - obs.heading)
-
-

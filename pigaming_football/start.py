@@ -121,7 +121,7 @@ def rules_of(setup: Setup) -> Rules:
     rules = Rules()
     rules.ticks, rules.overtime = round(setup.minutes * 60 * HZ), round(OVERTIME * HZ)
     if setup.variant == "party":
-        rules.mass, rules.friction, rules.bounce, rules.robot_bounce = 0.85, 100.0, 0.9, 0.7
+        rules.mass, rules.friction, rules.bounce, rules.robot_bounce = 0.85, 140.0, 0.9, 0.7
         rules.golden = 0.25
     return rules
 
@@ -130,5 +130,3 @@ def stats(match: Football, seat: int) -> Mapping[str, float]:
     """Statistics of a seat."""
     player = match.players[seat]
     return {"goals": player.goals, "assists": player.assists, "own_goals": player.own_goals, "shots": player.shots}
-
-

@@ -22,19 +22,19 @@ class Rules(simple.Rules):
     overtime: int  # of a level match, at most; the first goal ends it
     radius: float = 22.0  # of the ball
     mass: float = 1.0
-    friction: float = 150.0  # px/s^2, deceleration of the rolling ball
+    friction: float = 200.0  # px/s^2, deceleration of the rolling ball
     bounce: float = 0.75  # coefficient of restitution between ball and walls
     robot_bounce: float = 0.5  # between ball and robots
     catch_reach: float = 12.0  # between robot and ball
     catch_angle: float = 0.7  # rad to either side of straight ahead
-    held_speed: float = 0.85  # factor of a robot's speed while it holds the ball
+    held_speed: float = 0.8  # factor of a robot's speed while it holds the ball
     hold: int = 2 * HZ  # after which the ball is shot by itself
     charge: int = round(0.8 * HZ)  # until a shot has its full strength
     weakest: float = 380.0  # momentum of a shot
-    strongest: float = 980.0
+    strongest: float = 850.0
     cooldown: int = round(0.4 * HZ)  # after a shot or a lost ball
-    celebration: int = 2 * HZ  # from a goal to the kick-off
-    kick_off: float = 190.0  # speed at which the ball rolls to the team that conceded
+    celebration: int = round(2.5 * HZ)  # from a goal to the kick-off
+    kick_off: float = 220.0  # speed at which the ball rolls to the team that conceded
     warning: int = HZ  # from the decision to drop the ball anew to the drop
     near: float = 60.0  # between robot and ball: the ball is in reach
     lonely: int = 5 * HZ  # of rest in reach of nobody, after which the ball is dropped anew

@@ -10,7 +10,13 @@ from .footballer import think
 from .mind import PERIOD, Mind
 
 # Share of full speed, ticks between looks at the ball, standard deviation of the aim (rad), turbo, passes.
-STRENGTHS = ((0.5, 40, 0.26, 0, 0), (0.6, 28, 0.18, 0, 0), (0.72, 18, 0.12, 0, 1), (0.86, 10, 0.07, 1, 1), (1.0, 5, 0.03, 1, 1))
+STRENGTHS = (
+    (0.50, 40, 0.26, 0, 0),
+    (0.60, 28, 0.18, 0, 0),
+    (0.70, 18, 0.12, 0, 1),
+    (0.80, 12, 0.08, 1, 1),
+    (0.90, 6, 0.05, 1, 1),
+)
 
 
 def _reset(speed: float, reaction: int, error: float, turbo: int, plays: int) -> Any:
@@ -25,8 +31,5 @@ def _reset(speed: float, reaction: int, error: float, turbo: int, plays: int) ->
 
 
 AI = GameAI(
-    {
-        name: BrainKind(name, Mind, think, _reset(*strength))
-        for name, strength in zip(LEVELS, STRENGTHS, strict=True)
-    }
+    {name: BrainKind(name, Mind, think, _reset(*strength)) for name, strength in zip(LEVELS, STRENGTHS, strict=True)}
 )

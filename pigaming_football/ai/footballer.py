@@ -21,24 +21,26 @@ from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import update_route
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 from ..observation import FREE, MATE, OPPONENT, OWN, from_left, observe, polar
 from ..rules import side_of
-from ..state import LEFT, MIDDLE
+from ..state import LEFT, MIDDLE, Rules
 from .mind import CHASER, FRICTION, KEEPER, PERIOD, SUPPORTER, TOUCH, clearance, notice, time_to_meet
 
 LOYALTY = 0.35  # s by which another must be faster to take over the chase
 FIRST = 0.25  # s by which an opponent must be faster for a lone robot to defend
+KICK_OFF = 190.0  # px from the middle, where it awaits the ball
 BEHIND = 40.0  # px, room between ball and robot on the way round it
 WRONG_SIDE = 1.7  # rad between the ways to the ball and on to the goal, from which it drives round the ball
 GRASP, GRASP_ANGLE = 75.0, 0.9  # px, rad: FIRE is pressed when the ball is as near
 OPEN = 64.0  # px of clearance of an open shot
-LONG_SHOT = 900.0  # px
+LONG_SHOT = 750.0  # px
 LONGEST = 85  # ticks for which it holds the ball
-KEEPER_X, KEEPER_ROOM = 78.0, 70.0  # px: its line, and how far from it it still keeps its heading
+KEEPER_X, KEEPER_FAR, KEEPER_SHARE = 78.0, 300.0, 0.36  # px, px, and share of the ball's distance: its line
+KEEPER_ROOM = 70.0  # px from its line within which it keeps its heading
 STUCK_TICKS, STUCK_DISTANCE = 40, 14.0
+WEAKEST, STRONGEST = Rules().weakest, Rules().strongest  # px/s, of a shot
 AHEAD = ((60.0, -230.0), (60.0, 230.0), (260.0, -190.0), (260.0, 190.0), (420.0, -120.0), (420.0, 120.0))
 
 
@@ -90,14 +92,16 @@ def choose_role(mind: Any) -> None:
         else:
             rival_time = min(rival_time, after)
     own_time = time_to_meet(mind, obs.x, obs.y, polar(obs, mind.seen_x, mind.seen_y)[1])  # last: it sets the point
-    if mind.role == CHASER:
+    if mind.role == CHASER and mates:
         own_time -= LOYALTY
     defends = obs.held == OPPONENT or mind.seen_x < 0.55 * WIDTH
     if obs.held == OWN:
         mind.role = CHASER
     elif obs.held == MATE or (mates and mate_time < own_time):
         mind.role = KEEPER if mind.seen_x < 0.4 * WIDTH or (defends and obs.held != MATE) else SUPPORTER
-    elif not mates and defends and rival_time + FIRST < own_time and obs.x > mind.seen_x - TOUCH:
+    elif obs.ball_roll > 0.0 or (obs.held == OPPONENT and obs.x > mind.seen_x - BEHIND):
+        mind.role = KEEPER  # their kick-off, or they are past
+    elif not mates and obs.ball_roll == 0.0 and rival_time + FIRST < own_time:
         mind.role = KEEPER
     else:
         mind.role = CHASER
@@ -111,6 +115,8 @@ def chase(match: Any, seat: int, mind: Any) -> None:
     if obs.held == OPPONENT:  # the ball is what it must bump into
         drive_to(match, seat, mind, mind.seen_x, mind.seen_y, 1, 0)
         return
+    if obs.ball_roll < 0.0:  # the own kick-off
+        x -= KICK_OFF
     gx, gy = WIDTH - x, MIDDLE - y
     length = sqrt(gx * gx + gy * gy) + 1e-9
     off = turn_to(atan2(y - obs.y, x - obs.x) - atan2(gy, gx))
@@ -147,7 +153,7 @@ def play_ball(match: Any, seat: int, mind: Any) -> None:
                 if lane > OPEN and clearance(obs, mate.x, mate.y, WIDTH, MIDDLE, False) > 0.7 * max(up, down):
                     shoots = True
                     x, y = mate.x + 0.5 * mate.vx + 60.0, mate.y + 0.5 * mate.vy
-                    charge = (sqrt(220.0 * 220.0 + 2.0 * FRICTION * mate.distance) - 380.0) / 600.0
+                    charge = (sqrt(220.0 * 220.0 + 2.0 * FRICTION * mate.distance) - WEAKEST) / (STRONGEST - WEAKEST)
     _, angle = polar(obs, x, y)
     angle = turn_to(angle + mind.bias)
     distance = sqrt((x - obs.x) * (x - obs.x) + (y - obs.y) * (y - obs.y))
@@ -165,17 +171,18 @@ def keep_goal(match: Any, seat: int, mind: Any) -> None:
     """Stand between ball and goal, heading along the line on which to drive; catch the ball if it is at the front."""
     obs = mind.obs
     reach = min(obs.mouth, 150.0)
-    gap = max(mind.seen_x - KEEPER_X, 1.0)
-    y = MIDDLE + (mind.seen_y - MIDDLE) * KEEPER_X / (KEEPER_X + gap)
+    line = min(max(KEEPER_SHARE * mind.seen_x, KEEPER_X), KEEPER_FAR)
+    gap = max(mind.seen_x - line, 1.0)
+    y = MIDDLE + (mind.seen_y - MIDDLE) * line / (line + gap)
     if mind.seen_vx < -120.0:
         crossing = mind.seen_y + mind.seen_vy * gap / -mind.seen_vx
         if abs(crossing - MIDDLE) < obs.mouth + 60.0:
             y = crossing
     y = min(max(y, MIDDLE - reach), MIDDLE + reach)
-    dx, dy = KEEPER_X - obs.x, y - obs.y
+    dx, dy = line - obs.x, y - obs.y
     fire = grasp(obs)
     if abs(dx) > KEEPER_ROOM or abs(dy) > 240.0:
-        drive_to(match, seat, mind, KEEPER_X, y, 1 if abs(dx) > 300.0 else 0, fire)
+        drive_to(match, seat, mind, line, y, 1 if dx < -120.0 else 0, fire)
         return
     if fire and obs.ball_distance < TOUCH + 30.0:
         steer(match, seat, mind, 0.5, obs.ball_bearing, fire, 0)

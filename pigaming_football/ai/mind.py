@@ -12,10 +12,11 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 from ..observation import Observation
+from ..state import Rules
 
 PERIOD = 5  # ticks between decisions: 10 Hz
 NEW_ERROR = 30  # ticks between draws of the aiming error
-FRICTION, BALL = 150.0, 22.0  # px/s^2, px: of the standard ball, for predictions
+FRICTION, BALL = Rules().friction, Rules().radius  # px/s^2, px: of the standard ball, for predictions
 TOUCH = RADIUS + BALL  # px between the centres of a robot and the ball that it touches
 FULL_SPEED, TURN_RATE = 260.0, 3.0  # px/s, rad/s
 MOMENTS, MOMENT = 16, 0.15  # points in time to which the ball is predicted, and s between them
