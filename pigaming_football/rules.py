@@ -7,9 +7,10 @@ touched it last; an own goal counts for the other team.
 
 After a goal the robots play on from where they are. Real robots cannot be moved by the rules, so the ball returns to
 the middle two seconds later, and rolls to the team that conceded. A ball that rests in reach of nobody for five
-seconds, or gets nowhere for nine, is dropped anew. If the score is level at the end, the next goal wins.
+seconds, or gets nowhere for nine, is dropped anew.
 
-By the party rules the ball is lighter and livelier, and now and then golden: it counts two.
+By the cup rules the next goal wins if the score is level at the end. By the party rules it does as well, the ball is
+lighter and livelier, and now and then golden: it counts two.
 """
 
 from math import cos, sin, sqrt

@@ -9,7 +9,7 @@ width = 260              # px, of both goals, in the middle of the left and righ
 at = [800, 450]
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import dist
 
@@ -33,8 +33,8 @@ FEWEST = ROBOTS + 2  # drop points: every robot covers at most one, and one is w
 APART = 2.0 * (RADIUS + Rules().radius) + 4.0  # px between drop points
 VARIANTS = named(
     *(
-        Variant(name, (2, 3, 5), minutes, team_mode=PAIRS, teams=(0, 1, 0, 1), overtime=OVERTIME)
-        for name, minutes in (("standard", 3), ("party", 2))
+        Variant(name, (2, 3, 5), minutes, team_mode=PAIRS, teams=(0, 1, 0, 1), overtime=overtime)
+        for name, minutes, overtime in (("standard", 3, 0.0), ("cup", 3, OVERTIME), ("party", 2, OVERTIME))
     )
 )
 
@@ -99,18 +99,18 @@ def start(match: Football, arena: Arena, setup: Setup) -> None:
     match.drop_count = len(pitch.drops)
     for spot, (x, y) in zip(match.drops, pitch.drops, strict=False):
         spot.x, spot.y = x, y
-    for i, k in enumerate(start_indices(setup)):
+    teams = [seat.team for seat in setup.seats]
+    for i, k in enumerate(start_indices(teams, [bool(robot.present) for robot in match.robots])):
         robot, player, pose = match.robots[i], match.players[i], arena.starts[k]
         robot.x, robot.y, robot.heading = pose.x, pose.y, pose.heading
         player.last_x, player.last_y, player.armed = pose.x, pose.y, 1
     take_out(match, WIDTH / 2, MIDDLE, match.rules.warning, 0.0)
 
 
-def start_indices(setup: Setup) -> list[int]:
-    """The start of each seat: the 1st and 3rd for the left team, the others for the right; the others take the rest."""
+def start_indices(teams: Sequence[int], plays: Sequence[bool]) -> list[int]:
+    """The start of each seat: 1st and 3rd for the left team, the others for the right; empty seats take the rest."""
     free = {LEFT: [0, 2], RIGHT: [1, 3]}
-    sides = [LEFT if seat.team % 2 == 0 else RIGHT for seat in setup.seats]
-    plays = [seat.brain != "off" for seat in setup.seats]
+    sides = [LEFT if team % 2 == 0 else RIGHT for team in teams]
     taken = [free[side].pop(0) if on and free[side] else -1 for side, on in zip(sides, plays, strict=True)]
     left = sorted(free[LEFT] + free[RIGHT])
     return [k if k >= 0 else left.pop(0) for k in taken]
@@ -119,7 +119,8 @@ def start_indices(setup: Setup) -> list[int]:
 def rules_of(setup: Setup) -> Rules:
     """The rules of a match."""
     rules = Rules()
-    rules.ticks, rules.overtime = round(setup.minutes * 60 * HZ), round(OVERTIME * HZ)
+    rules.ticks = round(setup.minutes * 60 * HZ)
+    rules.overtime = round(VARIANTS[setup.variant].overtime * HZ)
     if setup.variant == "party":
         rules.mass, rules.friction, rules.bounce, rules.robot_bounce = 0.85, 140.0, 0.9, 0.7
         rules.golden = 0.25
