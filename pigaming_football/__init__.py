@@ -1,0 +1,22 @@
+"""Robot Football: put the ball into the other team's goal."""
+
+from pigaming_app.games.game import Game
+
+from .observation import Observation, observe
+from .rules import judge
+from .start import VARIANTS, read, rules_of, start, stats
+from .state import Football
+
+GAME = Game(
+    name="football",
+    state=Football,
+    observation=Observation,
+    variants=VARIANTS,
+    columns=("goals", "assists", "own_goals"),
+    start=start,
+    judge=judge,
+    observe=observe,
+    read=read,
+    rules=rules_of,
+    stats=stats,
+)

@@ -1,0 +1,123 @@
+"""Memory and senses of the hand-written footballer, and its prediction of the ball."""
+
+from math import sqrt
+from typing import Any
+
+from pigaming_app.games.simple import Senses
+from pigaming_app.sim.flow_field import Route
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.rng import bell
+from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+from ..observation import Observation
+from ..state import Rules
+
+PERIOD = 5  # ticks between decisions: 10 Hz
+NEW_ERROR = 30  # ticks between draws of the aiming error
+FRICTION, BALL = Rules().friction, Rules().radius  # px/s^2, px: of the standard ball, for predictions
+TOUCH = RADIUS + BALL  # px between the centres of a robot and the ball that it touches
+FULL_SPEED, TURN_RATE = 260.0, 3.0  # px/s, rad/s
+MOMENTS, MOMENT = 16, 0.15  # points in time to which the ball is predicted, and s between them
+CHASER, KEEPER, SUPPORTER = range(3)
+
+
+@record
+class Mind:
+    """Memory, and the handicaps of its level."""
+
+    senses: Senses
+    obs: Observation
+    route: Route
+    speed: float  # share of the full stick, 0..1
+    reaction: int  # ticks between looks at the ball
+    error: float  # standard deviation of its aim, rad
+    turbo: int  # 1: it uses the turbo
+    plays: int  # 1: it passes
+    random: int
+    phase: int  # tick of its decisions, of PERIOD
+    role: int
+    look: int  # ticks until the next look
+    seen_x: float  # where it believes the ball to be: px and px/s, in its team's frame
+    seen_y: float
+    seen_vx: float
+    seen_vy: float
+    meet_x: float  # where it can meet the ball
+    meet_y: float
+    held: int  # ticks for which it has held the ball
+    bias: float  # present aiming error, rad
+    bias_left: int  # ticks until the next draw
+    anchor_x: float  # for `unstick`
+    anchor_y: float
+    stuck_ticks: int
+    escape: float
+    escape_turn: float
+    since: int
+    freeing: int  # 1: it is backing out
+
+
+@kernel
+def notice(mind: Any) -> None:
+    """Look at the ball every `reaction` ticks, and believe that it rolls on in between; draw aiming errors."""
+    obs, step = mind.obs, PERIOD / 50.0
+    mind.look -= PERIOD
+    if mind.look <= 0 or obs.ball_out > 0.0 or obs.held:
+        mind.look = mind.reaction
+        mind.seen_x, mind.seen_y, mind.seen_vx, mind.seen_vy = obs.ball_x, obs.ball_y, obs.ball_vx, obs.ball_vy
+    else:
+        mind.seen_x = min(max(mind.seen_x + mind.seen_vx * step, BALL), WIDTH - BALL)
+        mind.seen_y = min(max(mind.seen_y + mind.seen_vy * step, BALL), HEIGHT - BALL)
+    mind.bias_left -= PERIOD
+    if mind.bias_left <= 0:
+        mind.bias_left = NEW_ERROR
+        mind.bias = 2.0 * mind.error * bell(mind)
+    mind.held = mind.held + PERIOD if obs.held == 1 else 0
+
+
+@kernel
+def time_to_meet(mind: Any, x: float, y: float, turn: float) -> float:
+    """Seconds until a robot at (x, y), `turn` rad off the ball, can touch the rolling ball; sets where.
+
+    The first of MOMENTS at which it is there no later than the ball; the ball is reflected by the rim.
+    """
+    speed = sqrt(mind.seen_vx * mind.seen_vx + mind.seen_vy * mind.seen_vy)
+    after = 0.0
+    for i in range(MOMENTS + 1):
+        t = i * MOMENT
+        rolled = min(t, speed / FRICTION)
+        share = rolled - 0.5 * FRICTION * rolled * rolled / speed if speed > 0.0 else 0.0
+        ball_x, ball_y = mind.seen_x + mind.seen_vx * share, mind.seen_y + mind.seen_vy * share
+        mind.meet_x, mind.meet_y = folded(ball_x, WIDTH), folded(ball_y, HEIGHT)
+        dx, dy = mind.meet_x - x, mind.meet_y - y
+        after = max(0.0, sqrt(dx * dx + dy * dy) - TOUCH) / FULL_SPEED + 0.5 * abs(turn) / TURN_RATE
+        if after <= t or rolled < t:
+            return max(after, t)
+    return after
+
+
+@kernel
+def folded(at: float, size: float) -> float:
+    """A coordinate of the ball, reflected once by the rim and kept within it."""
+    if at < BALL:
+        at = 2.0 * BALL - at
+    elif at > size - BALL:
+        at = 2.0 * (size - BALL) - at
+    return min(max(at, BALL), size - BALL)
+
+
+@kernel
+def clearance(obs: Any, x: float, y: float, to_x: float, to_y: float, mates: bool) -> float:
+    """Least distance in px of an opponent, or of a mate too, from the segment between two points; at most 999."""
+    ex, ey = to_x - x, to_y - y
+    length2 = ex * ex + ey * ey + 1e-9
+    least = 999.0
+    for i in range(3):
+        other = obs.others[i]
+        if other.present and (mates or not other.mate):
+            t = min(max(((other.x - x) * ex + (other.y - y) * ey) / length2, 0.0), 1.0)
+            dx, dy = other.x - x - t * ex, other.y - y - t * ey
+            distance = sqrt(dx * dx + dy * dy)
+            if distance < least:
+                least = distance
+    return least

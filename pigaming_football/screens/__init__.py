@@ -1,0 +1,65 @@
+"""How Robot Football appears on the screens."""
+
+from typing import Any
+
+import pygame
+
+from pigaming_app.scenes.views.game_screens import GameScreens, Placed
+from pigaming_app.scenes.views.preview import fitted, walls
+from pigaming_app.scenes.views.sprites.robot import robot
+from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import ADD, ICE, MIST, THIN, Color, GlowCanvas, dim, regular_polygon
+from pigaming_app.ui.draw.frame_budget import Steps
+
+from . import lessons
+from .sprites import draw_ball, draw_goal, draw_lines
+from .view import FootballView
+
+
+def tile(ink: GlowCanvas, x: float, y: float) -> None:
+    """The picture on the title: a shot at the goal."""
+    draw_goal(ink, 1, x + 478, y + 132, 96, 1.15)
+    for i in range(6):
+        ink.line([(x + 262 + 14 * i, y + 158 - 2.4 * i), (x + 352, y + 142)], dim(MIST, 0.10 + 0.08 * i), THIN + 2 * i)
+    draw_ball(ink.set_transform(x + 366, y + 140, 0.0, 1.3), 0.6, False)
+    ink.set_transform(0, 0)
+    robot(ink, 0, x + 150, y + 178, -0.17, 1.15)
+    robot(ink, 3, x + 474, y + 206, -2.2, 1.0)
+
+
+def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
+    """Preview of a pitch: lines, goals, walls and starts."""
+    out = yield from walls(arena, w, h, allies)
+    left, top, k = fitted(w, h)
+    ink, half = GlowCanvas(w, h, 3), k * arena.plan.mouth
+    draw_lines(ink, left, top, k * WIDTH, k * HEIGHT, half, 0.6)
+    for side in (0, 1):
+        draw_goal(ink, side, left + side * k * WIDTH + (-2 if side else 2), top + k * HEIGHT / 2, half, -0.28)
+    yield
+    out.blit((yield from ink.lit_steps(0.5)), (0, 0), special_flags=ADD)
+    return out
+
+
+def footballs(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color) -> None:
+    """Confetti: a small ball of five corners."""
+    whole = placed(regular_polygon(12, size))
+    ink.solid(whole).line(whole, ICE, 2, True).fill(placed(regular_polygon(5, 0.55 * size)), color)
+
+
+LESSONS: dict[str, Any] = {
+    "football_push": lessons.push,
+    "football_shoot": lessons.shoot,
+    "football_pass": lessons.passes,
+    "football_golden": lessons.golden,
+}
+
+SCREENS = GameScreens(
+    FootballView,
+    tile,
+    fire="hint_kick",
+    preview=preview,
+    confetti=footballs,
+    team_colors=True,
+    lessons=LESSONS,
+)

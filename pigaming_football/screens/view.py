@@ -1,0 +1,255 @@
+"""View of Robot Football: pitch, goals, the rolling ball, its trail and charge, and the celebration of a goal."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import pygame
+
+from pigaming_app.scenes.views.background import HUD_HEIGHT, LEFT, TOP, Bit
+from pigaming_app.scenes.views.hud.parts import CLOCK
+from pigaming_app.scenes.views.hud.score import ScoreHud
+from pigaming_app.scenes.views.rumble import GIVEN
+from pigaming_app.scenes.views.simple import SimpleView, on_canvas
+from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites.factory import TEAMS
+from pigaming_app.scenes.views.view import SoundCue, ViewOptions
+from pigaming_app.sim.arena import Arena
+from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, PLAYERS, PRE
+from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.sprites import Batch, put, step
+from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.i18n import Words
+
+from ..rules import side_of
+from ..start import start_indices
+from . import sprites
+
+FAST, TAIL = 260.0, 0.016  # px/s from which the ball has a trail; s between its spots
+JUMP = 120.0  # px in a tick: the ball was placed, not rolled
+KICK = 140.0  # px/s: a change of velocity that is heard
+CHEER, NETTED = 1.7, 0.5  # s for which a goal is announced, and in which the ball comes to rest in the net
+CHARGES = 16  # steps of the ring of the charge
+JINGLES = ("delivered_ice", "delivered_fire")
+SHOUT_Y = 190.0  # px, of the announcement of a goal
+
+
+class FootballHud(ScoreHud):
+    """Points of robots and teams; words in place of the clock while the next goal wins."""
+
+    def __init__(self, view: "FootballView", state: Any, players: list[str], words: Words | None) -> None:
+        super().__init__(view.background, state, players)
+        self.lines = words("football.golden_goal").split("|") if words else []
+        self.size = min((fit_size(line, LABEL, CLOCK.w - 24) for line in self.lines), default=LABEL)
+
+    def show_clock(self, state: Any) -> None:
+        if not state.golden_goal or not self.lines:
+            super().show_clock(state)
+            return
+        self.parts.show("clock", "golden", CLOCK.x, CLOCK.w, self.golden_goal)
+
+    def golden_goal(self) -> list[Bit]:
+        """The pieces of the words."""
+        lit = [text(line, self.size, FOCUS, "head", room=CLOCK.w - 24) for line in self.lines]
+        top = 84 - 25 * (len(lit) - 1)
+        return [
+            (part.image, (CLOCK.centerx + part.at[0], top + 50 * i + part.at[1]), None) for i, part in enumerate(lit)
+        ]
+
+
+class FootballView(SimpleView):
+    """The ball and its pitch, besides walls, robots and goals."""
+
+    def __init__(
+        self, arena: Arena, state: Any, players: list[str], options: ViewOptions, words: Words | None = None
+    ) -> None:
+        robots = state.robots
+        indices = start_indices([robot.team for robot in robots], [bool(robot.present) for robot in robots])
+        super().__init__(replace(arena, starts=tuple(arena.starts[k] for k in indices)), state, players, options, words)
+        self.hud = FootballHud(self, state, players, words)
+        self.shout = words("football.goal") if words else ""
+        self.half, self.baked = state.mouth, False
+        ball = state.ball
+        self.was = self.now = (ball.x, ball.y)
+        self.velocity = (ball.vx, ball.vy)
+        self.rolled, self.direction = 0.0, 0.0
+        self.tail: list[tuple[float, float, float]] = []  # x, y, time
+        self.goals, self.holder, self.out = state.goals, ball.holder, ball.out
+        self.goal_at, self.goal_from, self.scorer = -9.0, (0.0, 0.0), 0
+        self.above: Batch = []  # the ball, which lies over the robots' barrels
+        self.add_prewarm_jobs(self.more_jobs())
+
+    def more_jobs(self) -> Iterator[Job]:
+        """Prewarm jobs of the pitch and the announcement of goals."""
+        yield self.bake_pitch
+        for side in (0, 1):
+            yield partial(self.announcement, side)
+
+    def sprites(self) -> Iterator[Job]:
+        yield sprites.shadow
+        for level in range(1, sprites.TRAIL + 1):
+            yield partial(sprites.trail, level, False)
+        for right in (False, True):
+            yield partial(sprites.kick_off_arrow, right)
+        for turn in range(sprites.DIRECTIONS):
+            for phase in range(sprites.PHASES):
+                yield partial(sprites.ball, turn, phase, False)
+        for seat in self.seats:
+            for charge in range(1, CHARGES + 1):
+                yield partial(effects.timer_ring, PLAYERS[seat], 48 * charge // CHARGES, 34)
+            for level in range(1, 5):
+                yield partial(sprites.aim, level, PLAYERS[seat])
+        for left in range(0, 49, 4):
+            yield partial(effects.timer_ring, ICE, left, 34)
+
+    def bake_pitch(self) -> None:
+        """Bake the lines into the background, before its walls."""
+        if not self.baked:
+            self.baked = True
+            box = pygame.Rect(LEFT - sprites.MARGIN, HUD_HEIGHT, 1600 + 2 * sprites.MARGIN, 1080 - HUD_HEIGHT)
+            self.background.bake(box, [(sprites.pitch(self.half), (LEFT - sprites.MARGIN, TOP), None)])
+
+    def announcement(self, side: int) -> LitImage:
+        """The word for a goal, in the colour of the side that has scored."""
+        return text(self.shout, fit_size(self.shout, HERO, 1000), TEAMS[side], "head")
+
+    def draw(self, screen: pygame.Surface, state: Any, blend: float, seconds: float) -> None:
+        self.bake_pitch()
+        self.above = []
+        super().draw(screen, state, blend, seconds)
+        screen.fblits(self.above, PRE)
+        since = self.particles.clock - self.goal_at
+        if self.shout and since < CHEER:
+            rise = 1.0 - (1.0 - min(1.0, since / 0.25)) ** 3
+            self.announcement(self.scorer).draw(screen, 960, TOP + SHOUT_Y + 40 * (1.0 - rise))
+
+    # ---- the ball
+
+    def marks(self, under: Batch, over: Batch, state: Any, blend: float) -> None:
+        ball, now = state.ball, self.particles.clock
+        gold = ball.worth > 1
+        if now - self.goal_at < CHEER:
+            self.draw_netted(now - self.goal_at)
+        if ball.out:
+            self.draw_waiting(under, state, gold)
+            return
+        x, y = (self.was[i] + (self.now[i] - self.was[i]) * blend for i in (0, 1))
+        for tx, ty, at in self.tail:
+            level = math.ceil(sprites.TRAIL * (1.0 - (now - at) / 0.22))
+            if level > 0:
+                put(under, sprites.trail(min(level, sprites.TRAIL), gold), *on_canvas(tx, ty))
+        put(under, sprites.shadow(), *on_canvas(x, y))
+        if ball.holder:
+            self.draw_charge(under, state, ball.holder - 1, x, y)
+        turn, phase = step(self.direction, sprites.DIRECTIONS), step(self.rolled, sprites.PHASES)
+        put(self.above, sprites.ball(turn, phase, gold), *on_canvas(x, y))
+
+    def draw_charge(self, under: Batch, state: Any, seat: int, x: float, y: float) -> None:
+        """The ring that fills with the charge, and the line of the shot."""
+        share = min(1.0, state.ball.charge / state.rules.charge)
+        ring = 48 * math.ceil(CHARGES * share) // CHARGES
+        put(under, effects.timer_ring(PLAYERS[seat], max(3, ring), 34), *on_canvas(x, y))
+        heading = state.robots[seat].heading + state.ball.grip
+        reach = 2 + round(4 * share)
+        for i in range(reach):
+            far = 52 + 34 * i
+            at = on_canvas(x + far * math.cos(heading), y + far * math.sin(heading))
+            put(under, sprites.aim(max(1, 4 - i), PLAYERS[seat]), *at)
+
+    def draw_waiting(self, under: Batch, state: Any, gold: bool) -> None:
+        """The ball before it is dropped, in a ring that empties, with the way that it will roll."""
+        ball, rules = state.ball, state.rules
+        whole = rules.celebration if ball.roll else rules.warning
+        left = 4 * math.ceil(12 * min(1.0, ball.out / whole))
+        at = on_canvas(ball.x, ball.y)
+        put(under, effects.timer_ring(FOCUS if gold else ICE, left, 34), *at)
+        if ball.roll:
+            right = ball.roll > 0.0
+            pulse = 0.5 - 0.5 * math.cos(math.tau * self.particles.clock)
+            far = (58 + 10 * pulse) * (1 if right else -1)
+            put(under, sprites.kick_off_arrow(right), at[0] + far, at[1])
+        if ball.out < whole - 25:
+            put(self.above, sprites.ball(0, 0, gold), *at)
+
+    def draw_netted(self, since: float) -> None:
+        """The ball of the last goal, which comes to rest in the net."""
+        share = 1.0 - (1.0 - min(1.0, since / NETTED)) ** 2
+        x, y = self.goal_from
+        x += (-1 if x < 800 else 1) * 34 * share
+        put(self.above, sprites.ball(0, step(share * 3.0, sprites.PHASES), False), *on_canvas(x, y))
+
+    # ---- events
+
+    def events(self, state: Any) -> list[SoundCue]:
+        ball, cues = state.ball, super().events(state)
+        cues = [cue for cue in cues if cue[0] != "pickup"]
+        self.follow_ball(state)
+        if state.goals > self.goals:
+            cues += self.cheer(state)
+        elif self.out and not ball.out:
+            cues.append(("drop", None, ball.x))
+            self.particles.shock(*on_canvas(ball.x, ball.y), FOCUS if ball.worth > 1 else ICE)
+        elif ball.holder and not self.holder:
+            cues.append(("lift", ball.holder - 1, ball.x))
+        elif self.holder and not ball.holder and not ball.out:
+            cues.append(self.kicked(state, self.holder - 1))
+        elif not ball.out and not ball.holder and not self.out:
+            change = math.hypot(ball.vx - self.velocity[0], ball.vy - self.velocity[1])
+            if change > KICK:
+                cues.append(("set_down", None, ball.x))
+                x, y = on_canvas(ball.x, ball.y)
+                self.particles.burst(x, y, ICE, min(10, round(change / 80)), 22, 30)
+        self.goals, self.holder, self.out = state.goals, ball.holder, ball.out
+        self.velocity = (ball.vx, ball.vy)
+        return cues
+
+    def kicked(self, state: Any, seat: int) -> SoundCue:
+        """Sparks and sound of a shot, or of a ball that was lost."""
+        ball = state.ball
+        x, y = on_canvas(ball.x, ball.y)
+        speed = math.hypot(ball.vx, ball.vy)
+        if speed > 300.0:
+            way = math.atan2(ball.vy, ball.vx)
+            self.particles.burst(x, y, PLAYERS[seat], round(speed / 50), 24, 60, (way + math.pi, 0.6))
+            return "fire", seat, ball.x
+        return "hit", None, ball.x
+
+    def follow_ball(self, state: Any) -> None:
+        """Record where the ball is, how far it has rolled, and its trail."""
+        ball = state.ball
+        self.was, self.now = self.now, (ball.x, ball.y)
+        dx, dy = self.now[0] - self.was[0], self.now[1] - self.was[1]
+        way = math.hypot(dx, dy)
+        if way > JUMP or ball.out or self.out:
+            self.was, self.tail = self.now, []
+            return
+        if way > 0.3:
+            self.direction = math.atan2(dy, dx)
+            self.rolled += way / sprites.RADIUS
+        now = self.particles.clock
+        if way > FAST * 0.02 and not ball.holder and (not self.tail or now - self.tail[-1][2] >= TAIL):
+            self.tail.append((ball.x, ball.y, now))
+        self.tail = [spot for spot in self.tail if now - spot[2] < 0.22]
+
+    def cheer(self, state: Any) -> list[SoundCue]:
+        """Light, sparks and sounds of a goal."""
+        self.scorer = 1 - state.goal_side
+        self.goal_at = self.particles.clock
+        self.goal_from = (0.0 if state.goal_side == 0 else 1600.0, state.goal_y)
+        x, y = on_canvas(*self.goal_from)
+        color, inwards = TEAMS[self.scorer], 0.0 if state.goal_side == 0 else math.pi
+        self.particles.burst(x, y, color, 70, 20, 320, (inwards, 1.3))
+        self.particles.burst(x, y, FOCUS, 24, 20, 200, (inwards, 1.0))
+        if self.options.flashes != "off":
+            self.particles.shock(x, y, color)
+        if self.options.flashes == "full":
+            self.particles.glow(x, y, color, 0.9)
+        if self.options.shake:
+            self.particles.shake()
+        for seat in self.seats:
+            if side_of(state.robots[seat]) == self.scorer:
+                self.rumbles[seat] = GIVEN
+        return [(JINGLES[self.scorer], None, self.goal_from[0]), ("rush", None, self.goal_from[0])]

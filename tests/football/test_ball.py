@@ -1,0 +1,270 @@
+"""The ball: never in a wall, a robot or nowhere; through nothing at any speed; off nothing faster than it should be."""
+
+from math import cos, hypot, pi, sin
+from random import Random
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from pigaming_app.sim.arena import WallSpec
+from pigaming_app.sim.arena import _add_wall as add_wall
+from pigaming_app.sim.contact import drive, in_wall
+from pigaming_app.sim.kernel import compiled
+from pigaming_app.sim.record import digest, packed
+from pigaming_app.sim.world import DT
+from pigaming_football.physics import note_steps, reflect
+from pigaming_football.rules import judge, move
+from pigaming_football.state import Ball
+from tests.football.pitch import ARENAS, BALL, ROBOT, overlap, put_ball, put_robot, state
+
+SLOP = 2e-6  # px
+ABSURD = 1e7  # px/s: 125 arenas in a tick
+X, Y = st.floats(ROBOT, 1600.0 - ROBOT), st.floats(ROBOT, 900.0 - ROBOT)
+SPEEDS = st.one_of(st.floats(-600.0, 600.0), st.floats(-20_000.0, 20_000.0), st.floats(-ABSURD, ABSURD))
+STEP = st.floats(-16.0, 16.0)
+
+
+@st.composite
+def moments(draw):
+    """Any moment: robots that have moved, also into the ball, and a ball of any velocity that was free before that."""
+    football = state(draw(st.sampled_from(ARENAS)), variant=draw(st.sampled_from(("standard", "party"))))
+    for k in range(4):
+        x, y, dx, dy = draw(X), draw(Y), draw(STEP), draw(STEP)
+        assume(not in_wall(football, x, y))
+        put_robot(football, k, x - dx, y - dy)  # first where it was
+        football.actions[k].fire = draw(st.integers(0, 1))
+        football.robots[k].heading = draw(st.floats(0.0, 2.0 * pi, exclude_max=True))
+    put_ball(football, draw(X), draw(Y), draw(SPEEDS), draw(SPEEDS))
+    assume(overlap(football) <= 0.0)
+    for k in range(4):
+        player, robot = football.players[k], football.robots[k]
+        x, y = (
+            min(max(robot.x + draw(STEP), ROBOT), 1600.0 - ROBOT),
+            min(max(robot.y + draw(STEP), ROBOT), 900.0 - ROBOT),
+        )
+        if not in_wall(football, x, y):
+            robot.x, robot.y = x, y
+        assert hypot(robot.x - player.last_x, robot.y - player.last_y) < 26.0
+    return football
+
+
+@settings(max_examples=3000, deadline=None)
+@given(moments())
+def test_no_ball_is_ever_in_a_wall_or_a_robot(football):
+    note_steps(football)
+    fast = hypot(football.ball.vx, football.ball.vy)
+    move(football)
+    if not football.ball.out:
+        assert overlap(football) <= SLOP
+        hits = 12 * 2.0 * 16.0 * 1.5 / DT  # of robots, each at most twice its speed
+        assert hypot(football.ball.vx, football.ball.vy) <= fast + hits
+
+
+def test_no_ball_is_ever_in_a_wall_or_a_robot_whatever_happens():
+    """Robots that chase, hold and squeeze the ball, which is hit by something from time to time."""
+    for arena in ARENAS:
+        chance, football = Random(5), state(arena)
+        for tick in range(6000):
+            ball = football.ball
+            for k in range(4):
+                robot, action = football.robots[k], football.actions[k]
+                away = (ball.x - robot.x) * sin(robot.heading) - (ball.y - robot.y) * cos(robot.heading)
+                action.angular = 1.0 if away < 0.0 else -1.0
+                if tick % 40 == 10 * k:
+                    action.fire, action.turbo = int(chance.random() < 0.4), int(chance.random() < 0.5)
+                    action.linear = chance.choice((1.0, 1.0, -1.0))
+            if tick % 100 == 0 and not ball.holder:
+                way, speed = chance.uniform(0.0, 2.0 * pi), 10.0 ** chance.uniform(2.0, 7.0)
+                ball.vx, ball.vy = speed * cos(way), speed * sin(way)
+            judge(football)
+            if not ball.out:
+                assert overlap(football) <= SLOP, (arena, tick)
+            drive(football)
+        assert football.goals > 3
+
+
+@settings(max_examples=2000, deadline=None)
+@given(st.floats(0.0, 2.0 * pi), st.floats(58.1, 300.0), st.floats(-1.5, 1.5), st.floats(0.0, ABSURD), STEP, STEP)
+def test_no_ball_tunnels_through_a_robot(way, distance, off, speed, dx, dy):
+    """It touches a robot, whatever the speeds, if and only if the ways of the two bring them together."""
+    football = state(present=(0,))
+    football.rules.friction, football.mouth = 0.0, 0.0  # a goal would hide the touch
+    put_robot(football, 0, 800.0 + dx, 450.0 + dy, dx, dy)
+    put_ball(football, 800.0 - distance * cos(way), 450.0 - distance * sin(way))
+    ball = football.ball
+    ball.vx, ball.vy = speed * cos(way + off), speed * sin(way + off)
+    ex, ey = ball.vx * DT - dx, ball.vy * DT - dy  # of the ball, seen from the robot
+    x, y = ball.x - 800.0, ball.y - 450.0
+    free = min(1.0, 100.0 / (speed * DT + 1e-9))  # share of the tick in which it reaches no rim
+    t = min(max(-(x * ex + y * ey) / (ex * ex + ey * ey + 1e-12), 0.0), 1.0)
+    nearest = hypot(x + t * ex, y + t * ey)
+    note_steps(football)
+    move(football)
+    if nearest < 58.0 - 1e-3:
+        assert ball.touched == 1
+    elif nearest > 58.0 + 1e-3 and free == 1.0:
+        assert ball.touched == 0
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.integers(0, 10**6), st.sampled_from((10, 30, 100)))
+def test_no_ball_tunnels_through_a_wall(seed, thick):
+    """A wall across the whole pitch keeps the ball on its side for ever, with robots that push it against the wall."""
+    chance, football = Random(seed), state(present=(0, 2))
+    add_wall(football, WallSpec(800.0, 0.0, 800.0, 900.0, thick / 2, -1))
+    put_robot(football, 0, 400.0, 300.0)
+    put_robot(football, 2, 400.0, 600.0)
+    put_ball(football, 600.0, 450.0)
+    for tick in range(60):
+        ball = football.ball
+        if tick % 6 == 0:
+            way, speed = chance.uniform(-1.5, 1.5), 10.0 ** chance.uniform(2.0, 7.0)
+            ball.vx, ball.vy = speed * cos(way), speed * sin(way)
+        for k in (0, 2):  # at a speed of up to 800 px/s towards the ball
+            robot = football.robots[k]
+            gap = hypot(ball.x - robot.x, ball.y - robot.y)
+            x, y = robot.x + 16.0 * (ball.x - robot.x) / gap, robot.y + 16.0 * (ball.y - robot.y) / gap
+            if not in_wall(football, x, y):
+                robot.x, robot.y = x, y
+        note_steps(football)
+        move(football)
+        if ball.out:
+            return  # a goal, or no place for it
+        assert ball.x < 800.0 - thick / 2 - BALL + SLOP
+
+
+@settings(max_examples=3000, deadline=None)
+@given(
+    SPEEDS, SPEEDS, st.floats(-400.0, 400.0), st.floats(-400.0, 400.0), st.floats(0.0, 2.0 * pi), st.floats(0.05, 1.0)
+)
+def test_a_contact_separates_by_no_more_than_the_restitution(vx, vy, ux, uy, way, restitution):
+    ball = Ball()
+    ball.vx, ball.vy = vx, vy
+    nx, ny = cos(way), sin(way)
+    before, along = (vx - ux) * nx + (vy - uy) * ny, -(vx - ux) * ny + (vy - uy) * nx
+    reflect(ball, 58.0 * nx, 58.0 * ny, ux, uy, restitution)
+    after, slid = (ball.vx - ux) * nx + (ball.vy - uy) * ny, -(ball.vx - ux) * ny + (ball.vy - uy) * nx
+    error = 1e-14 * (abs(vx) + abs(vy) + 1000.0)
+    if before >= 0.0:
+        assert (ball.vx, ball.vy) == (vx, vy)
+    else:
+        assert after == pytest.approx(-restitution * before, abs=error)
+    assert slid == pytest.approx(along, abs=error)
+
+
+@pytest.mark.parametrize(("speed", "robot"), [(300.0, 0.0), (300.0, 200.0), (-100.0, 260.0), (3000.0, -100.0)])
+def test_a_ball_leaves_a_robot_as_the_restitution_demands(speed, robot):
+    football = state(present=(0,))
+    football.rules.friction = 0.0
+    put_robot(football, 0, 800.0 - robot * DT * 0.5, 450.0, -robot * DT)
+    put_ball(football, 800.0 - 58.0 - 0.5 * speed * DT, 450.0, speed)
+    note_steps(football)
+    move(football)
+    assert football.ball.vx == pytest.approx(-robot - 0.5 * (speed + robot))
+
+
+def test_friction_stops_a_ball_where_mechanics_says():
+    football = state(present=())
+    put_ball(football, 200.0, 300.0, 500.0)
+    for _ in range(400):
+        move(football)
+    assert football.ball.vx == football.ball.vy == 0.0
+    assert football.ball.x - 200.0 == pytest.approx(500.0**2 / (2.0 * 200.0), abs=500.0 * DT)
+
+
+@settings(max_examples=400, deadline=None)
+@given(moments(), st.integers(1, 25))
+def test_the_rules_favour_no_side(football, ticks):
+    """The moment turned by half a circle goes on as the turned moment."""
+    turned = state("classic")
+    turned.mouth, turned.rules, turned.wall_count = football.mouth, football.rules, football.wall_count
+    turned.walls, turned.grid = football.walls, football.grid
+    put_ball(turned, 1600.0 - football.ball.x, 900.0 - football.ball.y, -football.ball.vx, -football.ball.vy)
+    for k in range(4):
+        other, robot, player = k ^ 1, football.robots[k], football.players[k]
+        put_robot(
+            turned, other, 1600.0 - player.last_x, 900.0 - player.last_y, 0.0, 0.0, (robot.heading + pi) % (2.0 * pi)
+        )
+        turned.robots[other].x, turned.robots[other].y = 1600.0 - robot.x, 900.0 - robot.y
+    for both in (football, turned):
+        for k in range(4):
+            both.actions[k].fire = 0
+        note_steps(both)
+        move(both)
+    assert football.goals == turned.goals
+    if not football.ball.out and hypot(football.ball.vx, football.ball.vy) < 5000.0:
+        assert turned.ball.x == pytest.approx(1600.0 - football.ball.x, abs=1e-6)
+        assert turned.ball.y == pytest.approx(900.0 - football.ball.y, abs=1e-6)
+
+
+@pytest.mark.parametrize(("x", "y"), [(22.0, 300.0), (500.0, 22.0), (800.0, 878.0), (1578.0, 700.0)])
+def test_a_ball_squeezed_against_the_rim_moves_to_the_nearest_free_place(x, y):
+    """A robot drives straight at the ball on the rim until it stands where the ball was."""
+    football = state(present=(0,))
+    put_ball(football, x, y)
+    far = 200.0
+    dx = (1.0 if x < 100.0 else -1.0) * (x in (22.0, 1578.0))
+    dy = (1.0 if y < 100.0 else -1.0) * (x not in (22.0, 1578.0))
+    put_robot(football, 0, x + far * dx, y + far * dy)
+    longest = 0.0
+    while far > 0.0:
+        far -= 5.0
+        robot, ball = football.robots[0], football.ball
+        robot.x, robot.y = min(max(x + far * dx, 36.0), 1564.0), min(max(y + far * dy, 36.0), 864.0)
+        at = ball.x, ball.y
+        note_steps(football)
+        move(football)
+        longest = max(longest, hypot(ball.x - at[0], ball.y - at[1]))
+        assert not ball.out
+        assert overlap(football) <= SLOP
+    assert longest < 120.0
+
+
+def test_a_ball_that_has_no_place_is_dropped_anew():
+    """Things that are moved may bury it."""
+    football = state(present=())
+    put_ball(football, 300.0, 450.0)
+    for i in range(8):
+        add_wall(football, WallSpec(100.0, 200.0 + 70.0 * i, 600.0, 200.0 + 70.0 * i, 36.0, -1))
+    note_steps(football)
+    move(football)
+    assert football.ball.out > 0
+    assert (football.ball.x, football.ball.y) in [(spot.x, spot.y) for spot in football.drops[: football.drop_count]]
+    while football.ball.out:
+        judge(football)
+    assert overlap_of_walls(football) <= SLOP
+
+
+def overlap_of_walls(football):
+    from tests.football.pitch import from_segment
+
+    walls = football.walls[: football.wall_count]
+    return max(wall.half + BALL - from_segment(football.ball.x, football.ball.y, wall) for wall in walls)
+
+
+@pytest.mark.long
+def test_both_bodies_move_any_ball_alike():
+    chance, every = Random(3), []
+    while len(every) < 4000:
+        football = state(chance.choice(ARENAS))
+        for k in range(4):
+            x, y = chance.uniform(40.0, 1560.0), chance.uniform(40.0, 860.0)
+            put_robot(
+                football, k, x, y, chance.uniform(-16.0, 16.0), chance.uniform(-16.0, 16.0), chance.uniform(0, 6.2)
+            )
+            football.actions[k].fire = chance.randrange(2)
+        put_ball(football, chance.uniform(22.0, 1578.0), chance.uniform(22.0, 878.0))
+        way, speed = chance.uniform(0.0, 2.0 * pi), 10.0 ** chance.uniform(0.0, 7.0)
+        football.ball.vx, football.ball.vy = speed * cos(way), speed * sin(way)
+        every.append(football)
+
+    def run(matches, ticks):
+        for i in range(len(matches)):
+            for _ in range(ticks):
+                judge(matches[i])
+
+    rows = packed(every)
+    compiled(run)(rows, 20)
+    run(every, 20)
+    assert [digest(row) for row in rows] == [digest(football) for football in every]
