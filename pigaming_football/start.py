@@ -60,7 +60,7 @@ def read(table: TomlTable) -> Layout:
 
 def _drops(table: TomlTable, layout: Layout) -> tuple[tuple[float, float], ...]:
     """The drop points that nothing covers. Raises FieldError."""
-    points = []
+    points: list[tuple[float, float]] = []
     for entry in table.tables("drop"):
         entry.only("at")
         point = entry.point("at")
