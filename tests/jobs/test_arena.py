@@ -43,7 +43,7 @@ def test_nothing_is_replaced_unasked(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert main(["arena", "import", file, "--as", "mine"]) == 0
     assert main(["arena", "import", file, "--as", "mine"]) == 2
     assert main(["arena", "import", file, "--as", "mine", "--replace"]) == 0
-    assert main(["arena", "import", file, "--game", "race", "--as", "other"]) == 2
+    assert main(["arena", "import", file, "--of", "race", "--as", "other"]) == 2
     assert own_arenas("pitanks") == ["mine"]
     assert all(line.startswith("PiGaming: ") for line in capsys.readouterr().err.splitlines())
 

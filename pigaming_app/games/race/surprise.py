@@ -62,9 +62,14 @@ def _corners(random: Random) -> tuple[Corner, ...] | None:
         x, y = WIDTH / 2 + share * reach * cos(angle), HEIGHT / 2 + share * reach * sin(angle)
         points.append((GRID * round(x / GRID), GRID * round(y / GRID)))
     corners = rounded(_both(tuple(points)), width)
+    if not corners:
+        return None
+    corners = tuple(
+        corner._replace(radius=corners[k % half].radius)  # rounding may differ between the halves
+        for k, corner in enumerate(corners)
+    )
     try:
-        if corners:
-            course_of(corners)
+        course_of(corners)
     except FieldError:
         return None
     return corners

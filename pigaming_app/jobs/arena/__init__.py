@@ -26,7 +26,7 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("word", choices=WORDS, nargs="?", default="list", metavar="list | export | import | check")
     parser.add_argument("names", nargs="*", metavar="GAME NAME FILE", help="export: all three, import and check: FILE")
     parser.add_argument("--as", dest="name", metavar="NAME", help="import: name of the arena, else that of the file")
-    parser.add_argument("--game", help="import, check: game of the file, default: the one that can read it")
+    parser.add_argument("--of", dest="game", metavar="GAME", help="game of the file, else the one that can read it")
     parser.add_argument("--replace", action="store_true", help="import: in place of an arena of the same name")
     shared(parser, "--json")
 

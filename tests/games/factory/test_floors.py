@@ -30,7 +30,7 @@ def broken(old, new):
 @pytest.mark.parametrize(
     ("old", "new", "key", "reason"),
     [
-        ("[aisle]", "[[wall]]\nfrom = [9, 9]\n[aisle]", "wall", "unknown key; possible are title, start, aisle"),
+        ("[aisle]", "[[tree]]\nfrom = [9, 9]\n[aisle]", "tree", "unknown key; possible are title, start, aisle"),
         (AISLE, "", "aisle", "a table is missing"),
         ("size = [300, 800]", "size = [300, 900]", "aisle.size", "ends outside the arena"),
         ("size = [300, 800]", "size = [300]", "aisle.size", "a list of 2 numbers"),
