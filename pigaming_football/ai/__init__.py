@@ -8,6 +8,7 @@ from pigaming_app.sim.rng import seeded
 
 from .footballer import think
 from .mind import PERIOD, Mind
+from .thoughts import explain
 
 # Share of full speed, ticks between looks at the ball, standard deviation of the aim (rad), turbo, passes.
 STRENGTHS = (
@@ -30,6 +31,14 @@ def _reset(speed: float, reaction: int, error: float, turbo: int, plays: int) ->
     return fill
 
 
+def _footballer(name: str, strength: int) -> BrainKind:
+    """A footballer of strength 0..4."""
+    return BrainKind(name, Mind, think, _reset(*STRENGTHS[strength]), explain=explain)
+
+
 AI = GameAI(
-    {name: BrainKind(name, Mind, think, _reset(*strength)) for name, strength in zip(LEVELS, STRENGTHS, strict=True)}
+    {
+        **{name: _footballer(name, strength) for strength, name in enumerate(LEVELS)},
+        **{f"hand{i + 1}": _footballer(f"hand{i + 1}", strength) for i, strength in enumerate((0, 2, 4))},
+    }
 )

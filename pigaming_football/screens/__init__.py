@@ -62,4 +62,5 @@ SCREENS = GameScreens(
     confetti=footballs,
     team_colors=True,
     lessons=LESSONS,
+    lesson_pages=("party",),
 )

@@ -21,6 +21,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.plugins.parts import plugins
 from pigaming_app.ui.i18n import texts
 from tests.cases import one_in
 
@@ -122,6 +123,7 @@ def test_no_text_is_written_that_no_brain_says():
 
     package = ASSETS.parent / "pigaming_app"
     files = [file for room in ("ai", "scenes/brain", "scenes/play") for file in (package / room).rglob("*.py")]
+    files += [file for plugin in plugins() for file in plugin.folder.rglob("*.py")]
     sources = "\n".join(file.read_text(encoding="utf-8") for file in files)
     keys = [key.removeprefix("brain.") for key in texts("en") if key.startswith("brain.")]
     assert len(keys) > 40

@@ -1,0 +1,64 @@
+"""What the hand-written footballer thinks, for display."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from pigaming_app.ai.brain.thoughts import GOAL, MATE, OPPONENT, Percept, Thoughts, clamp, towards
+from pigaming_app.sim.world import HEIGHT, WIDTH
+
+from ..observation import OWN, from_left, polar
+from ..rules import side_of
+from ..state import LEFT, MIDDLE
+from .footballer import STUCK_TICKS
+from .mind import CHASER, KEEPER
+
+FAR = 1200.0  # px
+BEHAVIOURS = ("football_chase", "football_keep", "football_support")  # by role
+REASONS = ("football_nearest", "football_goal", "football_open")
+
+
+def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+    """Its role and reason, the ball as it believes it to be, and where it can meet it."""
+    obs = mind.obs
+    if not obs.turn_rate:
+        return Thoughts("starts")
+    behaviour, reason = BEHAVIOURS[mind.role], REASONS[mind.role]
+    if mind.freeing:
+        behaviour, reason = "free", "stuck"
+    elif obs.held == OWN:
+        behaviour, reason = "football_aim", "football_has_it"
+    return Thoughts(
+        behaviour,
+        reason,
+        facts={
+            "role": mind.role,
+            "ball_distance": obs.ball_distance,
+            "charge": obs.charge,
+            "lead": obs.lead,
+            "stuck_ticks": mind.stuck_ticks,
+        },
+        percepts=tuple(_percepts(match, seat, mind)),
+        rose=towards(obs.goal_bearing if obs.held == OWN else polar(obs, mind.meet_x, mind.meet_y)[1]),
+        utilities={
+            "football_chase": clamp(1.0 - obs.ball_distance / FAR) if mind.role != CHASER else 1.0,
+            "football_keep": clamp(1.0 - mind.seen_x / WIDTH) if mind.role != KEEPER else 1.0,
+            "football_aim": 1.0 if obs.held == OWN else 0.0,
+            "free": 1.0 if mind.freeing else clamp(mind.stuck_ticks / STUCK_TICKS),
+        },
+    )
+
+
+def _percepts(match: Any, seat: int, mind: Any) -> Iterator[Percept]:
+    """The ball, where it will be met, the goal, and the other robots."""
+    sign = 1.0 if side_of(match.robots[seat]) == LEFT else -1.0
+
+    def at(x: float, y: float) -> tuple[float, float]:
+        return from_left(x, WIDTH, sign), from_left(y, HEIGHT, sign)
+
+    for other in mind.obs.others:
+        if other.present:
+            yield Percept(MATE if other.mate else OPPONENT, *at(other.x, other.y))
+    if mind.obs.held == OWN:
+        yield Percept(GOAL, *at(WIDTH, MIDDLE))
+    else:
+        yield Percept(GOAL, *at(mind.meet_x, mind.meet_y))

@@ -1,0 +1,87 @@
+"""The footballer: it scores, keeps, plays alike on either side, and each level beats the one below."""
+
+from itertools import pairwise
+
+import pytest
+
+from pigaming_app.ai.experiments.league import duel
+from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import BRAINS, make_brain
+from pigaming_app.sim.kernel import can_compile
+from tests.football.pitch import goals_of, match, put_ball, put_robot, setup
+
+AS_PLAYED = 2.0  # minutes
+
+
+def with_brains(football, **brains):
+    for seat, name in brains.items():
+        football.sit(int(seat[1:]), make_brain("football", name, 5))
+    return football
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_alone_every_level_finds_the_goal(level):
+    football = with_brains(match(present=(0,)), p0=level)
+    for _ in range(60 * 50):
+        football.tick()
+    assert goals_of(football.state, 0) > 0
+    assert football.state.players[0].own_goals <= 1
+
+
+def test_a_keeper_stops_what_an_empty_goal_lets_in():
+    conceded = {}
+    for keeper in (False, True):
+        conceded[keeper] = 0
+        for y in (380.0, 410.0, 450.0, 490.0, 520.0):
+            football = with_brains(match(present=(0, 2) if keeper else ()), **({"p0": "level5"} if keeper else {}))
+            state = football.state
+            state.ball.out = 0
+            if keeper:
+                put_robot(state, 0, 90.0, 450.0, heading=1.57)
+                put_robot(state, 2, 1200.0, 800.0)
+            put_ball(state, 900.0, 450.0, -700.0, 700.0 * (y - 450.0) / 900.0)
+            for _ in range(120):
+                football.tick()
+            conceded[keeper] += goals_of(state, 1) + (state.goals if not keeper else 0)
+    assert conceded[False] == 5
+    assert conceded[True] <= 1
+
+
+def test_nobody_stands_still_for_long():
+    """In a minute of a match between two teams somebody always drives, and the ball comes nearly everywhere."""
+    football = with_brains(match(minutes=1.0), p0="level5", p1="level5", p2="level5", p3="level5")
+    rest, longest, parts = 0, 0, set()
+    while not football.over:
+        football.tick()
+        state = football.state
+        rest = 0 if any(abs(robot.linear) > 20.0 for robot in state.robots) else rest + 1
+        longest = max(longest, rest)
+        parts.add((int(state.ball.x / 400.0), int(state.ball.y / 450.0)))
+    assert longest < 100
+    assert len(parts) >= 6
+
+
+needs_numba = pytest.mark.skipif(not can_compile(), reason="needs the extra train")
+
+
+@needs_numba
+@pytest.mark.long
+@pytest.mark.parametrize(("lower", "upper"), list(pairwise(LEVELS)))
+def test_each_level_beats_the_one_below(lower, upper):
+    result = duel("football", upper, lower, 100, 1, AS_PLAYED)
+    assert result.wins / (result.wins + result.losses) >= 0.65
+
+
+@needs_numba
+@pytest.mark.long
+@pytest.mark.parametrize("level", ["level1", "level3", "level5"])
+@pytest.mark.parametrize("arena", ["classic", "bumpers", "small_goals"])
+def test_sides_are_even_and_goals_neither_rare_nor_cheap(arena, level):
+    setups = [setup(arena, minutes=AS_PLAYED, seed=seed) for seed in range(100)]
+    batch = Batch(setups, [BRAINS["football"][level]] * 4, True)
+    batch.play(round(AS_PLAYED * 3000))
+    goals = [[sum(int(row["robots"][k]["score"]) for k in side) for side in ((0, 2), (1, 3))] for row in batch.matches]
+    wins = [sum(one > other for one, other in goals), sum(one < other for one, other in goals)]
+    assert 2.0 <= sum(map(sum, goals)) / len(goals) <= 8.0
+    assert abs(wins[0] - wins[1]) <= 3.0 * sum(wins) ** 0.5, "three standard deviations of a fair coin"

@@ -1,0 +1,108 @@
+"""The view of a match: sounds and light of what happens to the ball; texts in all languages."""
+
+import tomllib
+from pathlib import Path
+
+import pygame
+import pytest
+
+import pigaming_football
+from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+from pigaming_app.scenes.views.registry import SCREENS
+from pigaming_app.ui.i18n import LANGUAGES, Words
+from tests.football.pitch import match, put_ball, put_robot
+
+TEXTS = Path(pigaming_football.__file__).parent / "text"
+
+
+@pytest.fixture
+def screen():
+    pygame.display.init()
+    pygame.font.init()
+    return pygame.display.set_mode((1920, 1080))
+
+
+def view_of(football, language="en"):
+    return SCREENS["football"].view(
+        football.arena, football.state, ["human", "level1", "level1", "level1"], AllEffects(), Words(language)
+    )
+
+
+def cues(football, view, ticks, fire=()):
+    heard = []
+    for _ in range(ticks):
+        for k in range(4):
+            football.state.actions[k].fire = int(k in fire)
+        football.game.judge(football.state)
+        heard += [name for name, _, _ in view.watch(football.state)]
+    return heard
+
+
+def test_a_goal_is_cheered_in_the_colour_of_who_scored(screen):
+    football = match()
+    view = view_of(football)
+    football.state.ball.out = 0
+    view.watch(football.state)
+    put_ball(football.state, 1540.0, 450.0, 900.0)
+    football.state.ball.touched = 1
+    assert "delivered_ice" in cues(football, view, 5)
+    assert view.particles.particles
+    view.draw(screen, football.state, 1.0, 0.02)
+    before = pygame.image.tobytes(screen, "RGB")
+    assert view.scorer == 0
+    for _ in range(120):
+        view.draw(screen, football.state, 1.0, 0.02)
+    assert pygame.image.tobytes(screen, "RGB") != before
+
+
+def test_catch_shot_and_bounce_are_heard(screen):
+    football = match(present=(0,))
+    view, state = view_of(football), football.state
+    state.ball.out = 0
+    put_robot(state, 0, 800.0, 200.0, heading=4.712388980384690)
+    put_ball(state, 800.0, 135.0)
+    view.watch(state)
+    assert "lift" in cues(football, view, 30, fire=(0,))
+    heard = cues(football, view, 20)
+    assert "fire" in heard
+    assert "set_down" in heard
+
+
+def test_the_rolling_ball_turns_and_a_dropped_one_does_not(screen):
+    football = match(present=())
+    view, state = view_of(football), football.state
+    state.ball.out = 0
+    put_ball(state, 300.0, 300.0, 400.0)
+    cues(football, view, 20)
+    assert view.rolled > 3.0
+    rolled = view.rolled
+    put_ball(state, 1200.0, 600.0)
+    cues(football, view, 2)
+    assert view.rolled == rolled
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_overtime_and_goals_have_words_that_fit(screen, language):
+    football = match(variant="cup")
+    view = view_of(football, language)
+    football.state.golden_goal = 1
+    view.draw(screen, football.state, 1.0, 0.02)
+    assert len(view.hud.lines) == 2
+    assert view.hud.size >= 24
+    assert view.announcement(0).image.get_width() < 1200
+
+
+def test_all_languages_have_the_same_texts():
+    tables = [tomllib.loads((TEXTS / f"{language}.toml").read_text(encoding="utf-8")) for language in LANGUAGES]
+    keys = [{(table, key) for table, texts in texts_of.items() for key in texts} for texts_of in tables]
+    assert all(each == keys[0] for each in keys)
+
+
+@pytest.mark.parametrize("lesson", list(SCREENS["football"].lessons))
+def test_the_lessons_move_within_their_boxes(screen, lesson):
+    box, pictures = pygame.Rect(400, 300, 420, 480), set()
+    for step in range(24):
+        screen.fill("black")
+        SCREENS["football"].lessons[lesson](screen, box.centerx, box.centery, 0.2 * step)
+        pictures.add(pygame.image.tobytes(screen.subsurface(box), "RGB"))
+    assert len(pictures) >= 10
