@@ -82,17 +82,22 @@ def time_to_meet(mind: Any, x: float, y: float, turn: float) -> float:
     The first of MOMENTS at which it is there no later than the ball; the ball is reflected by the rim.
     """
     speed = sqrt(mind.seen_vx * mind.seen_vx + mind.seen_vy * mind.seen_vy)
-    after = 0.0
+    after, turning, rest = 0.0, 0.5 * abs(turn) / TURN_RATE, speed / FRICTION
     for i in range(MOMENTS + 1):
         t = i * MOMENT
-        rolled = min(t, speed / FRICTION)
+        rolled = t if t < rest else rest
         share = rolled - 0.5 * FRICTION * rolled * rolled / speed if speed > 0.0 else 0.0
         ball_x, ball_y = mind.seen_x + mind.seen_vx * share, mind.seen_y + mind.seen_vy * share
-        mind.meet_x, mind.meet_y = folded(ball_x, WIDTH), folded(ball_y, HEIGHT)
-        dx, dy = mind.meet_x - x, mind.meet_y - y
-        after = max(0.0, sqrt(dx * dx + dy * dy) - TOUCH) / FULL_SPEED + 0.5 * abs(turn) / TURN_RATE
-        if after <= t or rolled < t:
-            return max(after, t)
+        if not BALL <= ball_x <= WIDTH - BALL:
+            ball_x = folded(ball_x, WIDTH)
+        if not BALL <= ball_y <= HEIGHT - BALL:
+            ball_y = folded(ball_y, HEIGHT)
+        dx, dy = ball_x - x, ball_y - y
+        gap = sqrt(dx * dx + dy * dy) - TOUCH
+        after = (gap if gap > 0.0 else 0.0) / FULL_SPEED + turning
+        if after <= t or rolled < t or i == MOMENTS:
+            mind.meet_x, mind.meet_y = ball_x, ball_y
+            return max(after, t) if after <= t or rolled < t else after
     return after
 
 
