@@ -102,7 +102,8 @@ def refused(ended):
 
 def test_the_wheel_has_the_package_and_the_assets_and_no_tests(wheel):
     inside = {name for name in names(wheel) if ".dist-info/" not in name}
-    package = {name for name in names_below("pigaming_app") if "__pycache__" not in name}
+    packages = {*names_below("pigaming_app"), *names_below("pigaming_football")}
+    package = {name for name in packages if "__pycache__" not in name}
     assets = {name for name in names_below("assets") if "__pycache__" not in name}
     shipped = {name for name in assets if not name.startswith("assets/pictures/")}  # those are for README
     assert inside == package | {f"pigaming_app/{name}" for name in shipped}
@@ -113,7 +114,7 @@ def test_the_wheel_has_the_package_and_the_assets_and_no_tests(wheel):
 def test_the_sdist_is_complete(sdist):
     inside = names(sdist)
     assert inside >= {"main.py", "pyproject.toml", "LICENSE", "README.md", "CHANGELOG.md", ".ci/run"}
-    for kind in ("pigaming_app", "assets", "tests"):
+    for kind in ("pigaming_app", "pigaming_football", "assets", "tests"):
         assert inside >= {name for name in names_below(kind) if "__pycache__" not in name}
     assert not [name for name in inside if name.startswith((".venv", ".git/", ".mypy_cache", "build/"))]
 

@@ -15,13 +15,13 @@ EXCLUDED = (  # large libraries that no job of a bundle needs, but an installed 
     "gymnasium", "hatchling", "hypothesis", "matplotlib", "mypy", "onnxruntime", "pandas", "pettingzoo", "pygments",
     "pymunk", "pytest", "ray", "scipy", "setuptools", "soundfile", "tkinter", "torch", "yaml",
 )  # fmt: skip
-PACKAGE = ROOT / "pigaming_app"
+PACKAGES = sorted(path.parent for path in ROOT.glob("pigaming_*/__init__.py"))  # this one, and games beside it
 ASSET_FOLDERS = ("arenas", "brains", "fonts", "phones", "sounds", "text")
 SHARED = "micropython"  # folders with programs of another interpreter
 
 
 def modules() -> list[str]:
-    """All modules of this package: jobs are imported by name."""
+    """All modules of these packages: jobs and games are imported by name."""
     found = (path.relative_to(ROOT).with_suffix("") for path in _sources())
     return sorted(".".join(path.parts).removesuffix(".__init__") for path in found)
 
@@ -41,13 +41,14 @@ def bytecode(folder: Path) -> list[tuple[str, str]]:
 
 
 def _sources() -> list[Path]:
-    return sorted(path for path in PACKAGE.rglob("*.py") if SHARED not in path.parts)
+    return sorted(path for package in PACKAGES for path in package.rglob("*.py") if SHARED not in path.parts)
 
 
 def files() -> list[tuple[str, str]]:
     """Files to copy, each with its folder in the bundle; modules are not among them."""
     chosen = [path for folder in ASSET_FOLDERS for path in (ASSETS / folder).rglob("*") if path.suffix != ".py"]
-    chosen += [path for path in PACKAGE.rglob("*") if path.suffix != ".py" or SHARED in path.parts]
+    inside = (path for package in PACKAGES for path in package.rglob("*"))
+    chosen += [path for path in inside if path.suffix != ".py" or SHARED in path.parts]
     chosen += [ASSETS / "rude.toml", ROOT / "pyproject.toml", ROOT / "LICENSE"]
     kept = (path for path in sorted(chosen) if path.is_file() and "__pycache__" not in path.parts)
     return [(str(path), str(path.parent.relative_to(ROOT))) for path in kept]

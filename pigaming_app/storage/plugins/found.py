@@ -23,6 +23,7 @@ from pigaming_app.storage.plugins import user
 from pigaming_app.storage.settings import NoHome, folders
 
 GROUP = "pigaming.games"  # of entry points, named after the games
+DISTRIBUTION = "pigaming-app"  # of this program
 PREFIX = "pigaming_"  # of packages beside this one, in a clone
 NAME = re.compile(r"[a-z][a-z0-9_]{0,23}")  # of a game
 
@@ -83,5 +84,5 @@ def _installed() -> Iterator[Plugin]:
         except (ImportError, ValueError):
             continue
         if spec and spec.origin and NAME.fullmatch(entry.name):
-            folder = Path(spec.origin).parent
-            yield Plugin(entry.name, entry.module, folder, own=folder.parent == ROOT)
+            own = entry.dist is not None and entry.dist.name == DISTRIBUTION
+            yield Plugin(entry.name, entry.module, Path(spec.origin).parent, own)
