@@ -7,6 +7,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.ai.networks.files import encode
+from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.cli import main
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.proof import testbed, trials
@@ -22,7 +23,7 @@ def ground():
     return testbed.Testbed(5, 30.0).ground
 
 
-@pytest.mark.parametrize("game", one_in(3, games()))
+@pytest.mark.parametrize("game", one_in(3, ENCODINGS))
 def test_a_match_of_networks_on_the_mat_plays_to_its_end(game, ground, tmp_path):
     arena, path = jobs()[list(games()).index(game)].arena, tmp_path / "mine.npz"
     path.write_bytes(encode(random_network(1, game)))

@@ -132,7 +132,7 @@ def jobs() -> list[Job]:
         places = arenas(game)
         round_ = i // len(games())
         variant = "party" if game == "pitanks" and round_ % 2 else None
-        brain = BEST if i == MATCHES - 1 else None
+        brain = BEST if game == "pitanks" and i + len(games()) >= MATCHES else None
         result.append(Job(game, places[round_ % len(places)], RATES[i % 4 == 3], i + 1, brain=brain, variant=variant))
     return result
 

@@ -61,13 +61,24 @@ class TileStrip:
         self.offset = float(self.first) if abs(left) < 0.002 else self.offset + left * min(1.0, seconds / SLIDE)
 
     def draw(self, screen: pygame.Surface, lit: Callable[[str], LitImage]) -> None:
-        """Draw the tiles; `lit(name)` is the picture of one."""
+        """Draw the tiles; `lit(name)` is the picture of one. At rest, those that peek in are empty: no word is cut."""
         pitch = tile_rect(1).x - tile_rect(0).x
         for i, name in enumerate(self.names):
             box = tile_rect(i, self.y).move(-round(self.offset * pitch), 0)
             if box.colliderect(screen.get_rect()):
                 black_out(screen, box)
-                lit(name).draw(screen, *box.topleft)
+                whole = self.offset != self.first or i in range(self.first, self.first + IN_VIEW)
+                (lit(name) if whole else empty_tile()).draw(screen, *box.topleft)
+
+
+@cached
+def empty_tile() -> LitImage:
+    """The frame of a tile that peeks in; top left at (0, 0)."""
+    w = span(0, 4)[1]
+    layer = Layer(0, 0, w, TILE_H)
+    panel(layer.glow, 0, 0, w, TILE_H, STEEL)
+    layer.glow.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
+    return layer.render()
 
 
 @cached
