@@ -52,8 +52,9 @@ def test_a_lap_is_possible(seed: int) -> None:
 
 
 @pytest.mark.long
-def test_a_thousand_seeds_can_be_played() -> None:
-    sizes = {check(seed) for seed in range(1000)}
+@pytest.mark.parametrize("first", range(0, 1000, 200))
+def test_a_thousand_seeds_can_be_played(first: int) -> None:
+    sizes = {check(seed) for seed in range(first, first + 200)}
     assert sizes == {2 * half for half in range(HALVES[0], HALVES[1] + 1)}
-    for seed in range(0, 1000, 25):
+    for seed in range(first, first + 200, 25):
         lap(seed)
