@@ -1,4 +1,4 @@
-"""Sampling of long parametrisations: a part runs in `test`, the rest in `test --long`."""
+"""Sampling of long parametrisations: a part runs in `test`, the rest in `test --long`, a part of that in `.ci/run`."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -13,3 +13,12 @@ def one_in(count: int, cases: Iterable[Any]) -> list[Any]:
     """
     values = [case if isinstance(case, tuple) else (case,) for case in cases]
     return [pytest.param(*value, marks=[pytest.mark.long] if i % count else []) for i, value in enumerate(values)]
+
+
+def repeated(cases: Iterable[Any]) -> list[Any]:
+    """Values for `parametrize` of a long proof: the first unmarked; the others `again`, which `.ci/run` leaves out.
+
+    A tuple holds the values of several arguments.
+    """
+    values = [case if isinstance(case, tuple) else (case,) for case in cases]
+    return [pytest.param(*value, marks=[pytest.mark.again] if i else []) for i, value in enumerate(values)]

@@ -9,6 +9,7 @@ from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.sim.kernel import can_compile
+from tests.cases import repeated
 from tests.football.pitch import goals_of, match, put_ball, put_robot, setup
 
 AS_PLAYED = 2.0  # minutes
@@ -67,7 +68,7 @@ needs_numba = pytest.mark.skipif(not can_compile(), reason="needs the extra trai
 
 @needs_numba
 @pytest.mark.long
-@pytest.mark.parametrize(("lower", "upper"), list(pairwise(LEVELS)))
+@pytest.mark.parametrize(("lower", "upper"), repeated(pairwise(LEVELS)))
 def test_each_level_beats_the_one_below(lower, upper):
     result = duel("football", upper, lower, 100, 1, AS_PLAYED)
     assert result.wins / (result.wins + result.losses) >= 0.65
@@ -76,7 +77,7 @@ def test_each_level_beats_the_one_below(lower, upper):
 @needs_numba
 @pytest.mark.long
 @pytest.mark.parametrize("level", ["level1", "level3", "level5"])
-@pytest.mark.parametrize("arena", ["classic", "bumpers", "small_goals"])
+@pytest.mark.parametrize("arena", repeated(["classic", "bumpers", "small_goals"]))
 def test_sides_are_even_and_goals_neither_rare_nor_cheap(arena, level):
     setups = [setup(arena, minutes=AS_PLAYED, seed=seed) for seed in range(100)]
     batch = Batch(setups, [BRAINS["football"][level]] * 4, True)

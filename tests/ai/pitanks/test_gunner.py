@@ -15,7 +15,7 @@ from pigaming_app.games.pitanks.observation import Observation, observe
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from tests.ai.pitanks.stuck import stuck
-from tests.cases import one_in
+from tests.cases import one_in, repeated
 
 HANDS = ("hand1", "hand2", "hand3")
 OFF = ("off", "off")
@@ -189,7 +189,7 @@ def test_strengths_are_ordered():
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="hundreds of matches need numba")
 @pytest.mark.parametrize("variant", ["pickups", "party"])
-@pytest.mark.parametrize("arena", arenas("pitanks"))
+@pytest.mark.parametrize("arena", repeated(arenas("pitanks")))
 def test_strengths_are_far_apart_and_mirror_matches_are_decided(arena, variant):
     """Measured shares are in docs/opponents.md; the bounds leave room for 200 matches."""
     for better, worse, least in (("hand3", "hand2", 0.58), ("hand2", "hand1", 0.65), ("hand1", "random", 0.85)):

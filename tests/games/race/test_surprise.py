@@ -11,6 +11,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.race.surprise import HALVES, surprise
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from tests.cases import repeated
 
 
 def check(seed: int) -> int:
@@ -52,7 +53,7 @@ def test_a_lap_is_possible(seed: int) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("first", range(0, 1000, 200))
+@pytest.mark.parametrize("first", repeated(range(0, 1000, 200)))
 def test_a_thousand_seeds_can_be_played(first: int) -> None:
     sizes = {check(seed) for seed in range(first, first + 200)}
     assert sizes == {2 * half for half in range(HALVES[0], HALVES[1] + 1)}

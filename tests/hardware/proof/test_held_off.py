@@ -14,6 +14,7 @@ from pigaming_app.hardware.emulator.things.random_scene import some_things
 from pigaming_app.hardware.proof.trials import play
 from pigaming_app.sim.things.spec import Use, written
 from pigaming_app.sim.world import ROBOTS
+from tests.cases import repeated
 from tests.hardware.proof.rammers import MeasuredBed, Rammer, specs_of
 
 OPEN_FLOOR = '[title]\nen = "Open floor"\npt = "Sala"\n' + "".join(
@@ -22,7 +23,7 @@ OPEN_FLOOR = '[title]\nen = "Open floor"\npt = "Sala"\n' + "".join(
 
 
 @pytest.mark.long(first=True)
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", repeated([1, 2, 3]))
 def test_robots_that_are_driven_into_things_at_full_stick_never_touch_them(seed):
     bed = MeasuredBed(seed, 30.0)
     bed.furnish(some_things(seed, 8, bed.arena.optics, STARTS))

@@ -9,6 +9,7 @@ from pigaming_app.hardware.proof.things import ThingsBed, distances, trial
 from pigaming_app.hardware.proof.things_watch import BETWEEN, WatchedMatch
 from pigaming_app.hardware.scan.things import ThingKind
 from pigaming_app.jobs.bench.robots import TARGETS
+from tests.cases import repeated
 
 
 def test_outlines_apart_by_a_millimetre_on_all_sides_differ_by_one():
@@ -19,7 +20,7 @@ def test_outlines_apart_by_a_millimetre_on_all_sides_differ_by_one():
 
 
 @pytest.mark.long(first=True)
-@pytest.mark.parametrize("first", range(1, 51, 10))
+@pytest.mark.parametrize("first", repeated(range(1, 51, 10)))
 def test_in_fifty_scenes_every_thing_is_found_and_no_other(first):
     run = trial(range(first, first + 10))
     assert (run.missed, run.false) == (0, 0)

@@ -24,6 +24,7 @@ from pigaming_app.sim.things.spec import Use
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
+from tests.cases import repeated
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import FPS, match_for
 from tests.scenes.robots.test_recording import MatSession
@@ -133,7 +134,7 @@ def test_results_among_things_are_no_records_and_a_rematch_keeps_the_things(simu
 
 
 @pytest.mark.long(first=True)
-@pytest.mark.parametrize("game", list(BOXES))
+@pytest.mark.parametrize("game", repeated(BOXES))
 def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_pushed(
     arcade: Arcade, cleared: EmulatedSession, game: str
 ) -> None:

@@ -28,7 +28,7 @@ from pigaming_app.scenes.title.clip import Clip
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
-from tests.cases import one_in
+from tests.cases import one_in, repeated
 from tests.scenes.arcade import KEYS, Arcade, setup
 
 LONGEST = 12.0  # s; the longest animation, machine A, then B, repeats after 9.1 s
@@ -50,7 +50,7 @@ def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(controls: Controls
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", repeated(LANGUAGES))
 def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
     home: Path, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:
