@@ -134,8 +134,10 @@ def test_the_wheel_declares_version_extras_and_program(environment):
     extras = {"train", "bench", "hardware", "gym", "onnx", "ray", "plots", "sounds", "pictures", "test"}
     extras |= {"bundle", "events", "phones"}
     assert set(installed.metadata.get_all("Provides-Extra")) == extras
-    (program,) = installed.entry_points
-    assert (program.name, program.value) == ("pigaming", "pigaming_app.cli:main")
+    assert {(point.group, point.name, point.value) for point in installed.entry_points} == {
+        ("console_scripts", "pigaming", "pigaming_app.cli:main"),
+        ("pigaming.games", "football", "pigaming_football"),
+    }
 
 
 def test_a_match_is_played_from_elsewhere(run):

@@ -16,7 +16,7 @@ EXCLUDED = (  # large libraries that no job of a bundle needs, but an installed 
     "pymunk", "pytest", "ray", "scipy", "setuptools", "soundfile", "tkinter", "torch", "yaml",
 )  # fmt: skip
 PACKAGES = sorted(path.parent for path in ROOT.glob("pigaming_*/__init__.py"))  # this one, and games beside it
-ASSET_FOLDERS = ("arenas", "brains", "fonts", "phones", "sounds", "text")
+ASSET_FOLDERS = ("arenas", "brains", "fonts", "new_game", "phones", "sounds", "text")
 SHARED = "micropython"  # folders with programs of another interpreter
 
 
@@ -46,7 +46,7 @@ def _sources() -> list[Path]:
 
 def files() -> list[tuple[str, str]]:
     """Files to copy, each with its folder in the bundle; modules are not among them."""
-    chosen = [path for folder in ASSET_FOLDERS for path in (ASSETS / folder).rglob("*") if path.suffix != ".py"]
+    chosen = [path for folder in ASSET_FOLDERS for path in (ASSETS / folder).rglob("*") if path.name != "render.py"]
     inside = (path for package in PACKAGES for path in package.rglob("*"))
     chosen += [path for path in inside if path.suffix != ".py" or SHARED in path.parts]
     chosen += [ASSETS / "rude.toml", ROOT / "pyproject.toml", ROOT / "LICENSE"]

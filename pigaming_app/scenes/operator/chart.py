@@ -4,14 +4,15 @@ from collections.abc import Mapping
 from itertools import cycle
 
 from pigaming_app.events.day_report import DayReport
-from pigaming_app.ui.draw import BODY, FOCUS, HAIR, ICE, LABEL, MIST, STEEL, Color, cut_box, dim, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, HAIR, ICE, LABEL, MIST, ORANGE, STEEL, Color, cut_box, dim, text_width
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import SMALLEST
 
 X, Y, W, H = 170, 270, 1010, 500  # px: the plot without its labels
 FEWEST_HOURS = 8
-COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176))
+COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176), ORANGE)
 LEGEND_Y = 868
 Bars = tuple[tuple[int, tuple[int, ...]], ...]  # hour, and its matches by game
 
@@ -67,10 +68,12 @@ def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
         if len(bars) <= 12 or i % 2 == 0:
             layer.canvas.body(str(hour), x + pitch / 2, Y + H + 36, MIST, "c", 36)
         yield
-    x = X
+    x, size = X, BODY
+    while size > SMALLEST and sum(48 + text_width(name, size, "body") + LABEL for name in names) - LABEL > W:
+        size -= 1
     for game, name in enumerate(names):
         layer.glow.fill(cut_box(x, LEGEND_Y - 16, 32, 32, 6), COLORS[game % len(COLORS)])
-        layer.canvas.body(name, x + 48, LEGEND_Y, ICE, "l", BODY)
-        x += 48 + round(text_width(name, BODY, "body")) + LABEL
+        layer.canvas.body(name, x + 48, LEGEND_Y, ICE, "l", size)
+        x += 48 + round(text_width(name, size, "body")) + LABEL
     yield
     return (yield from layer.render_steps())

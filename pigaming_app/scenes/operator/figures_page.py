@@ -81,7 +81,7 @@ class FiguresPage:
         draw_arrows(screen, self.arrows)
         black_out(screen, PANEL)
         frame(*PANEL.size).draw(screen, *PANEL.topleft)
-        chart(bars_of(report, games()), tuple(words(f"games.{game}") for game in games())).draw(screen)
+        chart(bars_of(report, games()), tuple(words(f"events.short_{game}") for game in games())).draw(screen)
         if not report.matches:
             text(words("operator.no_matches"), LABEL, MIST, "head", "c", 900).draw(screen, 675, 520)
         for i, (name, value, color) in enumerate(lines(words, report, self.trouble)):
