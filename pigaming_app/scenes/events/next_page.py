@@ -51,16 +51,16 @@ log = logging.getLogger("pigaming")
 
 
 class NextMatch:
-    """The page of the first open match. `said`: key of a message; `show`: matches of AIs begin by themselves."""
+    """The page of the first open match. `notice`: key of a message; `show`: matches of AIs begin by themselves."""
 
-    def __init__(self, context: Context, running: RunningEvent, said: str = "", show: bool = False) -> None:
+    def __init__(self, context: Context, running: RunningEvent, notice: str = "", show: bool = False) -> None:
         self.context, self.running, self.show = context, running, show
         self.seats, self._seated = Seats(context, running), self.fixture
         self.quick: QuickMatches | None = None  # matches of AIs in the background
         self.access = Access(context, lambda: [self.seats.claims.get(seat) for seat in range(ROBOTS)])  # of phones
         self.clock, self.ready = 0.0, 0.0
         self.going = False  # a match is wanted, but not loaded yet
-        self.message, self.message_left = said, MESSAGE_SECONDS if said else 0.0
+        self.message, self.message_left = notice, MESSAGE_SECONDS if notice else 0.0
         self.queue = PrewarmQueue(self._jobs())
 
     # ---- lifecycle
@@ -161,9 +161,9 @@ class NextMatch:
         text(line, BODY, MIST, "body", "r").draw(screen, RIGHT, view.THEN_Y)
         if then:
             room = RIGHT - LEFT - 48 - text_width(line, BODY, "body")
-            said = view.following(lambda names: words("events.then", names=names), then, room)
-            said, size = fit_text(said, LABEL, room)
-            text(said, size, MIST, "head", "l").draw(screen, LEFT, view.THEN_Y)
+            notice = view.following(lambda names: words("events.then", names=names), then, room)
+            notice, size = fit_text(notice, LABEL, room)
+            text(notice, size, MIST, "head", "l").draw(screen, LEFT, view.THEN_Y)
         self.prompts.draw(screen)
 
     @property
@@ -341,8 +341,8 @@ class NextMatch:
             call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, view.MESSAGE_Y)
         elif self.seats.waiting:
             seat = self.seats.waiting[0]
-            said = words("events.call", name=fixture.entrants[seat], button="{button}")
-            call_to_action(said, self.seats.label(seat), LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
+            call = words("events.call", name=fixture.entrants[seat], button="{button}")
+            call_to_action(call, self.seats.label(seat), LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
 
     def _jobs(self) -> Iterator[Callable[[], object]]:
         """What the page draws, part by part."""
