@@ -13,11 +13,13 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.high_score_tables import format_score
 from pigaming_app.scenes.scoreboard import text
 from pigaming_app.scenes.scoreboard.event_now import event_now, next_line
+from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
 from pigaming_app.ui.i18n import Words
 
 ROWS = 4
+COLUMNS = 4  # games at most, those with results first
 TOP, H, GAP, LEFT, W = 420, 600, 36, 60, 1800
 FOOT: Box = (LEFT, 930, W, 110)
 Best = tuple[tuple[str, str], ...]  # initials and result
@@ -44,7 +46,7 @@ class StandbyPage:
         if following:
             parts.append(Part(FOOT, following, partial(_foot, following)))
         rows, h = (ROWS - 1, H - FOOT[3]) if following else (ROWS, H)
-        names = list(games())
+        names = sorted(shown_games(), key=lambda game: not best_today(self.context.scores, game, words)[1])[:COLUMNS]
         w = (W - GAP * (len(names) - 1)) // len(names)
         for i, game in enumerate(names):
             content = (words(f"games.{game}"), *best_today(self.context.scores, game, words))
