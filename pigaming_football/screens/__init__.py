@@ -62,5 +62,4 @@ SCREENS = GameScreens(
     confetti=footballs,
     team_colors=True,
     lessons=LESSONS,
-    lesson_pages=("party",),
 )
