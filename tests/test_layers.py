@@ -51,7 +51,7 @@ PLUGINS = [PACKAGE.parent / "pigaming_football", PACKAGE.parent / "assets" / "ne
 RULES_FACE = ("sim", "games.game", "games.simple", "games.starts")
 _BRAINS = (*RULES_FACE, "ai.brain", "ai.game_ai")
 FACE = {  # parts of a plug-in and the modules of this package that they may import; all others are its rules
-    "ai": _BRAINS,
+    "ai": (*_BRAINS, "ai.networks"),
     "network": (*_BRAINS, "ai.networks"),
     "training": (*_BRAINS, "ai.networks", "ai.ppo", "gym.rewards"),
     "screens": (*RULES_FACE, "scenes.views", "ui"),

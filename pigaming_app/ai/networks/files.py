@@ -9,16 +9,19 @@ from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from itertools import pairwise
 from math import isfinite
+from pathlib import Path
 from typing import Any
 
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, unpack, verify
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, Handicap, Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.networks.thoughts import make_explain
 from pigaming_app.games.engine_hash import engine_hash
 
+BRAINS = ASSETS / "brains"
 FORMAT = "pigaming-network-1"
 LICENCE = "MIT"
 MAX_BYTES = 100_000  # size limit of a file
@@ -111,9 +114,10 @@ def brain_of(trained: TrainedNetwork) -> BrainKind:
 def explained_brain(
     name: str, game: str, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
 ) -> BrainKind:
-    """A brain by a network of a game, with its explanation."""
+    """A brain by a network of a game, with its explanation if the game has a `Subject`."""
     encoding = ENCODINGS[game]
-    return replace(network_brain(name, encoding, weights, handicap), explain=make_explain(encoding))
+    brain = network_brain(name, encoding, weights, handicap)
+    return replace(brain, explain=make_explain(encoding)) if game in SUBJECTS else brain
 
 
 def policy_of(trained: TrainedNetwork) -> Policy:
@@ -124,18 +128,20 @@ def policy_of(trained: TrainedNetwork) -> Policy:
 
 
 @cache
-def shipped(name: str) -> TrainedNetwork:
-    """A network that ships with the arcade, cached. Raises OSError, NetworkError."""
-    path = ASSETS / "brains" / f"{name}.npz"
+def shipped(name: str, folder: Path = BRAINS) -> TrainedNetwork:
+    """A network that ships with the arcade, or with a plug-in in its folder, cached. Raises OSError, NetworkError."""
+    path = folder / f"{name}.npz"
     return decode(path.read_bytes(), path.name)
 
 
-def shipped_brain(name: str, game: str, file: str, handicap: Handicap = NO_HANDICAP) -> BrainKind:
-    """A brain `name` by a network that ships with the arcade as `file`.npz, which is read on first use."""
+def shipped_brain(
+    name: str, game: str, file: str, handicap: Handicap = NO_HANDICAP, folder: Path = BRAINS
+) -> BrainKind:
+    """A brain `name` by a network that ships as `file`.npz, which is read on first use."""
 
     @cache
     def policy() -> Policy:
-        return policy_of(shipped(file))
+        return policy_of(shipped(file, folder))
 
     return explained_brain(name, game, lambda fast: policy()(fast), handicap)
 
