@@ -11,7 +11,7 @@ from typing import NoReturn
 from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.jobs import files
 from pigaming_app.jobs.terminal import console
-from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin
 
 PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
 JOBS = {  # modules of `jobs`
@@ -76,6 +76,10 @@ def _refused_in_one_line(words: list[str]) -> int:
         line = str(refusal)
     except OSError as error:  # NotSaved, or a full standard output
         line = console.sentence(error)
+    except Exception as error:
+        if not is_of_plugin(error):
+            raise
+        return 1
     console.print_error(line)
     if name in LOGGED:
         files.log(line)

@@ -9,13 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.jobs.new_game import write
 from pigaming_app.storage.plugins.consent import switch
 from pigaming_app.storage.plugins.found import user_folder
+from tests.plugins.packages import FILES, PAGE, ROOT, write_tag
 
-ROOT = Path(__file__).resolve().parent.parent
-PAGE = (ROOT / "docs" / "add-a-game.md").read_text(encoding="utf-8")
-FILES = dict(re.findall(r"^`(\w+\.py)`:.*?^```python\n(.*?)^```", PAGE, re.M | re.S))
 COMMANDS = re.findall(r"^    python3 main\.py (.*)$", PAGE, re.M)
 LEVEL = re.findall(r"^```python\n(from pathlib.*?)^```", PAGE, re.M | re.S)
 SHORTER = {
@@ -29,12 +26,8 @@ SHORTER = {
 @pytest.fixture
 def tag(home: Path) -> Path:
     """The package of Tag, as the page makes it."""
-    folder = user_folder() / "tag"
-    write(folder, "tag")
-    for name, code in FILES.items():
-        (folder / name).write_text(code, encoding="utf-8")
     switch("tag", True)
-    return folder
+    return write_tag(user_folder() / "tag")
 
 
 def run(command: str) -> str:

@@ -57,10 +57,10 @@ if _sound is not None:
 
 __all__ = ["ENVIRONMENTS", "OptionError", "groups", "parallel_env"]
 
-ENVIRONMENTS = {"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v0": "factory"}  # names of the games
-ENVIRONMENTS |= {
-    f"{game.title().replace('_', '')}-v0": game for game in TALLIES if game in ENCODINGS and game not in OURS
-}
+ENVIRONMENTS = {
+    **{f"{game.title().replace('_', '')}-v0": game for game in TALLIES if game in ENCODINGS and game not in OURS},
+    **{"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v0": "factory"},
+}  # names of the games
 
 
 def parallel_env(game: str, **options: Any) -> MatchEnv:

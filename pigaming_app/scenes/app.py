@@ -22,8 +22,11 @@ from pigaming_app.scenes.events.resume import EventMarker
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.operator.desk import OperatorDesk
+from pigaming_app.scenes.options.new_game import game_name
 from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.storage.heartbeat import Heartbeat
+from pigaming_app.storage.plugins.found import Plugin
+from pigaming_app.storage.plugins.parts import blame
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui import memory as heap
@@ -90,6 +93,7 @@ class App:
         self.frozen = False  # whether loaded objects are exempt from garbage collection
         self.shown, self.unfinished = False, 0  # whether a picture was shown yet; frames since the last one
         self.failures, self.failed_at = 0, -FAILURE_WINDOW
+        self.blamed: Plugin | None = None  # for the last failure
         self.code = 0
         self.marker = EventMarker(folders().data) if options.kiosk and not options.without_title else None
         self.stack = self._first_stack()
@@ -151,8 +155,9 @@ class App:
         """Run one frame; true if a scene failed, which is logged."""
         try:
             self._frame(seconds)
-        except Exception:
+        except Exception as error:
             log.exception("a scene failed")
+            self.blamed = blame(error)
             return True
         return False
 
@@ -295,8 +300,13 @@ class App:
         if self.failures >= MAX_FAILURES or self.options.without_title or not self.stack.scenes or not self._restart():
             print(f"PiGaming: it cannot go on; {folders().data / 'pigaming.log'} says why.", file=sys.stderr)
             return False
-        self.notices.add(self.context.words("app.error"))
+        self.notices.add(self._excuse())
         return True
+
+    def _excuse(self) -> str:
+        """The sentence about a failure: which game is left out, or that something went wrong."""
+        words, plugin = self.context.words, self.blamed
+        return words("app.game_failed", game=game_name(words, plugin)) if plugin else words("app.error")
 
     def _restart(self) -> bool:
         """Reset the canvas and show a new title; false if the title fails, too."""

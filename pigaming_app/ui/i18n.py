@@ -5,14 +5,15 @@ words("lobby.seat", player=2)      "Jogador 2"
 """
 
 import re
-import tomllib
 from collections.abc import Mapping
 from datetime import date, datetime
 from functools import cache
 from pathlib import Path
+from string import Formatter
 from typing import Any, Protocol
 
 from pigaming_app import ASSETS
+from pigaming_app.storage.parsing import parse_toml, read_text
 from pigaming_app.storage.plugins.parts import data_folders, leave_out
 
 LANGUAGES = ("en", "pt", "es", "fr", "de")
@@ -114,17 +115,40 @@ def texts(language: str) -> Mapping[str, str]:
     ours = _read(ASSETS / "text" / f"{language}.toml")
     added: dict[str, str] = {}
     for game, folder in data_folders("text"):
-        files = [folder / f"{code}.toml" for code in dict.fromkeys(("en", language))]
-        try:
-            for file in files:
-                added |= _read(file) if file.exists() else {}
-        except (OSError, ValueError) as error:
-            leave_out(game, f"text/{file.name}: {error}")
+        theirs: dict[str, str] = {}
+        for file in (folder / f"{code}.toml" for code in dict.fromkeys(("en", language))):
+            try:
+                theirs |= _checked(_read(file), theirs) if file.exists() else {}
+            except (OSError, ValueError) as error:
+                leave_out(game, f"text/{file.name}: {error}")
+                theirs = {}
+                break
+        added |= theirs
     return added | ours
 
 
+def fields(text: str) -> set[str]:
+    """The names of the values that are filled into a text. Raises ValueError for one that cannot be filled."""
+    found = [(name, kind) for _, name, kind, _ in Formatter().parse(text) if name is not None]
+    if wrong := [name for name, kind in found if kind or not name.isidentifier()]:
+        raise ValueError(f"{{{wrong[0]}}} is no name of a value")
+    return {name for name, _ in found}
+
+
+def _checked(added: dict[str, str], english: Mapping[str, str]) -> dict[str, str]:
+    """The texts of a plug-in, after a look at the values in them. Raises ValueError."""
+    for key, text in added.items():
+        try:
+            unknown = fields(text) - fields(english.get(key, text))
+        except ValueError as error:
+            raise ValueError(f"{key}: {error}") from None
+        if unknown:
+            raise ValueError(f"{key}: {{{min(unknown)}}} is not in the English text")
+    return added
+
+
 def _read(file: Path) -> dict[str, str]:
-    return dict(_flat(tomllib.loads(file.read_text(encoding="utf-8")), ""))
+    return dict(_flat(parse_toml(read_text(file)), ""))
 
 
 def _flat(table: dict[str, Any], path: str) -> list[tuple[str, str]]:

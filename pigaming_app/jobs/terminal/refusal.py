@@ -6,6 +6,7 @@ from importlib.util import find_spec
 
 from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.hardware.messages import OperatorError
+from pigaming_app.storage.plugins.parts import blame
 from pigaming_app.ui.i18n import english
 
 EXTRAS = {  # a module, and the package's name
@@ -39,6 +40,11 @@ def refused(*errors: type[Exception]) -> Iterator[None]:
 def sentence(error: Exception) -> str:
     """The text of an error; hardware errors carry a key, whose English sentence this is."""
     return english().long_sentence(error.message) if isinstance(error, OperatorError) else str(error)
+
+
+def is_of_plugin(error: Exception) -> bool:
+    """True if an error arose in the code of a plug-in, which is left out with one line on standard error."""
+    return blame(error) is not None
 
 
 def require(extra: str) -> None:

@@ -48,7 +48,7 @@ def rule_numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
         "minutes": rules.ticks * DT / 60.0,
         "protection": getattr(rules, "protection", 0) * DT,
         "patience": getattr(rules, "patience", 0) * DT,
-        "turbo": 1.0 / (rules.turbo_drain * HZ),
-        "refill": 1.0 / (rules.turbo_refill * HZ),
+        "turbo": 1.0 / (rules.turbo_drain * HZ) if rules.turbo_drain else 0.0,
+        "refill": 1.0 / (rules.turbo_refill * HZ) if rules.turbo_refill else 0.0,
     }
     return {name: f"{round(4 * value) / 4:g}" for name, value in numbers.items()}  # rounded to 0.25

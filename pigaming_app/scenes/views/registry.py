@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator, Mapping
 
-from pigaming_app.games.registry import games
+from pigaming_app.games.registry import OURS, games
 from pigaming_app.scenes.views.game_screens import GameScreens
 from pigaming_app.scenes.views.games import factory, pitanks, race
 from pigaming_app.storage.plugins.parts import SCREENS as PART
 from pigaming_app.storage.plugins.parts import parts, stopped
-from pigaming_app.ui.i18n import english
+from pigaming_app.ui.i18n import fields, texts
 
 
 def text_keys(name: str, screens: GameScreens) -> Iterator[str]:
@@ -28,8 +28,21 @@ def text_keys(name: str, screens: GameScreens) -> Iterator[str]:
 
 def _lacks(name: str, screens: GameScreens) -> str:
     """The texts that a plug-in lacks, as a reason to leave it out."""
-    missing = [key for key in text_keys(name, screens) if key not in english()]
-    return f"text/en.toml lacks {', '.join(missing)}" if missing else ""
+    known = texts("en")
+    keys = list(text_keys(name, screens))
+    if missing := [key for key in keys if key not in known]:
+        return f"text/en.toml lacks {', '.join(missing)}"
+    for key in keys:
+        if unknown := fields(known[key]) - _values(key, name):
+            return f"text/en.toml: {key}: no value has the name {min(unknown)}"
+    return ""
+
+
+def _values(key: str, name: str) -> set[str]:
+    """The names of the values that are filled into a text of a game: those in the texts of our games."""
+    known = texts("en")
+    alike = ["setup.count_laps"] if key.startswith("setup.count_") else [key.replace(name, other) for other in OURS]
+    return {field for one in alike if one != key and one in known for field in fields(known[one])}
 
 
 SCREENS: Mapping[str, GameScreens] = {

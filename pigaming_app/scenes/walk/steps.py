@@ -2,8 +2,6 @@
 
 from typing import Any, Protocol
 
-MENU = 3  # spots of the title before those of its foot
-
 
 class TourWalker(Protocol):
     """Interface of the walker, see walker.py."""
@@ -38,14 +36,14 @@ def home(walker: TourWalker) -> None:
 
 def choose(walker: TourWalker, name: str) -> None:
     """Focus and open an item of the title."""
-    focus = walker.top.focus
-    for _ in range(20):
+    focus, menu = walker.top.focus, len(walker.top.tiles.names)
+    for _ in range(20 + menu):
         names = [spot.name for spot in focus.spots]
         here, there = names.index(focus.name), names.index(name)
         if here == there:
             break
-        if (here < MENU) != (there < MENU):
-            walker.press("s" if here < MENU else "w", pause=0.0)
+        if (here < menu) != (there < menu):
+            walker.press("s" if here < menu else "w", pause=0.0)
         else:
             walker.press("d" if here < there else "a", pause=0.0)
     walker.press("space")

@@ -3,6 +3,7 @@
 Switching a plug-in on or off counts from the next start on: kernels and hashes are made of what was loaded first.
 """
 
+import re
 import sys
 import traceback
 from collections.abc import Callable, Iterator
@@ -87,15 +88,15 @@ def leave_out(name: str, reason: str) -> None:
     _leave_out(next(plugin for plugin in plugins() if plugin.name == name), reason)
 
 
-def blame(error: BaseException) -> str:
-    """The sentence of the plug-in in whose code an error arose, which is stopped; nothing if it arose elsewhere."""
+def blame(error: BaseException) -> Plugin | None:
+    """The plug-in in whose code an error arose while it played, which is left out from here on; None: elsewhere."""
     for plugin in plugins():
-        if place := _place(plugin, error):
+        if place := _place(plugin, error) or _place_in_text(plugin, str(error)):
             if plugin not in _failed:
                 _stopped.add(plugin.name)
-                _leave_out(plugin, f"{place}{type(error).__name__}: {error}")
-            return _failed[plugin]
-    return ""
+                _leave_out(plugin, f"{place}{type(error).__name__}: {' '.join(str(error).split())}")
+            return plugin
+    return None
 
 
 def rule_sources(name: str) -> tuple[Path, ...]:
@@ -119,9 +120,9 @@ def _loaded(plugin: Plugin, part: str, attribute: str) -> object:
     """The attribute; None if the plug-in has no such part, or if loading it fails."""
     name = f"{plugin.module}.{part}" if part else plugin.module
     try:
-        if part and find_spec(name) is None:
-            return None
         with time_limit(LOADING):
+            if part and find_spec(name) is None:  # this imports the package
+                return None
             module = import_module(name)
     except (Exception, SystemExit) as error:
         _leave_out(plugin, f"{_place(plugin, error)}{type(error).__name__}: {error}")
@@ -135,6 +136,15 @@ def _leave_out(plugin: Plugin, reason: str) -> None:
     sentence = one_line(f"The game {plugin.name} in {plugin.folder} is left out: {reason.rstrip('.')}.")
     _failed[plugin] = sentence
     print(f"PiGaming: {sentence}", file=sys.stderr)
+
+
+def _place_in_text(plugin: Plugin, message: str) -> str:
+    """File and line within the plug-in that a compiler's message names."""
+    for file, line in re.findall(r'File "([^"]+)", line (\d+)', message):
+        path = Path(file).resolve()
+        if path.is_relative_to(plugin.folder.resolve()):
+            return f"{path.relative_to(plugin.folder.resolve())}, line {line}: "
+    return ""
 
 
 def _place(plugin: Plugin, error: BaseException) -> str:

@@ -12,6 +12,7 @@ from pigaming_app.jobs.new_game import write
 from pigaming_app.storage.plugins import consent, found
 from pigaming_app.storage.plugins.consent import is_on, switch
 from pigaming_app.storage.plugins.found import Plugin, user_folder
+from tests.plugins.packages import install
 
 ROOT = Path(__file__).resolve().parents[3]
 LEFT_OUT = "PiGaming: The game tag in {folder} is left out: {reason}\n"
@@ -31,6 +32,11 @@ def program(*words: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-X", "pigaming", str(ROOT / "main.py"), *words]
     environment = os.environ | {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120)
+
+
+def python(code: str) -> subprocess.CompletedProcess[str]:
+    """Code in a process of its own, with this test's folders."""
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60)
 
 
 def play() -> subprocess.CompletedProcess[str]:
@@ -105,6 +111,21 @@ def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, o
         ("screens.py", "SCREENS = ", "SCREENS = 1 or ", "SCREENS is no GameScreens"),
         ("text/en.toml", 'arena_tag = "Arena"', "", "text/en.toml lacks setup.arena_tag"),
         ("text/en.toml", "[games]", "[games", "text/en.toml: "),
+        ("text/en.toml", "[games]", f"[{'a.' * 100}b]\n[games]", "text/en.toml: nested more than 32 deep"),
+        ("text/en.toml", '"Most coins win."', '"Most {coins win."', "text/en.toml: rules.tag_standard: expected '}'"),
+        (
+            "text/en.toml",
+            '"Most coins win."',
+            '"{0.__class__}"',
+            "text/en.toml: rules.tag_standard: {0.__class__} is no",
+        ),
+        (
+            "text/en.toml",
+            '"Most coins win."',
+            '"{n} wins."',
+            "text/en.toml: rules.tag_standard: no value has the name n",
+        ),
+        ("text/en.toml", "[howto]", "[howto]\npress = 5", ""),
     ],
 )
 def test_one_that_cannot_be_shown_is_not_on_the_screens(tag: Path, file: str, old: str, new: str, reason: str) -> None:
@@ -112,17 +133,113 @@ def test_one_that_cannot_be_shown_is_not_on_the_screens(tag: Path, file: str, ol
     assert old in source.read_text()
     source.write_text(source.read_text().replace(old, new, 1))
     code = "from pigaming_app.scenes.views.registry import shown_games; print(*shown_games())"
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60)
-    assert "tag" not in ended.stdout.split()
+    ended = python(code)
+    assert ("tag" in ended.stdout.split()) == (not reason)
     assert {"pitanks", "factory", "race"} <= {*ended.stdout.split()}
-    assert f"The game tag in {tag} is left out: {reason}" in ended.stderr
+    assert (f"The game tag in {tag} is left out: {reason}" in ended.stderr) == bool(reason)
+    assert ended.stderr.count("\n") == int(bool(reason))
+
+
+def test_a_translation_has_the_values_of_the_english_text(tag: Path) -> None:
+    (tag / "text" / "pt.toml").write_text('[rules]\ntag_standard = "Ganha {quem}."\n')
+    code = "from pigaming_app.ui.i18n import Words; w = Words('pt'); print('rules.tag_standard' in w, w('games.race'))"
+    ended = python(code)
+    assert ended.stdout.startswith("False ")
+    reason = "text/pt.toml: rules.tag_standard: {quem} is not in the English text"
+    assert ended.stderr == LEFT_OUT.format(folder=tag, reason=f"{reason}.")
+
+
+@pytest.mark.parametrize("file", ["__init__.py", "ai.py"])
+def test_an_import_that_does_not_end_is_ended(tag: Path, file: str) -> None:
+    source = tag / file
+    source.write_text(
+        f"while True:\n    try:\n        len('')\n    except Exception:\n        pass\n{source.read_text()}"
+    )
+    ended = python(
+        "from pigaming_app.storage.plugins import parts; parts.LOADING = 0.3\n"
+        "from pigaming_app.ai.registry import AIS; from pigaming_app.games.registry import games; print(*games(), *AIS)"
+    )
+    assert {"pitanks", "factory", "race"} <= {*ended.stdout.split()}
+    assert f"The game tag in {tag} is left out: {file}, line " in ended.stderr
+    assert "TimeoutError: not done after 0.3 s." in ended.stderr
+    assert ended.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "words", ["play tag --headless", "duel tag hard idle --matches 2", "league tag hard idle --matches 2"]
+)
+def test_one_that_fails_in_a_match_ends_the_job_with_one_line(tag: Path, words: str) -> None:
+    rules = tag / "rules.py"
+    rules.write_text(rules.read_text().replace("    match.tick += 1\n", "    match.tick += 1\n    match.tick //= 0\n"))
+    ended = program(*words.split(), "--minutes", "0.1", *(("--seats", "hard,easy") if "play" in words else ()))
+    assert ended.returncode == 1
+    line = rules.read_text().splitlines().index("    match.tick //= 0") + 1
+    reason = f"rules.py, line {line}: ZeroDivisionError: integer division or modulo by zero."
+    assert ended.stderr == LEFT_OUT.format(folder=tag, reason=reason)
+
+
+def test_two_of_one_name_and_one_of_our_names(tag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    twin = install(tmp_path / "site", "tag", "robot_tag")
+    write(twin, "tag")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path / "site"))
+    for name in ("pitanks", "football"):
+        write(user_folder() / name, name)
+        switch(name, True)
+    switch("tag@robot_tag", True)
+    ended = program("duel", "pitanks", "easy", "idle", "--matches", "2", "--minutes", "0.05")
+    assert ended.returncode == 0
+    assert sorted(line.partition(" in ")[0] for line in ended.stderr.splitlines()) == [
+        "PiGaming: The game football",
+        "PiGaming: The game pitanks",
+        "PiGaming: The game tag",
+    ]
+    assert f"The game tag in {twin} is left out: there is one in {tag} already." in ended.stderr
+    assert "left out: there is a game pitanks already." in ended.stderr
+    assert json.loads(play().stdout)["game"] == "tag"
+
+
+def test_an_installed_one_runs_nothing_before_it_is_switched_on_nor_its_parents(
+    home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path / "site"))
+    write(install(tmp_path / "site", "tag", "robot_tag.game"), "tag")
+    (tmp_path / "site" / "robot_tag" / "__init__.py").write_text("raise SystemExit('a parent')\n")
+    switch("tag", True)  # another place's decision
+    assert "is new, and runs code of its own" in play().stderr
+    assert "tag: new" in program("games").stdout
+    assert program("games", "on", "tag").returncode == 0
+    assert "is left out: SystemExit: a parent." in play().stderr
+    (tmp_path / "site" / "robot_tag" / "__init__.py").write_text("")
+    assert json.loads(play().stdout)["game"] == "tag"
+
+
+def test_a_module_instead_of_a_package_is_left_out(home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path / "site"))
+    install(tmp_path / "site", "tag", "robot_tag").with_suffix(".py").write_text("raise SystemExit\n")
+    assert "tag: new, left out" in program("games").stdout
+    switch("tag@robot_tag", True)
+    assert "is left out: robot_tag is no package." in play().stderr
+
+
+def test_folders_that_are_links_or_cannot_be_read(tag: Path, tmp_path: Path) -> None:
+    elsewhere = tag.rename(tmp_path / "elsewhere")
+    tag.symlink_to(elsewhere, target_is_directory=True)
+    (user_folder() / "gone").symlink_to(tmp_path / "nowhere")
+    (user_folder() / "round").symlink_to(user_folder() / "round")
+    (user_folder() / "chess" / "__init__.py").mkdir(parents=True)
+    (user_folder() / "notes.txt").write_text("no game")
+    switch("chess", True)
+    ended = play()
+    assert json.loads(ended.stdout)["game"] == "tag"
+    reason = f"The game chess in {user_folder() / 'chess'} is left out: it cannot be read (Is a directory)."
+    assert ended.stderr == f"PiGaming: {reason}\n"
 
 
 def test_only_a_plug_ins_own_replays_depend_on_its_rules(tag: Path) -> None:
     code = "from pigaming_app.games.engine_hash import engine_hash as h; print(h('pitanks'), h('tag'))"
 
     def hashes() -> list[str]:
-        return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT).stdout.split()
+        return python(code).stdout.split()
 
     before = hashes()
     assert before[0] != before[1]

@@ -1,0 +1,1 @@
+"""Games as plug-ins, as a whole."""
