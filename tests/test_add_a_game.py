@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = (ROOT / "docs" / "add-a-game.md").read_text(encoding="utf-8")
 FILES = dict(re.findall(r"^`(\w+\.py)`:.*?^```python\n(.*?)^```", PAGE, re.M | re.S))
 COMMANDS = re.findall(r"^    python3 main\.py (.*)$", PAGE, re.M)
-WINDOWLESS = {"play tag": "play tag --headless --minutes 0.2 --seats easy,hard"}
+WINDOWLESS = {"play tag": "play tag --headless --speed max --minutes 0.2 --seats easy,hard"}
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def test_the_page_has_the_files_of_a_game_in_this_style() -> None:
 
 
 def test_tag_is_played_by_its_rules(tag: Path) -> None:
-    points = run("play tag --headless --minutes 0.5 --seats hard,hard,hard,hard --seed 1 --json")
+    points = run("play tag --headless --speed max --minutes 0.5 --seats hard,hard,hard,hard --seed 1 --json")
     scores = [int(score) for score in re.findall(r'"score": (\d+)', points)]
     assert len(scores) == 4
     assert 3 * 29 <= sum(scores) <= 3 * 30, "three robots score each second"
