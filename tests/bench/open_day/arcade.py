@@ -55,7 +55,7 @@ def main(folder: Path) -> int:
         if isinstance(top, MatchScene):
             if top.match.over:
                 return "ending" if top.after else "results"
-            return "event" if top.after and top.match.state.tick else "match" if top.match.state.tick else "other"
+            return "other" if not top.match.state.tick else "event" if top.after else "match"
         if isinstance(top, WinnersMoment) and isinstance(top.then, NextMatch):
             return "ending"
         return "results" if isinstance(top, Initials | Results) else "title" if isinstance(top, Title) else "other"
@@ -94,7 +94,7 @@ def main(folder: Path) -> int:
         preload(app.context.preloader)
         file = ledgers.LedgerFile(folder / "ledger")
         watch = Watch(app, day, file, seen.lives + 1)
-        stage = Stage(app, day, seen, watch, begin)
+        stage = Stage(app, day, seen, watch, begin, folder)
         Visit(stage)
         EventVisit(stage)
         crew.append((app, watch, stage))
