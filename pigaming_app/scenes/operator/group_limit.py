@@ -1,6 +1,6 @@
 """The time limit of a group: from the title to the title. A match that has begun is played to its end.
 
-An event has no limit: its entrants would have to open it again every few minutes, and a list half entered would be lost.
+An event has no limit: its entrants would have to open it again every few minutes, and half a list would be lost.
 """
 
 import math
