@@ -101,7 +101,7 @@ def main(folder: Path) -> int:
         try:
             return app.loop()
         finally:
-            stage.handsets.close()
+            stage.close()
             file.close()
 
 

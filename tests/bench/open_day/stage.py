@@ -93,6 +93,12 @@ class Stage:
         elif not isinstance(top, Title | Attract):
             self.someone(self.pads[0], Button.BACK)
 
+    def close(self) -> None:
+        """Unplug all pads and end all phones."""
+        for hands in self.pads:
+            hands.unplug()
+        self.handsets.close()
+
     # ---- the group
 
     @property
