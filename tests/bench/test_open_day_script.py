@@ -56,7 +56,8 @@ def test_a_match_of_an_event_is_noted_with_its_number_and_scores(arcade: Arcade,
 
 def test_a_visitor_drives_a_race_to_its_finish() -> None:
     """With the stick alone, looked at as often as on the stage."""
-    match = new_match(Setup("race", "classic", (Seat("human", 0), *(Seat("off", i) for i in (1, 2, 3))), 10.0, 1, "standard", 1))
+    seats = Seat("human", 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
+    match = new_match(Setup("race", "classic", seats, 10.0, 1, "standard", 1))
     scene, stick = SimpleNamespace(match=match), StickState()
     visit = Visit(SimpleNamespace(reactions={}))
     match.sit(0, HumanPlayer(lambda: stick))
