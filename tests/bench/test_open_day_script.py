@@ -10,13 +10,15 @@ from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.events.next_page import EventMatch
+from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Device, StickState
+from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from tests.bench.open_day import audit, ledger
+from tests.bench.open_day.arcade import STEP
 from tests.bench.open_day.plan import ONLY, plan
-from tests.bench.open_day.stage import PATIENCE, Stage
-from tests.bench.open_day.visit import Visit
+from tests.bench.open_day.stage import PATIENCE, Player, Stage
+from tests.bench.open_day.visit import FAST, Visit
 from tests.bench.open_day.watch import Watch
 from tests.scenes.arcade import Arcade, Floor, setup
 from tests.scenes.events.drawn import an_event, running, saved
@@ -67,6 +69,45 @@ def test_a_visitor_drives_a_race_to_its_finish() -> None:
             stick = StickState(-y, x, fire, turbo)
         match.tick()
     assert match.over
+
+
+class Bell(Floor):
+    """Counts presses of FIRE."""
+
+    rung = 0
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        self.rung += event.button is Button.FIRE
+
+
+def test_one_button_twice_is_two_presses(arcade: Arcade, tmp_path: Path) -> None:
+    """A release and a press between two looks at a pad would be none."""
+    bell, group, taps = Bell(), DAY.groups[0], 0
+    stage = Stage(
+        SimpleNamespace(stack=arcade.stack),
+        replace(DAY, tasks=()),
+        ledger.Ledger(),
+        watch_of(arcade, tmp_path),
+        0.0,
+        tmp_path,
+    )
+
+    def ring() -> None:
+        nonlocal taps
+        if stage.ready(stage.players[0], FAST):
+            stage.tap(stage.players[0].hands, Button.FIRE)
+            taps += 1
+
+    try:
+        arcade.open(bell)
+        stage.group, stage.players, stage.reactions = group, [Player(group.visitors[0], stage.pads[0])], {Bell: ring}
+        for frame in range(50):
+            stage.play(STEP * frame)
+            arcade.frame(STEP)
+    finally:
+        stage.close()
+    assert taps > 10
+    assert bell.rung == taps
 
 
 class LastMovement:

@@ -56,6 +56,7 @@ class Stage:
         self.counted = 0  # matches at the last progress
         self.focused: tuple[Focus, str] | None = None  # at the last press that was to move it
         self.held: list[tuple[float, Hands, Button]] = []  # buttons to release, and when
+        self.released: list[Hands] = []  # in this frame: a press in the same one would be none
         self.keys = KeyHands()
         self.tasks = [task for task in day.tasks if task.at >= now]
         self.task: Task | None = None
@@ -71,9 +72,11 @@ class Stage:
             if isinstance(self.top, MatchScene):
                 self._let_go()
             self.top, self.changed = top, now
-        for due in [held for held in self.held if held[0] <= now]:
-            self.held.remove(due)
-            due[1].release(due[2])
+        due = [held for held in self.held if held[0] <= now]
+        self.held = [held for held in self.held if held not in due]
+        for _, hands, button in due:
+            hands.release(button)
+        self.released = [hands for _, hands, _ in due]
         if self.task or self._task_due():
             self._operate()
             return
@@ -186,7 +189,7 @@ class Stage:
 
     def someone(self, hands: Hands, button: Button) -> None:
         """Tap a button, at the tempo of a person."""
-        if self.now - self.changed >= TEMPO and not any(held[1] is hands for held in self.held):
+        if self.now - self.changed >= TEMPO and self._free(hands):
             self.tap(hands, button)
 
     def tap(self, hands: Hands, button: Button, seconds: float = 0.1) -> None:
@@ -196,11 +199,14 @@ class Stage:
 
     def ready(self, player: Player, tempo: float = TEMPO) -> bool:
         """True if a player acts now; the next time will be later."""
-        holding = any(held[1] is player.hands for held in self.held)
-        if holding or self.now < player.due or self.now - self.changed < TEMPO:
+        if self.now < player.due or self.now - self.changed < TEMPO or not self._free(player.hands):
             return False
         player.due = self.now + tempo * self.rng.uniform(0.8, 1.6)
         return True
+
+    def _free(self, hands: Hands) -> bool:
+        """True if nothing is held, nor was until this frame."""
+        return hands not in [*(held[1] for held in self.held), *self.released]
 
     def all_press(self, button: Button, players: Sequence[Player] | None = None) -> None:
         """Each of these players taps a button, at their tempo."""
