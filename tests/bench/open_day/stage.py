@@ -23,7 +23,7 @@ from tests.bench.open_day.watch import Watch
 
 TEMPO = 0.35  # s between two presses of a person
 PATIENCE = 1500.0  # s without a match after which a group gives up
-F10_SECONDS = 5.4
+FAREWELL = 1.0  # s on the title before a group that wants no more goes: memory is read then
 ARROWS = (Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT)
 
 
@@ -90,7 +90,8 @@ class Stage:
             if now - self.moved > PATIENCE:
                 self._give_up()
             elif isinstance(top, Title) and self.finished:
-                self.leave()
+                if now - self.changed >= FAREWELL:
+                    self.leave()
             else:
                 self.reactions.get(type(top), self.fallback)()
         elif not isinstance(top, Title | Attract):

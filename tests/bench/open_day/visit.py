@@ -130,7 +130,7 @@ class Visit:
 
     def match(self) -> None:
         stage, scene = self.stage, self.stage.top
-        if scene.match.over or scene.countdown.locked:
+        if scene.match.over or scene.countdown.locked or not scene.humans:  # a show of AIs: any turbo would halt it
             return
         self._mishap(scene)
         if stage.now < self.resting:
