@@ -38,12 +38,12 @@ MOTION, FEET, PLACE, BALL, GOALS, OTHERS, ROOM, MATCH, COMPANY, SIZE = (
     0, 5, 9, 13, 28, 37, 73, 81, 88, 92
 )  # first input of each group  # fmt: skip
 OTHER = 12  # inputs for each of the others
-HEADS = (("drive", 4), ("turn", 7), ("fire", 2), ("turbo", 2))
-DRIVES = (-1.0, 0.0, 0.5, 1.0)  # positions of the stick
+HEADS = (("drive", 5), ("turn", 7), ("fire", 2), ("turbo", 2))
+DRIVES = (-1.0, -0.4, 0.0, 0.5, 1.0)  # positions of the stick
 TURNS = (-1.0, -0.36, -0.11, 0.0, 0.11, 0.36, 1.0)  # a full turn is 17 degrees a decision
 
 FAST = 600.0  # px/s, of a ball
-NEAR = 200.0  # px, at which nearness is 1/2
+NEAR, FAR = 200.0, 920.0  # px: at which nearness is 1/2; half of the longest distance
 SOON, LATER = 0.35, 0.8  # s ahead of the ball
 RAYS, STEPS = 8, 6  # directions in which it looks for room, and steps in each
 COS45 = 0.7071067811865476
@@ -210,7 +210,7 @@ def encode_other(
     inputs[k + 1] = whole((ahead_x * dx + ahead_y * dy) / distance)
     inputs[k + 2] = whole((ahead_x * dy - ahead_y * dx) / distance)
     inputs[k + 3] = whole(NEAR / (NEAR + distance))
-    inputs[k + 4] = whole(1.0 - distance / 800.0)
+    inputs[k + 4] = whole(1.0 - distance / FAR)
     inputs[k + 5] = whole((ahead_x * vx + ahead_y * vy) / 340.0)
     inputs[k + 6] = whole((ahead_x * vy - ahead_y * vx) / 340.0)
     turn_cos, turn_sin = cos(robot.heading), sin(robot.heading)
@@ -251,7 +251,7 @@ def percepts(match: Any, inputs: Sequence[float], at: At) -> Found:
         (OTHERS + 2 * OTHER, "others", OPPONENT),
     ):
         if inputs[k]:
-            yield topic, Percept(kind, *at(distance_of(inputs[k + 3], NEAR), inputs[k + 1], inputs[k + 2]))
+            yield topic, Percept(kind, *at(FAR * (1.0 - inputs[k + 4]), inputs[k + 1], inputs[k + 2]))
 
 
 SUBJECT = Subject(
@@ -269,4 +269,6 @@ SUBJECT = Subject(
     TURNS,
     "kick",
     percepts,
+    PLACE,
+    lambda match, seat: side_of(match.robots[seat]) != LEFT,
 )

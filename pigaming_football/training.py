@@ -83,12 +83,12 @@ TASK = Task(
     minutes=(2.0,),
     line_ups=(
         pairs(5, "hand3"),
-        pairs(2, "hand2"),
-        pairs(1, "hand1"),
-        pairs(4, LEARNER),
+        pairs(4, "hand2"),
+        pairs(2, "hand1"),
+        pairs(3, LEARNER),
         pairs(4, POOL),
         alone(3, "hand3"),
-        alone(1, "hand2"),
+        alone(2, "hand2"),
         alone(2, LEARNER),
         alone(2, POOL),
         LineUp(1, (LEARNER, "hand3", LEARNER, OFF)),
@@ -101,7 +101,7 @@ TASK = Task(
     rivals=("hand3", "hand2"),
     habits=habits,
     cut=0.01,
-    hyper=Hyper(matches=192, discount=0.99, last_entropy=0.002),
+    hyper=Hyper(matches=192, epochs=3, entropy=0.008, last_entropy=0.001, discount=0.99),
     sharpness=2.0,
 )
 

@@ -28,6 +28,7 @@ class Subject:
     fire: str
     percepts: Callable[[Any, Sequence[float], At], Found]
     place: int | None = None  # first of the inputs with the own position and direction; None: the present ones serve
+    turned: Callable[[Any, int], bool] = lambda match, seat: False  # whether a seat's place is turned by half a circle
 
 
 def perceived(subject: Subject, match: Any, seat: int, inputs: Sequence[float]) -> Found:
@@ -36,7 +37,8 @@ def perceived(subject: Subject, match: Any, seat: int, inputs: Sequence[float]) 
     if subject.place is None:
         x, y, ahead_x, ahead_y = robot.x, robot.y, cos(robot.heading), sin(robot.heading)
     else:
-        right, down, ahead_x, ahead_y = known[subject.place : subject.place + 4]
+        sign = -1.0 if subject.turned(match, seat) else 1.0
+        right, down, ahead_x, ahead_y = (sign * value for value in known[subject.place : subject.place + 4])
         x, y = 0.5 * (right + 1.0) * WIDTH, 0.5 * (down + 1.0) * HEIGHT
 
     def at(distance: float, along: float, across: float) -> Point:
