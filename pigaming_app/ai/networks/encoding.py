@@ -34,6 +34,10 @@ class Encoding:
     encode: Callable[[Any, int, Any, Any], None]
     act: Callable[[Any, int, Any], None]
 
+    def __post_init__(self) -> None:
+        if self.size % 2 or self.outputs % 2:
+            raise ValueError(f"{self.size} inputs and {self.outputs} choices: both numbers must be even")  # records
+
     @property
     def size(self) -> int:
         """Number of inputs."""

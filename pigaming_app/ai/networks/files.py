@@ -9,6 +9,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from functools import cache
 from itertools import pairwise
 from math import isfinite
+from pathlib import Path
 from typing import Any
 
 from pigaming_app import ASSETS
@@ -19,6 +20,7 @@ from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.networks.thoughts import make_explain
 from pigaming_app.games.engine_hash import engine_hash
 
+BRAINS = ASSETS / "brains"
 FORMAT = "pigaming-network-1"
 LICENCE = "MIT"
 MAX_BYTES = 100_000  # size limit of a file
@@ -124,18 +126,20 @@ def policy_of(trained: TrainedNetwork) -> Policy:
 
 
 @cache
-def shipped(name: str) -> TrainedNetwork:
-    """A network that ships with the arcade, cached. Raises OSError, NetworkError."""
-    path = ASSETS / "brains" / f"{name}.npz"
+def shipped(name: str, folder: Path = BRAINS) -> TrainedNetwork:
+    """A network that ships with the arcade, or in the `folder` of a plug-in, cached. Raises OSError, NetworkError."""
+    path = folder / f"{name}.npz"
     return decode(path.read_bytes(), path.name)
 
 
-def shipped_brain(name: str, game: str, file: str, handicap: Handicap = NO_HANDICAP) -> BrainKind:
-    """A brain `name` by a network that ships with the arcade as `file`.npz, which is read on first use."""
+def shipped_brain(
+    name: str, game: str, file: str, handicap: Handicap = NO_HANDICAP, folder: Path = BRAINS
+) -> BrainKind:
+    """A brain `name` by a network that ships as `file`.npz in a folder, which is read on first use."""
 
     @cache
     def policy() -> Policy:
-        return policy_of(shipped(file))
+        return policy_of(shipped(file, folder))
 
     return explained_brain(name, game, lambda fast: policy()(fast), handicap)
 
