@@ -19,7 +19,7 @@ FREE, OWN, MATE, OPPONENT = range(4)  # `Observation.held`
 
 
 @record
-class Other:
+class MovingRobot:
     """Another robot, in seat order after the own seat."""
 
     present: int
@@ -61,7 +61,7 @@ class Observation:
     mouth: float  # half the width of the goals
     lead: int  # goals
     seconds: float  # of the regular time; 0: overtime
-    others: Annotated[list[Other], OTHERS]
+    others: Annotated[list[MovingRobot], OTHERS]
 
 
 @kernel

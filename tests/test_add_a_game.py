@@ -17,7 +17,13 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = (ROOT / "docs" / "add-a-game.md").read_text(encoding="utf-8")
 FILES = dict(re.findall(r"^`(\w+\.py)`:.*?^```python\n(.*?)^```", PAGE, re.M | re.S))
 COMMANDS = re.findall(r"^    python3 main\.py (.*)$", PAGE, re.M)
-WINDOWLESS = {"play tag": "play tag --headless --speed max --minutes 0.2 --seats easy,hard"}
+LEVEL = re.findall(r"^```python\n(from pathlib.*?)^```", PAGE, re.M | re.S)
+SHORTER = {
+    "play tag": "play tag --headless --speed max --minutes 0.2 --seats easy,hard",
+    "play tag --seats human,tag.npz,tag.npz,hard": "play tag --headless --speed max --minutes 0.2 --seats hard,tag.npz",
+    "train ppo tag --minutes 3 --out tag.npz": "train ppo tag --updates 2 --set matches=16 --out tag.npz",
+    "duel tag tag.npz hard --matches 200 --minutes 1 --seed 100": "duel tag tag.npz hard --matches 2 --minutes 0.2",
+}
 
 
 @pytest.fixture
@@ -40,7 +46,7 @@ def run(command: str) -> str:
 
 
 def test_the_page_has_the_files_of_a_game_in_this_style() -> None:
-    assert {*FILES} == {"rules.py", "ai.py", "screens.py"}
+    assert {*FILES} == {"rules.py", "ai.py", "screens.py", "network.py", "training.py"}
     for name, code in FILES.items():
         for tool in (("check", "--ignore", "INP"), ("format", "--check")):
             words = [sys.executable, "-m", "ruff", *tool, "--quiet", f"--stdin-filename=tests/{name}", "-"]
@@ -55,10 +61,19 @@ def test_tag_is_played_by_its_rules(tag: Path) -> None:
     assert len({*scores}) > 1, "it was passed on"
 
 
-@pytest.mark.long
-def test_every_command_of_the_page_runs(tag: Path, tmp_path: Path) -> None:
-    assert len(COMMANDS) == 8
+@pytest.mark.long(first=True)
+def test_every_command_of_the_page_runs_and_the_network_becomes_a_level(tag: Path, tmp_path: Path) -> None:
+    assert len(COMMANDS) == 11
     assert COMMANDS[0] == "new-game tag"
+    assert {*SHORTER} < {*COMMANDS}
     for command in COMMANDS[1:]:
-        run(WINDOWLESS.get(command, command).replace("tag.png", str(tmp_path / "tag.png")))
+        run(re.sub(r"\btag\.(npz|png)", rf"{tmp_path}/tag.\1", SHORTER.get(command, command)))
     assert (tmp_path / "tag.png").stat().st_size > 50_000
+    (tag / "brains").mkdir()
+    (tmp_path / "tag.npz").rename(tag / "brains" / "tag.npz")
+    (snippet,) = LEVEL
+    (tag / "ai.py").write_text(f"{FILES['ai.py']}\n{snippet}", encoding="utf-8")
+    run("play tag --headless --minutes 0.1 --seats hard,level4")
+    code = "from pigaming_app.ai.registry import BRAINS; print(*(k for k, b in BRAINS['tag'].items() if b.explain))"
+    explained = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    assert explained.stdout.split() == ["idle", "random", "level5", "hard"], "networks explain themselves"

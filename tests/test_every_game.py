@@ -20,6 +20,7 @@ from pigaming_app.sim.things.spec import ThingSpec, written
 from tests.cases import one_in
 
 SQUARE = ((0.0, 0.0), (50.0, 0.0), (50.0, 50.0), (0.0, 50.0))
+EVERY_VARIANT = [(game, variant) for game, rules in games().items() for variant in rules.variants]
 EVERY_ARENA = [(game, arena) for game in games() for arena in arenas(game)]
 THINGS = {
     game: [ThingSpec(use, tuple((x + u, y + v) for u, v in SQUARE), 4.0) for use, x, y in things]
@@ -81,8 +82,18 @@ def test_the_same_seed_is_the_same_match_and_another_is_another(game):
 
 @pytest.mark.parametrize(("game", "arena"), EVERY_ARENA)
 def test_a_random_match_ends_when_its_time_is_up(game, arena):
-    match = played(setup(game, arena))
-    assert match.seconds == pytest.approx(0.2 * 60)
+    ends_in_time(played(setup(game, arena)))
+
+
+@pytest.mark.parametrize(("game", "variant"), EVERY_VARIANT)
+def test_every_rule_set_ends_in_its_time_and_overtime(game, variant):
+    ends_in_time(played(setup(game, variant=variant, teams=games()[game].variants[variant].teams)))
+
+
+def ends_in_time(match):
+    """By its minutes; only a rule set with overtime may exceed them."""
+    over = match.seconds - 60 * match.setup.minutes
+    assert -1e-6 < over <= games()[match.setup.game].variants[match.setup.variant].overtime + 1e-6
     assert match.outcome().rows[0].place == 1
     assert all(isfinite(number) for number in numbers(match.state))
 

@@ -23,8 +23,11 @@ from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.plugins.parts import parts
 
-OURS = {"pitanks": pitanks.AI, "factory": factory.AI, "race": race.AI}
-AIS: Mapping[str, GameAI] = dict.fromkeys(games(), RANDOM_ONLY) | OURS | parts("ai", "AI", GameAI)  # by game
+AIS: Mapping[str, GameAI] = {
+    **dict.fromkeys(games(), RANDOM_ONLY),
+    **{"pitanks": pitanks.AI, "factory": factory.AI, "race": race.AI},
+    **parts("ai", "AI", GameAI),
+}  # by game
 BRAINS: Mapping[str, Mapping[str, BrainKind]] = {game: ai.brains for game, ai in AIS.items()}
 
 

@@ -11,7 +11,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from pigaming_app import ASSETS
-from pigaming_app.games.registry import games
+from pigaming_app.games.registry import OURS, games
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_arena
 from pigaming_app.sim.things.spec import ThingSpec, written
@@ -29,14 +29,14 @@ log = logging.getLogger("pigaming")
 
 
 def arenas(game: str) -> list[str]:
-    """The names of a game's arenas, `classic` first, the user's own last; damaged ones of these are left out."""
+    """The names of a game's arenas, its default first, the user's own last; damaged ones of these are left out."""
     return [*shipped_arenas(game), *own_arenas(game)]
 
 
 def shipped_arenas(game: str) -> list[str]:
-    """The names of the arenas that come with a game, `classic` first."""
+    """The names of the arenas that come with a game, its default first."""
     names = sorted(path.stem for path in _folder(game).glob("*.toml"))
-    return sorted(names, key=lambda name: name != "classic")
+    return sorted(names, key=lambda name: name != games()[game].arena)
 
 
 def own_arenas(game: str) -> list[str]:
@@ -122,7 +122,8 @@ def _loaded(game: str, path: Path, missing: Callable[[], str]) -> Arena:
 
 def _folder(game: str) -> Path:
     """The folder of a game's arenas."""
-    return dict(data_folders("arenas")).get(game, ASSETS / "arenas" / game)
+    ours = ASSETS / "arenas" / game
+    return ours if game in OURS else dict(data_folders("arenas")).get(game, ours)
 
 
 def read_source(path: Path) -> str:

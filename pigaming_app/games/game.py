@@ -113,6 +113,7 @@ class Game:
     senses: type = simple.Senses  # record with the parameters of an observation
     observation: type = simple.Observation
     observe: Callable[[Any, int, Any, Any], None] = simple.observe  # observe(match, seat, senses, observation)
+    arena: str = "classic"  # the default one
     read: Callable[[TomlTable], Layout] = simple.read  # parse an arena file, except its title; raises FieldError
     faults: Callable[[TomlTable], Iterable[FieldError]] | None = None  # where `read` is slow or ends at the first
     ranking_key: Callable[[Any, int], float] = simple.team_points  # of a seat, with its team; allies win above 0
@@ -123,6 +124,7 @@ class Game:
     times: Callable[[Any, int], tuple[float, ...]] = simple.no_times
     goal: str = ""  # unit of `goals`: laps, pallets
     rounds: tuple[int, ...] = (1,)  # the choices: the number of rounds of which most decide a match
+    round_minutes: int = 1  # length of a round
     surprise: Callable[[int], str] | None = None  # the text of an arena file, from a seed
     reroute: Reroute | None = None  # for AIs that do not plan from the walls alone
     timed: bool = False  # the fastest wins: the clock counts up, and results compare the stages' times

@@ -8,7 +8,7 @@ from pigaming_app.games.game import Game
 from pigaming_app.games.pitanks import PITANKS
 from pigaming_app.games.race import RACE
 from pigaming_app.sim.kernel import add_sources
-from pigaming_app.storage.plugins.parts import RULES, parts, plugins
+from pigaming_app.storage.plugins.parts import RULES, kernel_sources, parts, plugins
 
 OURS = {game.name: game for game in (PITANKS, FACTORY, RACE)}
 
@@ -17,7 +17,7 @@ OURS = {game.name: game for game in (PITANKS, FACTORY, RACE)}
 def games() -> Mapping[str, Game]:
     """Every game by its name, in the order of the title screen."""
     for plugin in plugins():
-        add_sources(plugin.folder)
+        add_sources(plugin.folder, kernel_sources(plugin))
     return {**OURS, **parts(RULES, "GAME", Game, _unusable)}
 
 
@@ -25,4 +25,7 @@ def _unusable(name: str, game: Game) -> str:
     """The reason why a plug-in's game cannot be used, or nothing."""
     if name in OURS:
         return f"there is a game {name} already"
-    return "" if game.name == name else f"its game is named {game.name}, not {name}"
+    if game.name != name:
+        return f"its game is named {game.name}, not {name}"
+    arena = next(plugin.folder for plugin in plugins() if plugin.name == name) / "arenas" / f"{game.arena}.toml"
+    return "" if arena.is_file() else f"arenas/{arena.name} is missing"

@@ -4,7 +4,6 @@ from collections.abc import Collection, Iterable, Mapping
 
 from pigaming_app.games.game import Outcome, Row
 
-ROUND_MINUTES = 1
 BEST_OF = (1, 3)  # the choices; 1: an ordinary match
 
 

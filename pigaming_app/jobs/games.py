@@ -26,23 +26,25 @@ def options(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace) -> int:
     """List the games, or switch one from the next start on. Raises Refusal, NotSaved."""
-    plugins = {plugin.name: plugin for plugin in found()}
+    plugins = found()
     if arguments.word != "list":
+        named = {plugin.name: plugin for plugin in reversed(plugins)}
         with refused(ValueError):
-            require_one_of("game to switch", arguments.game or "", list(plugins))
-        switch(arguments.game, arguments.word == "on")
+            require_one_of("game to switch", arguments.game or "", list(named))
+        switch(named[arguments.game].key, arguments.word == "on")
         print(f"{arguments.game} is {arguments.word}, from the next start on")
         return 0
-    states = {name: STATES[is_on(plugin)] for name, plugin in plugins.items()}
     playing = games()
     if arguments.json:
-        folders = {name: str(plugin.folder) for name, plugin in plugins.items()}
-        listed = [{"game": name, "state": state, "folder": folders[name]} for name, state in states.items()]
+        listed = [
+            {"game": plugin.name, "state": STATES[is_on(plugin)], "folder": str(plugin.folder), "origin": plugin.origin}
+            for plugin in plugins
+        ]
         print(json.dumps({"own": list(OURS), "plugins": listed, "failures": failures(), "folder": str(user_folder())}))
         return 0
     print(f"{', '.join(OURS)}: always there")
-    for name, state in states.items():
-        reason = "" if state != "on" or name in playing else ", left out"
-        print(f"{name}: {state}{reason}, in {plugins[name].folder}")
+    for plugin in plugins:
+        left_out = plugin.fault or (is_on(plugin) and plugin.name not in playing)
+        print(f"{plugin.name}: {STATES[is_on(plugin)]}{', left out' if left_out else ''}, in {plugin.folder}")
     print(f"more: packages in {user_folder()}, or `main.py new-game NAME`")
     return 0

@@ -16,7 +16,7 @@ from pigaming_app.ai.registry import known_brains, new_match
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.games.rounds import BEST_OF, ROUND_MINUTES, Rounds
+from pigaming_app.games.rounds import BEST_OF, Rounds
 from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.jobs.arcade import needs_supervisor, ros_options, ros_width, show, supervised
 from pigaming_app.jobs.terminal.options import (
@@ -89,7 +89,9 @@ def _play(arguments: Namespace) -> int:
     names = known_brains(arguments.game, seats)
     rounds = _rounds(arguments)
     arena, seed, variant = arguments.arena, arguments.seed, arguments.variant
-    minutes = ROUND_MINUTES if rounds and arguments.minutes is None else arguments.minutes
+    minutes = arguments.minutes
+    if rounds and minutes is None:
+        minutes = games()[arguments.game].round_minutes
     setup = make_setup(arguments.game, seats, arena, minutes, seed, variant, _teams(arguments.teams), names, wanted)
     speed = _speed(arguments.speed)
     real_seats = _real_seats(arguments, setup, speed)

@@ -11,7 +11,7 @@ import contextlib
 import hashlib
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -25,7 +25,7 @@ _registered: list[tuple[Callable[..., Any], Callable[..., Any], dict[str, str]]]
 
 PACKAGE = Path(__file__).resolve().parent.parent
 COMPILED = ("sim", "games", "ai", "gym")  # rooms with kernels
-_added: list[Path] = []  # folders of other packages with kernels
+_added: dict[Path, tuple[Path, ...]] = {}  # folders of other packages, and their modules with kernels
 
 
 def kernel(function: F) -> F:
@@ -53,10 +53,10 @@ def kernel_with_loops(loops: Callable[..., Any]) -> Callable[[F], F]:
     return register
 
 
-def add_sources(folder: Path) -> None:
-    """Count the modules in a folder among the sources of kernels. To be called before anything is compiled."""
+def add_sources(folder: Path, modules: Iterable[Path]) -> None:
+    """Count modules in a folder among the sources of kernels. To be called before anything is compiled."""
     if folder not in _added:
-        _added.append(folder)
+        _added[folder] = tuple(modules)
         _source_hash.cache_clear()
 
 
@@ -122,10 +122,11 @@ def _cache_folder() -> Path:
 
 @cache
 def _source_hash() -> str:
-    """SHA-256 over the paths and texts of all modules in rooms with kernels, and in added folders."""
+    """SHA-256 over the paths and texts of all modules in rooms with kernels, and of added ones."""
     sha = hashlib.sha256()
-    for folder in (*(PACKAGE / room for room in COMPILED), *sorted(_added)):
-        for path in sorted(folder.rglob("*.py")):
+    ours = {PACKAGE / room: tuple((PACKAGE / room).rglob("*.py")) for room in COMPILED}
+    for folder, modules in sorted((ours | _added).items()):
+        for path in sorted(modules):
             sha.update(path.relative_to(folder.parent).as_posix().encode())
             sha.update(path.read_bytes().replace(b"\r\n", b"\n"))
     return sha.hexdigest()

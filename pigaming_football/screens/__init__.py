@@ -74,6 +74,5 @@ SCREENS = GameScreens(
     confetti=footballs,
     team_colors=True,
     lessons=LESSONS,
-    lesson_pages=("party",),
     signs=SIGNS,
 )

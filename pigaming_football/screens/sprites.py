@@ -4,8 +4,11 @@ import math
 
 import pygame
 
+from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites.factory import TEAMS
+from pigaming_app.scenes.views.walled_background import Starts, walled_floor
 from pigaming_app.ui.draw import (
+    ADD,
     FOCUS,
     HAIR,
     ICE,
@@ -20,6 +23,7 @@ from pigaming_app.ui.draw import (
     mix,
     regular_polygon,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.sprites import Sprite, faded, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -164,11 +168,16 @@ MARGIN = 96  # px of the pitch's picture around it
 
 
 @cached
-def pitch(half: float) -> pygame.Surface:
-    """All lines and both goals of the arena's pitch, as light, with MARGIN px around it."""
+@resumable
+def pitch(starts: Starts, half: float) -> Steps[pygame.Surface]:
+    """The floor with all lines and both goals; `half`: half the width of these, px."""
     w, h = 1600, 900
+    out = walled_floor(starts).copy()
+    yield
     ink = GlowCanvas(w + 2 * MARGIN, h)
     draw_lines(ink, MARGIN, 0, w, h, half)
     draw_goal(ink, 0, MARGIN - 2, h / 2, half)
     draw_goal(ink, 1, MARGIN + w + 2, h / 2, half)
-    return ink.lit(0.7)
+    yield
+    out.blit((yield from ink.lit_steps(0.7)), (LEFT - MARGIN, TOP), special_flags=ADD)
+    return out

@@ -1,14 +1,14 @@
 """View of Robot Football: pitch, goals, the rolling ball, its trail and charge, and the celebration of a goal."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import pygame
 
-from pigaming_app.scenes.views.background import HUD_HEIGHT, LEFT, TOP, Bit
+from pigaming_app.scenes.views.background import TOP, Background, Bit
 from pigaming_app.scenes.views.hud.parts import CLOCK
 from pigaming_app.scenes.views.hud.score import ScoreHud
 from pigaming_app.scenes.views.rumble import GIVEN
@@ -16,8 +16,9 @@ from pigaming_app.scenes.views.simple import SimpleView, on_canvas
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
+from pigaming_app.scenes.views.walled_background import Starts
 from pigaming_app.sim.arena import Arena
-from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, PLAYERS, PRE
+from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, PLAYERS
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import Batch, put, step
@@ -40,8 +41,8 @@ SHOUT_Y = 190.0  # px, of the announcement of a goal
 class FootballHud(ScoreHud):
     """Points of robots and teams; words in place of the clock while the next goal wins."""
 
-    def __init__(self, view: "FootballView", state: Any, players: list[str], words: Words | None) -> None:
-        super().__init__(view.background, state, players)
+    def __init__(self, background: Background, state: Any, players: list[str], words: Words | None) -> None:
+        super().__init__(background, state, players)
         self.lines = words("football.golden_goal").split("|") if words else []
         self.size = min((fit_size(line, LABEL, CLOCK.w - 24) for line in self.lines), default=LABEL)
 
@@ -66,12 +67,8 @@ class FootballView(SimpleView):
     def __init__(
         self, arena: Arena, state: Any, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
-        robots = state.robots
-        indices = start_indices([robot.team for robot in robots], [bool(robot.present) for robot in robots])
-        super().__init__(replace(arena, starts=tuple(arena.starts[k] for k in indices)), state, players, options, words)
-        self.hud = FootballHud(self, state, players, words)
+        super().__init__(arena, state, players, options, words)
         self.shout = words("football.goal") if words else ""
-        self.half, self.baked = state.mouth, False
         ball = state.ball
         self.was = self.now = (ball.x, ball.y)
         self.velocity = (ball.vx, ball.vy)
@@ -79,16 +76,21 @@ class FootballView(SimpleView):
         self.tail: list[tuple[float, float, float]] = []  # x, y, time
         self.goals, self.holder, self.out = state.goals, ball.holder, ball.out
         self.goal_at, self.goal_from, self.scorer = -9.0, (0.0, 0.0), 0
-        self.above: Batch = []  # the ball, which lies over the robots' barrels
-        self.add_prewarm_jobs(self.more_jobs())
 
-    def more_jobs(self) -> Iterator[Job]:
-        """Prewarm jobs of the pitch and the announcement of goals."""
-        yield self.bake_pitch
-        for side in (0, 1):
-            yield partial(self.announcement, side)
+    def starts(self, arena: Arena, state: Any) -> Starts:
+        robots = state.robots
+        indices = start_indices([robot.team for robot in robots], [bool(robot.present) for robot in robots])
+        return super().starts(replace(arena, starts=tuple(arena.starts[k] for k in indices)), state)
+
+    def floor(self, starts: Starts, state: Any) -> Callable[[], pygame.Surface]:
+        return partial(sprites.pitch, starts, state.mouth)
+
+    def make_hud(self, state: Any) -> FootballHud:
+        return FootballHud(self.background, state, self.players, self.words)
 
     def sprites(self) -> Iterator[Job]:
+        for side in (0, 1):
+            yield partial(self.announcement, side)
         yield sprites.shadow
         for level in range(1, sprites.TRAIL + 1):
             yield partial(sprites.trail, level, False)
@@ -105,22 +107,12 @@ class FootballView(SimpleView):
         for left in range(0, 49, 4):
             yield partial(effects.timer_ring, ICE, left, 34)
 
-    def bake_pitch(self) -> None:
-        """Bake the lines into the background, before its walls."""
-        if not self.baked:
-            self.baked = True
-            box = pygame.Rect(LEFT - sprites.MARGIN, HUD_HEIGHT, 1600 + 2 * sprites.MARGIN, 1080 - HUD_HEIGHT)
-            self.background.bake(box, [(sprites.pitch(self.half), (LEFT - sprites.MARGIN, TOP), None)])
-
     def announcement(self, side: int) -> LitImage:
         """The word for a goal, in the colour of the side that has scored."""
         return text(self.shout, fit_size(self.shout, HERO, 1000), TEAMS[side], "head")
 
     def draw(self, screen: pygame.Surface, state: Any, blend: float, seconds: float) -> None:
-        self.bake_pitch()
-        self.above = []
         super().draw(screen, state, blend, seconds)
-        screen.fblits(self.above, PRE)
         since = self.particles.clock - self.goal_at
         if self.shout and since < CHEER:
             rise = 1.0 - (1.0 - min(1.0, since / 0.25)) ** 3
@@ -129,14 +121,11 @@ class FootballView(SimpleView):
     # ---- the ball
 
     def marks(self, under: Batch, over: Batch, state: Any, blend: float) -> None:
-        ball, now = state.ball, self.particles.clock
-        gold = ball.worth > 1
-        if now - self.goal_at < CHEER:
-            self.draw_netted(now - self.goal_at)
+        ball, now, gold = state.ball, self.particles.clock, state.ball.worth > 1
         if ball.out:
             self.draw_waiting(under, state, gold)
             return
-        x, y = (self.was[i] + (self.now[i] - self.was[i]) * blend for i in (0, 1))
+        x, y = self.ball_at(blend)
         for tx, ty, at in self.tail:
             level = math.ceil(sprites.TRAIL * (1.0 - (now - at) / 0.22))
             if level > 0:
@@ -144,8 +133,22 @@ class FootballView(SimpleView):
         put(under, sprites.shadow(), *on_canvas(x, y))
         if ball.holder:
             self.draw_charge(under, state, ball.holder - 1, x, y)
-        turn, phase = step(self.direction, sprites.DIRECTIONS), step(self.rolled, sprites.PHASES)
-        put(self.above, sprites.ball(turn, phase, gold), *on_canvas(x, y))
+
+    def above(self, light: Batch, top: Batch, state: Any, blend: float) -> None:
+        """The ball, which lies over the robots' barrels."""
+        ball, since = state.ball, self.particles.clock - self.goal_at
+        if since < CHEER:
+            self.draw_netted(top, since)
+        if not ball.out:
+            turn, phase = step(self.direction, sprites.DIRECTIONS), step(self.rolled, sprites.PHASES)
+            put(top, sprites.ball(turn, phase, ball.worth > 1), *on_canvas(*self.ball_at(blend)))
+        elif ball.out < waiting(state) - 25:
+            put(top, sprites.ball(0, 0, ball.worth > 1), *on_canvas(ball.x, ball.y))
+
+    def ball_at(self, blend: float) -> tuple[float, float]:
+        """Where the ball is between the last two ticks, px in the arena."""
+        (x, y), (to_x, to_y) = self.was, self.now
+        return x + (to_x - x) * blend, y + (to_y - y) * blend
 
     def draw_charge(self, under: Batch, state: Any, seat: int, x: float, y: float) -> None:
         """The ring that fills with the charge, and the line of the shot."""
@@ -161,9 +164,8 @@ class FootballView(SimpleView):
 
     def draw_waiting(self, under: Batch, state: Any, gold: bool) -> None:
         """The ball before it is dropped, in a ring that empties, with the way that it will roll."""
-        ball, rules = state.ball, state.rules
-        whole = rules.celebration if ball.roll else rules.warning
-        left = 4 * math.ceil(12 * min(1.0, ball.out / whole))
+        ball = state.ball
+        left = 4 * math.ceil(12 * min(1.0, ball.out / waiting(state)))
         at = on_canvas(ball.x, ball.y)
         put(under, effects.timer_ring(FOCUS if gold else ICE, left, 34), *at)
         if ball.roll:
@@ -171,15 +173,13 @@ class FootballView(SimpleView):
             pulse = 0.5 - 0.5 * math.cos(math.tau * self.particles.clock)
             far = (58 + 10 * pulse) * (1 if right else -1)
             put(under, sprites.kick_off_arrow(right), at[0] + far, at[1])
-        if ball.out < whole - 25:
-            put(self.above, sprites.ball(0, 0, gold), *at)
 
-    def draw_netted(self, since: float) -> None:
+    def draw_netted(self, top: Batch, since: float) -> None:
         """The ball of the last goal, which comes to rest in the net."""
         share = 1.0 - (1.0 - min(1.0, since / NETTED)) ** 2
         x, y = self.goal_from
         x += (-1 if x < 800 else 1) * 34 * share
-        put(self.above, sprites.ball(0, step(share * 3.0, sprites.PHASES), False), *on_canvas(x, y))
+        put(top, sprites.ball(0, step(share * 3.0, sprites.PHASES), False), *on_canvas(x, y))
 
     # ---- events
 
@@ -253,3 +253,8 @@ class FootballView(SimpleView):
             if side_of(state.robots[seat]) == self.scorer:
                 self.rumbles[seat] = GIVEN
         return [(JINGLES[self.scorer], None, self.goal_from[0]), ("rush", None, self.goal_from[0])]
+
+
+def waiting(state: Any) -> int:
+    """Ticks for which the ball is out before it is dropped."""
+    return int(state.rules.celebration if state.ball.roll else state.rules.warning)

@@ -92,6 +92,17 @@ def test_overtime_and_goals_have_words_that_fit(screen, language):
     assert view.announcement(0).image.get_width() < 1200
 
 
+def test_the_lines_of_the_pitch_reach_the_walls(screen):
+    """They are part of the floor, which is drawn again round a wall."""
+    football = match(arena="bumpers")
+    view = view_of(football)
+    for _ in range(20):
+        view.draw(screen, football.state, 1.0, 0.02)
+    post = min((wall for wall in football.state.walls if wall.ax == wall.bx == 800.0), key=lambda wall: wall.by)
+    for y in range(round(post.by + post.half) + 12, 290):
+        assert max(screen.get_at((160 + 800, 140 + y))[:3]) > 40, y
+
+
 def test_all_languages_have_the_same_texts():
     tables = [tomllib.loads((TEXTS / f"{language}.toml").read_text(encoding="utf-8")) for language in LANGUAGES]
     keys = [{(table, key) for table, texts in texts_of.items() for key in texts} for texts_of in tables]

@@ -211,7 +211,7 @@ def test_a_worker_stands_on_the_other_side_of_a_machine_where_a_thing_covers_its
 @pytest.mark.parametrize("game", games())
 def test_a_match_with_things_is_replayed_bit_by_bit(game):
     arena = next(playable(game, arenas(game)[0], range(20), 3))
-    match = match_of(game, arena, "hand2")
+    match = match_of(game, arena, "level2")
     for _ in range(300):
         match.tick()
     replay = decode(encode(match), "match.replay")

@@ -4,8 +4,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from functools import partial
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
+
+import pytest
 
 from pigaming_app.ai.game_ai import ONE_BUTTON, POINT
 from pigaming_app.ai.registry import AIS
@@ -47,7 +50,9 @@ from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.operator.figures_page import FiguresPage
 from pigaming_app.scenes.operator.page import OperatorPage
+from pigaming_app.scenes.options import games_page
 from pigaming_app.scenes.options.controls_test import ControlsTest
+from pigaming_app.scenes.options.new_game import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
 from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
@@ -62,6 +67,7 @@ from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable
@@ -347,6 +353,28 @@ def locked_phone(arcade: Arcade) -> Scene:
     return Reconnect(scene, 3)
 
 
+PLUGINS = (
+    *found(),
+    Plugin("robot_sumo_tournament_24", "sumo.game", Path("/opt/sumo/game"), origin="robot-sumo-tournament 10.10.1"),
+    *(Plugin(f"game_{i}", f"game_{i}", Path(f"/home/a.long.name/.local/share/pigaming/games/{i}")) for i in range(9)),
+    Plugin(
+        "football", "soccer", Path("/opt"), fault="there is one in /home/pigaming/PiGaming/pigaming_football already"
+    ),
+)
+
+
+def added_games(arcade: Arcade, first: int = 0) -> Scene:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(games_page, "found", lambda: PLUGINS)
+        return games_page.GamesPage(arcade.context, first)
+
+
+def new_game(arcade: Arcade, state: str) -> Scene:
+    page = NewGame(arcade.context, PLUGINS[1] if state == "plays" else PLUGINS[5])
+    page.state = state
+    return page
+
+
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "events": events,
     **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
@@ -405,6 +433,9 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     },
     "remap": lambda arcade: RemapPage(arcade.context),
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
+    "added games": added_games,
+    "added games that failed": partial(added_games, first=6),
+    **{f"new game, {state}": partial(new_game, state=state) for state in ("question", "plays", "stays_off", "unsaved")},
     "pad test": lambda arcade: ControlsTest(arcade.context),
     "pause": lambda arcade: Pause(match(arcade), KEYS[0]),
     "reconnect": lambda arcade: Reconnect(match(arcade), 3),

@@ -21,7 +21,7 @@ PERIOD = 5  # ticks between decisions: 10 Hz
 
 @dataclass(frozen=True)
 class Encoding:
-    """Inputs and outputs of a game's networks. `encode` and `act` are kernels.
+    """Inputs and outputs of a game's networks, an even number each. `encode` and `act` are kernels.
 
     - `encode(match, seat, senses, inputs)` fills `inputs`, which has the length `size`.
     - `act(match, seat, choices)` sets the seat's action from one choice for each head.

@@ -15,6 +15,7 @@ from typing import Any
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, unpack, verify
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, Handicap, Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.networks.thoughts import make_explain
@@ -113,9 +114,10 @@ def brain_of(trained: TrainedNetwork) -> BrainKind:
 def explained_brain(
     name: str, game: str, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
 ) -> BrainKind:
-    """A brain by a network of a game, with its explanation."""
+    """A brain by a network of a game, with its explanation if the game has a `Subject`."""
     encoding = ENCODINGS[game]
-    return replace(network_brain(name, encoding, weights, handicap), explain=make_explain(encoding))
+    brain = network_brain(name, encoding, weights, handicap)
+    return replace(brain, explain=make_explain(encoding)) if game in SUBJECTS else brain
 
 
 def policy_of(trained: TrainedNetwork) -> Policy:

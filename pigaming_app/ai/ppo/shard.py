@@ -237,7 +237,9 @@ class Shard:
                 self.minds["row"][i, seat] = len(self.cast.weights[self._number]) + random.integers(pool)
             if name != OFF:
                 family = self._number if name in LEARNERS else int(self.minds["family"][i, seat])
-                self.minds[f"mind{family}"]["random"][i, seat] = random.integers(MASK + 1)
+                drawn, mind = random.integers(MASK + 1), self.minds[f"mind{family}"]
+                if "random" in mind.dtype.names:
+                    mind["random"][i, seat] = drawn
             if name in (LEARNER, POOL) and EXPLOITER not in line_up.seats:
                 for field, value in self.task.habits(random).items():
                     self.minds[f"mind{self._number}"]["senses"][field][i, seat] = value

@@ -71,7 +71,7 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
         hyper = changed(task.hyper, arguments.set)
         training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
     except ValueError as wrong:
-        raise Refusal(f"--set: {wrong}") from None
+        raise Refusal(f"--set: {wrong}" if arguments.set else str(wrong)) from None
     if arguments.resume:
         restore(training, beside)
     return training

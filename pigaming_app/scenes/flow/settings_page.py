@@ -42,6 +42,7 @@ class SettingsPage:
 
     def __init__(self, context: Context, table: str, title: str, rows: Sequence[str], hold: float = 1.0) -> None:
         self.context, self.table, self.title, self.rows = context, table, title, tuple(rows)
+        self.subtitle = ""  # key of the text beside the heading
         self.clock = 0.0
         self.focus = Focus(dials.spots(self.rows))
         self.holding = HoldTimers(context.controls, hold)
@@ -49,6 +50,14 @@ class SettingsPage:
         self.navigation = Navigation(context, self.focus, HINTS, IDLE, SENTENCE_SECONDS)
 
     # ---- of the page
+
+    def label(self, name: str) -> str:
+        """The name of a row."""
+        return self.context.words(f"{self.table}.{name}")
+
+    def line(self, name: str) -> str:
+        """The description of a row."""
+        return self.context.words(f"{self.table}.{name}_line")
 
     def value(self, name: str) -> SettingValue:
         """The value of a row."""
@@ -111,12 +120,12 @@ class SettingsPage:
     def draw(self, screen: pygame.Surface) -> None:
         words, focus = self.context.words, self.focus.name
         screen.blit(backdrop(), (0, 0))
-        heading(words(self.title)).draw(screen)
+        heading(words(self.title), words(self.subtitle) if self.subtitle else "").draw(screen)
         black_out(screen, dials.PANEL)
         values = {name: self.value(name) for name in self.rows}
-        dials.draw(screen, words, self.focus, self.table, values)
+        dials.draw_rows(screen, self.focus, {name: self.label(name) for name in self.rows}, values)
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
-        dials.describe(screen, words(f"{self.table}.{focus}"), words(f"{self.table}.{focus}_line"))
+        dials.describe(screen, self.label(focus), self.line(focus))
         self.draw_picture(screen, focus, values[focus].chosen)
         if self.holding.share:
             dials.ring(screen, self.holding.share)
@@ -140,12 +149,10 @@ class SettingsPage:
 
     def _prewarm_jobs(self) -> Iterator[Job]:
         """Jobs for the widgets that the next focus move needs, so that it need not wait for them."""
-        words = self.context.words
         for name in self.rows:
-            key = f"{self.table}.{name}"
-            yield partial(dials.label, words(key), True)
+            yield partial(dials.label, self.label(name), True)
             yield partial(self._focused_value, name)
-            yield partial(dials.description, words(key), words(f"{key}_line"))
+            yield partial(dials.description, self.label(name), self.line(name))
             yield partial(self._picture, name)
 
     def _focused_value(self, name: str) -> object:

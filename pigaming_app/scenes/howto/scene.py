@@ -9,7 +9,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_minutes, last_variant, limits_line
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE, LessonPicture
-from pigaming_app.scenes.views.registry import SCREENS
+from pigaming_app.scenes.views.registry import SCREENS, shown_games
 from pigaming_app.ui.draw import (
     BLACK,
     BODY,
@@ -149,7 +149,7 @@ class HowTo:
 
 def taught() -> list[str]:
     """The games that have lessons."""
-    return [game for game, screens in SCREENS.items() if screens.lessons]
+    return [game for game in shown_games() if SCREENS[game].lessons]
 
 
 @cached

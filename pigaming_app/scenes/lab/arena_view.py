@@ -14,9 +14,9 @@ import pygame
 
 from pigaming_app.games.pitanks.state import OWN_BULLETS
 from pigaming_app.scenes.lab.layout import ARENA, MATCH, SCALE
-from pigaming_app.scenes.views.pitanks.background import wall_sprite
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
+from pigaming_app.scenes.views.walled_background import wall_sprite
 from pigaming_app.sim.world import SOLID
 from pigaming_app.ui.draw import ADD, PLAYERS, PRE, GlowCanvas, dim
 from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue

@@ -8,10 +8,10 @@ import pygame
 from pigaming_app import ASSETS
 from pigaming_app.ai.registry import level_of
 from pigaming_app.events.league_files import Ratings, Strength, ratings_of
-from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.plugins.parts import data_folders
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import (
@@ -68,7 +68,7 @@ class Strengths:
         """LEFT and RIGHT change the game, any button leaves."""
         event = self.prompts.as_button(event)
         if event.button in (Button.LEFT, Button.RIGHT):
-            names = list(games())
+            names = shown_games()
             step = 1 if event.button is Button.RIGHT else -1
             self._show(names[(names.index(self.game) + step) % len(names)])
             self.context.sounds.play("move")

@@ -12,7 +12,7 @@ import pygame
 
 from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
 from pigaming_app.games.registry import games
-from pigaming_app.games.rounds import ROUND_MINUTES, Rounds
+from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, load_cached, playable_arenas
@@ -213,12 +213,12 @@ class MatchSetupPage:
     @property
     def minutes(self) -> Sequence[int]:
         """The choices of minutes; of a match of several rounds only one."""
-        return self.variant.minutes if self.chosen.rounds == 1 else (ROUND_MINUTES,)
+        return self.variant.minutes if self.chosen.rounds == 1 else (self.game.round_minutes,)
 
     @property
     def _minutes(self) -> int:
         """The minutes of the match, or of one of its rounds."""
-        return self.chosen.minutes if self.chosen.rounds == 1 else ROUND_MINUTES
+        return self.chosen.minutes if self.chosen.rounds == 1 else self.game.round_minutes
 
     def _round_labels(self) -> tuple[str, ...]:
         return tuple(self.context.words(f"setup.rounds_{count}") for count in self.game.rounds)

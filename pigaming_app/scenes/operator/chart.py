@@ -1,6 +1,6 @@
 """The chart of a day: matches per hour as bars, stacked by game."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from itertools import cycle
 
 from pigaming_app.events.day_report import DayReport
@@ -17,7 +17,7 @@ LEGEND_Y = 868
 Bars = tuple[tuple[int, tuple[int, ...]], ...]  # hour, and its matches by game
 
 
-def bars_of(report: DayReport, games: Mapping[str, object]) -> Bars:
+def bars_of(report: DayReport, games: Sequence[str]) -> Bars:
     """Bars of at least FEWEST_HOURS successive hours round those with matches; other games count as the last one."""
     hours, names = report.hours, list(games)
     first, last = (min(hours), max(hours)) if hours else (9, 16)

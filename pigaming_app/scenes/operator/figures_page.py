@@ -7,11 +7,11 @@ import pygame
 
 from pigaming_app.events.day_log import days, now
 from pigaming_app.events.day_report import DayReport, report_of, to_csv
-from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Home, StackOperation
 from pigaming_app.scenes.operator.chart import bars_of, chart
+from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
@@ -81,7 +81,8 @@ class FiguresPage:
         draw_arrows(screen, self.arrows)
         black_out(screen, PANEL)
         frame(*PANEL.size).draw(screen, *PANEL.topleft)
-        chart(bars_of(report, games()), tuple(words(f"events.short_{game}") for game in games())).draw(screen)
+        names = shown_games()
+        chart(bars_of(report, names), tuple(words(f"events.short_{game}") for game in names)).draw(screen)
         if not report.matches:
             text(words("operator.no_matches"), LABEL, MIST, "head", "c", 900).draw(screen, 675, 520)
         for i, (name, value, color) in enumerate(lines(words, report, self.trouble)):

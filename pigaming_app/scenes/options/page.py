@@ -22,14 +22,15 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 CLEAR = 2.0  # seconds for which a button is held to clear the high scores
 FLASHES = ("off", "soft", "full")
-ROWS = ("language", "picture", "controls", "ease", "robots", "day", "reset")
+ROWS = ("language", "picture", "controls", "ease", "robots", "games", "day")
 SECTIONS: dict[str, tuple[str, ...]] = {
     "picture": ("music", "sounds", "display", "fullscreen"),
     "controls": ("rumble", "padtest", "remap", "phones"),
     "ease": ("calm", "flashes", "shake", "large"),
+    "games": ("added", "reset"),
 }
 FOR_CHILDREN = {"language", "rumble", "padtest", *SECTIONS["ease"]}
-OPENING = ("padtest", "phones", "robots", "day", "remap", *SECTIONS)  # rows that open a page
+OPENING = ("padtest", "phones", "robots", "added", "day", "remap", *SECTIONS)  # rows that open a page
 log = logging.getLogger("pigaming")
 
 
@@ -111,6 +112,10 @@ class OptionsPage(SettingsPage):
             from pigaming_app.scenes.robots.menu import RobotsMenu
 
             return RobotsMenu(self.context)
+        if name == "added":
+            from pigaming_app.scenes.options.games_page import GamesPage
+
+            return GamesPage(self.context)
         if name == "day":
             from pigaming_app.scenes.operator.page import OperatorPage
 

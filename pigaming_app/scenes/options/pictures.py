@@ -135,6 +135,11 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
         for x, lit in ((-84, STEEL), (84, FOCUS)):
             ink.line(cut_box(x - 52, -52, 104, 104, 14), lit, LINE, True)
         ink.line([(-20, 0), (20, 0)], ICE, LINE).line([(6, -14), (20, 0), (6, 14)], ICE, LINE)
+    elif name in ("games", "added"):
+        for i, (x, y) in enumerate(((-110, -62), (10, -62), (-110, 22), (10, 22))):
+            last = i == 3 and (beat or name == "games")
+            ink.line(cut_box(x, y, 100, 68, 12), FOCUS if last else STEEL, LINE, True)
+        icon(ink, "plus", 60, 56, 20, FOCUS, LINE)
     elif name == "robots":
         ink.ring(0, 0, 104, FOCUS, LINE).line(cut_box(-46, -46, 92, 92, 4), ICE, LINE, True)
         ink.fill([(-30, -30), (0, -30), (0, 0), (-30, 0)], ICE).fill([(0, 0), (30, 0), (30, 30), (0, 30)], ICE)

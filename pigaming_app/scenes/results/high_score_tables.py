@@ -75,7 +75,7 @@ def contests(scores: Scores) -> list[ScoreTable]:
     """The contests with displayable rows, by game and arena, older ones last in each arena."""
     known = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
     names = list(games())
-    return sorted(known, key=lambda c: (names.index(c.game), c.arena != "classic", c.arena, c.older, c))
+    return sorted(known, key=lambda c: (names.index(c.game), c.arena != games()[c.game].arena, c.arena, c.older, c))
 
 
 def format_score(value: int, feat: RecordKind | ScoreTable) -> str:

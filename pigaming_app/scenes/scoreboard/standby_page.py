@@ -13,12 +13,14 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.high_score_tables import format_score
 from pigaming_app.scenes.scoreboard import text
 from pigaming_app.scenes.scoreboard.event_now import event_now, next_line
+from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
 
 ROWS = 4
+COLUMNS = 4  # games at most, those with results first
 TOP, H, GAP, LEFT, W = 420, 600, 36, 60, 1800
 INSET = 36  # px, from a column to its texts
 FOOT: Box = (LEFT, 930, W, 110)
@@ -46,7 +48,7 @@ class StandbyPage:
         if following:
             parts.append(Part(FOOT, following, partial(_foot, following)))
         rows, h = (ROWS - 1, H - FOOT[3]) if following else (ROWS, H)
-        names = list(games())
+        names = sorted(shown_games(), key=lambda game: not best_today(self.context.scores, game, words)[1])[:COLUMNS]
         w = (W - GAP * (len(names) - 1)) // len(names)
         size = min(fit_size(words(f"games.{game}"), SUB, w - 2 * INSET, "head") for game in names)
         for i, game in enumerate(names):

@@ -24,6 +24,7 @@ from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.title.clip import Clip
+from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
@@ -43,7 +44,8 @@ class Attract:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.age = 0.0
-        names, first = list(games()), secrets.randbelow(len(games()))
+        names = shown_games()
+        first = secrets.randbelow(len(names))
         self.shows = (
             partial(make, game)
             for game in cycle(names[first:] + names[:first])

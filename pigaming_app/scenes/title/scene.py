@@ -14,6 +14,8 @@ from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
 from pigaming_app.scenes.views.game_tile import TileStrip, tile
 from pigaming_app.scenes.views.registry import shown_games
+from pigaming_app.storage.plugins.found import Plugin
+from pigaming_app.storage.plugins.parts import undecided
 from pigaming_app.ui.draw import (
     FOCUS,
     LINE,
@@ -54,6 +56,7 @@ class Title:
         self.focus = Focus(self._spots())
         self.lab: Scene | None = None
         self.music = True  # off in the quiet hours
+        self.asked: set[str] = set()  # new plug-ins that were asked about
 
     def on_enter(self) -> None:
         """Release the sprites of matches and start the music; in a kiosk, offer its rules and driving styles again."""
@@ -89,6 +92,11 @@ class Title:
 
             self.context.sounds.play("accept")
             return Push(OptionsPage(self.context, operator=True))
+        if plugin := self._new_plugin():
+            from pigaming_app.scenes.options.new_game import NewGame
+
+            self.asked.add(plugin.key)
+            return Push(NewGame(self.context, plugin))
         if self.context.idle > self.context.settings.attract_seconds and not self.context.preloader.busy:
             from pigaming_app.scenes.title.attract import Attract
 
@@ -110,6 +118,11 @@ class Title:
         words = self.context.words
         line = tagline(words, game, last_goal(self.context.settings, game))
         return tile(game, words(f"games.{game}"), line, self.focus.name == game)
+
+    def _new_plugin(self) -> Plugin | None:
+        """A plug-in that nobody has decided about yet; none in a kiosk, where the options are the place for it."""
+        new = () if self.context.kiosk else undecided()
+        return next((plugin for plugin in new if plugin.key not in self.asked), None)
 
     def _keep_quiet(self) -> None:
         """Stop the music when the quiet hours begin, and start it when they end."""

@@ -5,7 +5,8 @@ from collections.abc import Iterator, Mapping
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.game_screens import GameScreens
 from pigaming_app.scenes.views.games import factory, pitanks, race
-from pigaming_app.storage.plugins.parts import parts
+from pigaming_app.storage.plugins.parts import SCREENS as PART
+from pigaming_app.storage.plugins.parts import parts, stopped
 from pigaming_app.ui.i18n import english
 
 
@@ -19,6 +20,7 @@ def text_keys(name: str, screens: GameScreens) -> Iterator[str]:
         yield from (f"results.{column}" for column in variant.columns or game.columns)
     for feat in game.record_kinds:
         yield from (f"results.best_{feat.name}", f"setup.best_{feat.name}")
+    yield from (f"setup.rounds_{count}" for count in game.rounds if len(game.rounds) > 1)
     yield from (f"setup.count_{game.goal}", f"setup.{game.goal}") if game.goal else ()
     yield from (f"howto.{lesson}" for lesson in screens.lessons)
     yield from (f"howto.{screens.fire}",) if screens.fire else ()
@@ -34,10 +36,10 @@ SCREENS: Mapping[str, GameScreens] = {
     "pitanks": pitanks.SCREENS,
     "factory": factory.SCREENS,
     "race": race.SCREENS,
-    **parts("screens", "SCREENS", GameScreens, _lacks),
+    **parts(PART, "SCREENS", GameScreens, _lacks),
 }  # by game
 
 
 def shown_games() -> list[str]:
     """The games that can be played on the screen, in the order of the title."""
-    return [name for name in games() if name in SCREENS]
+    return [name for name in games() if name in SCREENS and name not in stopped()]

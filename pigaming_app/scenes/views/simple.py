@@ -1,6 +1,7 @@
 """View of a game with walls, robots and points, for other games to extend."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import pygame
@@ -8,11 +9,12 @@ import pygame
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.hud.score import ScoreHud, pulse
-from pigaming_app.scenes.views.pitanks.background import WalledBackground
 from pigaming_app.scenes.views.rumble import GIVEN
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import MatchView, SoundCue, ViewOptions
+from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
+from pigaming_app.scenes.views.walled_background import Starts, WalledBackground, walled_floor
 from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
@@ -22,19 +24,31 @@ ABOVE = 66  # px from a robot up to the points that it has just made
 
 
 class SimpleView(MatchView):
-    """Walls, robots, points. Subclasses may override `marks`, `sprites` and `events`."""
+    """Walls, robots, points. Subclasses override what differs: `starts`, `floor`, `make_hud`, called once; `marks`,
+    `draw_robot` and `above`, called for every picture; `sprites` and `events`.
+    """
 
     def __init__(
         self, arena: Arena, state: Any, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
-        seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        starts = tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats)
-        self.walls = WalledBackground(state, len(arena.walls), starts)
+        self.walls = WalledBackground(len(arena.walls), self.floor(self.starts(arena, state), state))
         super().__init__(state, players, options, words, self.walls, arena.things)
-        self.hud = ScoreHud(self.background, state, players)
+        self.hud = self.make_hud(state)
         self.scores = [robot.score for robot in state.robots]
         self.add_prewarm_jobs(self.hud.jobs())
         self.add_prewarm_jobs(self.sprites())
+
+    def starts(self, arena: Arena, state: Any) -> Starts:
+        """Where the robots start."""
+        return tuple((i, arena.starts[i].x, arena.starts[i].y) for i in range(ROBOTS) if state.robots[i].present)
+
+    def floor(self, starts: Starts, state: Any) -> Callable[[], pygame.Surface]:
+        """The renderer of all that lies under the walls, opaque: here grid, frame, and a mark at each start."""
+        return partial(walled_floor, starts)
+
+    def make_hud(self, state: Any) -> ScoreHud:
+        """The HUD, on `background` for `players`."""
+        return ScoreHud(self.background, state, self.players)
 
     def sprites(self) -> Iterator[Job]:
         """Prewarm jobs for sprites of its own."""
@@ -42,6 +56,14 @@ class SimpleView(MatchView):
 
     def marks(self, under: Batch, over: Batch, state: Any, blend: float) -> None:
         """Append what lies on the floor, as light (`under` robots) or opaque sprites (`over` the light)."""
+
+    def draw_robot(self, under: Batch, over: Batch, light: Batch, state: Any, seat: int, pose: Pose) -> None:
+        """Append a robot: its light on the floor, the robot itself, light above it."""
+        self.light_up(under, seat, pose, bool(state.robots[seat].boosting))
+        put(over, tank.tank(seat, step(pose[2], HEADINGS)), pose[0], pose[1])
+
+    def above(self, light: Batch, top: Batch, state: Any, blend: float) -> None:
+        """Append what lies above the robots, as light, or as opaque sprites on top of all."""
 
     def events(self, state: Any) -> list[SoundCue]:
         """Particles and sounds of the last tick; here those of points."""
@@ -74,9 +96,8 @@ class SimpleView(MatchView):
         top: Batch = []
         self.marks(under, over, state, blend)
         for seat in self.seats:
-            pose = self.pose(seat, blend)
-            self.light_up(under, seat, pose, bool(state.robots[seat].boosting))
-            put(over, tank.tank(seat, step(pose[2], HEADINGS)), pose[0], pose[1])
+            self.draw_robot(under, over, light, state, seat, self.pose(seat, blend))
+        self.above(light, top, state, blend)
         self.particles.draw_light(light)
         self.particles.draw_scores(top)
         self.paint(screen, under, over, light, top)

@@ -1,6 +1,7 @@
 """Which plug-ins may run: the operator switches each on or off. A new one runs only once it was switched on."""
 
 import json
+import re
 from pathlib import Path
 
 from pigaming_app.storage.parsing import parse_json
@@ -8,17 +9,18 @@ from pigaming_app.storage.plugins.found import NAME, Plugin
 from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
 from pigaming_app.storage.settings import NoHome, folders
 
-FILE = "games.json"  # in the configuration folder: {"tag": true, …}
+FILE = "games.json"  # in the configuration folder: {"tag": true, "chess@their_package": false, …}
+KEY = re.compile(rf"{NAME.pattern}(@[\w.]{{1,200}})?")
 
 
 def is_on(plugin: Plugin) -> bool | None:
     """Whether a plug-in may run; None if nobody has decided. What belongs to this program may, unless switched off."""
-    return _decisions().get(plugin.name, True if plugin.own else None)
+    return _decisions().get(plugin.key, True if plugin.own else None)
 
 
-def switch(name: str, on: bool) -> None:
-    """Switch a game on or off, from the next start on. Raises NotSaved."""
-    decisions = {**_decisions(), name: on}
+def switch(key: str, on: bool) -> None:
+    """Switch the plug-in with this key on or off, from the next start on. Raises NotSaved."""
+    decisions = {**_decisions(), key: on}
     write_with_backup(_file(), json.dumps(decisions, indent=1, sort_keys=True) + "\n")
 
 
@@ -35,7 +37,7 @@ def _parsed(text: str) -> dict[str, bool]:
     table = parse_json(text)
     if not isinstance(table, dict):
         raise ValueError("not a table")
-    return {name: on for name, on in table.items() if NAME.fullmatch(name) and isinstance(on, bool)}
+    return {key: on for key, on in table.items() if KEY.fullmatch(key) and isinstance(on, bool)}
 
 
 def _file() -> Path:

@@ -13,12 +13,13 @@ and folders `arenas`, `text` (LANGUAGE.toml), `sounds`, `brains`.
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
-from importlib.metadata import entry_points
+from dataclasses import dataclass, replace
+from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec
 from pathlib import Path
 
 from pigaming_app import INSTALLED, ROOT
+from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.plugins import user
 from pigaming_app.storage.settings import NoHome, folders
 
@@ -30,20 +31,33 @@ NAME = re.compile(r"[a-z][a-z0-9_]{0,23}")  # of a game
 
 @dataclass(frozen=True)
 class Plugin:
-    """A package with a game. `name`: of the game; `own`: it belongs to this program."""
+    """A package with a game. `name`: of the game; `own`: it belongs to this program; `fault`: why it cannot be loaded;
+    `origin`: the distribution that it was installed with.
+    """
 
     name: str
     module: str
     folder: Path
     own: bool = False
+    fault: str = ""
+    origin: str = ""
+
+    @property
+    def key(self) -> str:
+        """The name under which a decision is stored: an installed package is not the user's one of the same name."""
+        return f"{self.name}@{self.module}" if self.origin and not self.own else self.name
 
 
 def found() -> tuple[Plugin, ...]:
-    """All plug-ins: beside this package, in the user's folder, installed; each game once."""
-    every: dict[str, Plugin] = {}
+    """All plug-ins: beside this package, in the user's folder, installed. Of two with one name the second is faulty."""
+    every: list[Plugin] = []
     for plugin in (*_beside(), *_of_user(), *_installed()):
-        every.setdefault(plugin.name, plugin)
-    return tuple(every.values())
+        first = next((other for other in every if other.name == plugin.name), None)
+        if first is None:
+            every.append(plugin)
+        elif first.module != plugin.module:
+            every.append(replace(plugin, fault=f"there is one in {first.folder} already"))
+    return tuple(every)
 
 
 def user_folder() -> Path:
@@ -53,7 +67,7 @@ def user_folder() -> Path:
 
 def _beside() -> Iterator[Plugin]:
     if not INSTALLED:
-        for folder in _packages(ROOT):
+        for folder, _ in _packages(ROOT):
             name = folder.name.removeprefix(PREFIX)
             if folder.name.startswith(PREFIX) and name != "app" and NAME.fullmatch(name):
                 yield Plugin(name, folder.name, folder, own=True)
@@ -61,28 +75,50 @@ def _beside() -> Iterator[Plugin]:
 
 def _of_user() -> Iterator[Plugin]:
     try:
-        folders_of_user = _packages(user_folder())
+        packages = _packages(user_folder())
     except NoHome:
         return
-    for folder in folders_of_user:
+    for folder, fault in packages:
         if NAME.fullmatch(folder.name):
-            yield Plugin(folder.name, f"{user.__name__}.{folder.name}", folder)
+            yield Plugin(folder.name, f"{user.__name__}.{folder.name}", folder, fault=fault)
 
 
-def _packages(place: Path) -> list[Path]:
-    """The packages in a folder, by name."""
+def _packages(place: Path) -> list[tuple[Path, str]]:
+    """The packages in a folder, by name, and why one cannot be read."""
+    packages = []
     try:
-        return sorted(path.parent for path in place.glob("*/__init__.py"))
+        for folder in sorted(place.iterdir()):
+            try:
+                with (folder / "__init__.py").open("rb"):
+                    packages.append((folder, ""))
+            except (FileNotFoundError, NotADirectoryError):
+                pass
+            except OSError as error:
+                packages.append((folder, f"it cannot be read ({describe_error(error)})"))
     except OSError:
         return []
+    return packages
 
 
 def _installed() -> Iterator[Plugin]:
     for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
-        try:
-            spec = find_spec(entry.module)
-        except (ImportError, ValueError):
-            continue
-        if spec and spec.origin and NAME.fullmatch(entry.name):
-            own = entry.dist is not None and entry.dist.name == DISTRIBUTION
-            yield Plugin(entry.name, entry.module, Path(spec.origin).parent, own)
+        if NAME.fullmatch(entry.name) and entry.dist is not None:
+            folder = _folder_of(entry)
+            fault = "" if folder else f"{entry.module} is no package"
+            origin = f"{entry.dist.name} {entry.dist.version}"
+            own = entry.dist.name == DISTRIBUTION
+            yield Plugin(entry.name, entry.module, folder or Path(entry.module), own, fault, origin)
+
+
+def _folder_of(entry: EntryPoint) -> Path | None:
+    """The folder of an installed package; none of its parents is imported."""
+    first, *others = entry.module.split(".")
+    try:
+        spec = find_spec(first)
+    except (ImportError, ValueError):
+        return None
+    for place in (spec.submodule_search_locations or ()) if spec else ():
+        folder = Path(place, *others)
+        if (folder / "__init__.py").is_file():
+            return folder
+    return None

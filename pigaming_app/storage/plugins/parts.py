@@ -15,23 +15,47 @@ from typing import TypeVar
 from pigaming_app.storage.parsing import one_line
 from pigaming_app.storage.plugins.consent import is_on
 from pigaming_app.storage.plugins.found import Plugin, found
+from pigaming_app.storage.plugins.time_limit import time_limit
 
 T = TypeVar("T")
-RULES = ""  # the part in `__init__`
-ABOVE = ("ai", "network", "training", "screens")  # parts that do not determine how a match plays out
+RULES, SCREENS = "", "screens"  # parts; the rules are in `__init__`
+ABOVE = ("ai", "network", "training", SCREENS)  # parts that do not determine how a match plays out
 
-_failed: dict[str, str] = {}  # sentences by name
+LOADING = 20.0  # s, for one part
+
+_failed: dict[Plugin, str] = {}  # sentences
+_stopped: set[str] = set()  # names of games that failed while they played: their parts stay
 
 
 @cache
 def plugins() -> tuple[Plugin, ...]:
     """The plug-ins that may run, as they were when this was first called."""
-    return tuple(plugin for plugin in found() if is_on(plugin))
+    on = [plugin for plugin in found() if is_on(plugin)]
+    for plugin in on:
+        if plugin.fault:
+            _leave_out(plugin, plugin.fault)
+    return tuple(plugin for plugin in on if not plugin.fault)
+
+
+@cache
+def undecided() -> tuple[Plugin, ...]:
+    """The plug-ins that nobody had decided about when this was first called."""
+    return tuple(plugin for plugin in found() if is_on(plugin) is None and not plugin.fault)
 
 
 def failures() -> tuple[str, ...]:
     """One sentence for each plug-in that has failed so far: name, file, line, reason."""
     return tuple(_failed.values())
+
+
+def failure(plugin: Plugin) -> str:
+    """The sentence of a plug-in that has failed so far, else nothing."""
+    return _failed.get(plugin, "")
+
+
+def stopped() -> set[str]:
+    """The names of the games that failed while they played."""
+    return _stopped
 
 
 def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str] | None = None) -> dict[str, T]:
@@ -41,11 +65,11 @@ def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str
     """
     found: dict[str, T] = {}
     for plugin in plugins():
-        if plugin.name not in _failed and (value := _loaded(plugin, part, attribute)) is not None:
+        if plugin not in _failed and (value := _loaded(plugin, part, attribute)) is not None:
             if not isinstance(value, kind):
-                leave_out(plugin.name, f"{attribute} is no {kind.__name__}")
+                _leave_out(plugin, f"{attribute} is no {kind.__name__}")
             elif reason := fits(plugin.name, value) if fits else "":
-                leave_out(plugin.name, reason)
+                _leave_out(plugin, reason)
             else:
                 found[plugin.name] = value
     return found
@@ -54,27 +78,41 @@ def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str
 def data_folders(kind: str) -> Iterator[tuple[str, Path]]:
     """Name and folder of each plug-in that has not failed; `kind`: arenas, text, sounds, brains. It may be missing."""
     for plugin in plugins():
-        if plugin.name not in _failed:
+        if plugin not in _failed or plugin.name in _stopped:
             yield plugin.name, plugin.folder / kind
 
 
 def leave_out(name: str, reason: str) -> None:
     """End a plug-in from here on, with the reason."""
-    plugin = next(plugin for plugin in plugins() if plugin.name == name)
-    sentence = one_line(f"The game {plugin.name} in {plugin.folder} is left out: {reason}.")
-    _failed[plugin.name] = sentence
-    print(f"PiGaming: {sentence}", file=sys.stderr)
+    _leave_out(next(plugin for plugin in plugins() if plugin.name == name), reason)
+
+
+def blame(error: BaseException) -> str:
+    """The sentence of the plug-in in whose code an error arose, which is stopped; nothing if it arose elsewhere."""
+    for plugin in plugins():
+        if place := _place(plugin, error):
+            if plugin not in _failed:
+                _stopped.add(plugin.name)
+                _leave_out(plugin, f"{place}{type(error).__name__}: {error}")
+            return _failed[plugin]
+    return ""
 
 
 def rule_sources(name: str) -> tuple[Path, ...]:
     """The source files that determine how a match of a plug-in's game plays out; none for a game of this package."""
-    return tuple(
-        path
-        for plugin in plugins()
-        if plugin.name == name
-        for path in sorted(plugin.folder.rglob("*.py"))
-        if path.relative_to(plugin.folder).parts[0].removesuffix(".py") not in ABOVE
-    )
+    return tuple(path for plugin in plugins() if plugin.name == name for path in _sources(plugin, ABOVE))
+
+
+def kernel_sources(plugin: Plugin) -> tuple[Path, ...]:
+    """The source files of a plug-in with kernels: all but its screens."""
+    return tuple(_sources(plugin, (SCREENS,)))
+
+
+def _sources(plugin: Plugin, without: tuple[str, ...]) -> Iterator[Path]:
+    """The source files of a plug-in without some parts."""
+    for path in sorted(plugin.folder.rglob("*.py")):
+        if path.relative_to(plugin.folder).parts[0].removesuffix(".py") not in without:
+            yield path
 
 
 def _loaded(plugin: Plugin, part: str, attribute: str) -> object:
@@ -83,13 +121,20 @@ def _loaded(plugin: Plugin, part: str, attribute: str) -> object:
     try:
         if part and find_spec(name) is None:
             return None
-        module = import_module(name)
+        with time_limit(LOADING):
+            module = import_module(name)
     except (Exception, SystemExit) as error:
-        leave_out(plugin.name, f"{_place(plugin, error)}{type(error).__name__}: {error}")
+        _leave_out(plugin, f"{_place(plugin, error)}{type(error).__name__}: {error}")
         return None
     if not hasattr(module, attribute) and part == RULES:
-        leave_out(plugin.name, f"{Path(module.__file__ or name).name}: {attribute} is missing")
+        _leave_out(plugin, f"{Path(module.__file__ or name).name}: {attribute} is missing")
     return getattr(module, attribute, None)
+
+
+def _leave_out(plugin: Plugin, reason: str) -> None:
+    sentence = one_line(f"The game {plugin.name} in {plugin.folder} is left out: {reason.rstrip('.')}.")
+    _failed[plugin] = sentence
+    print(f"PiGaming: {sentence}", file=sys.stderr)
 
 
 def _place(plugin: Plugin, error: BaseException) -> str:

@@ -69,10 +69,15 @@ def spots(names: Sequence[str]) -> list[FocusSpot]:
 
 def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values: dict[str, SettingValue]) -> None:
     """Draw the rows of a page whose texts are in `table`."""
+    draw_rows(screen, focus, {spot.name: words(f"{table}.{spot.name}") for spot in focus.spots}, values)
+
+
+def draw_rows(screen: pygame.Surface, focus: Focus, labels: dict[str, str], values: dict[str, SettingValue]) -> None:
+    """Draw the rows of a page."""
     glow_bar(screen, focus.box)
     for i, spot in enumerate(focus.spots):
         box, content, focused = spot.rect, values[spot.name], spot.name == focus.name
-        label(words(f"{table}.{spot.name}"), focused).draw(screen, box.x + 40, box.centery)
+        label(labels[spot.name], focused).draw(screen, box.x + 40, box.centery)
         value(content.kind, content.options, content.chosen, focused).draw(screen, box.x, box.centery)
         if i and box.y >= (above := focus.spots[i - 1].rect.bottom) + APART:
             separator(box.w).draw(screen, box.x, (box.y + above) // 2)

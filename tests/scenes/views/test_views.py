@@ -197,6 +197,14 @@ def test_absent_seats_have_no_panel_and_two_teams_stand_on_their_sides():
     assert all(a.x + a.w <= b.x for a, b in itertools.pairwise(slots))
 
 
+@pytest.mark.parametrize(("teams", "seats"), [((1, 0, 1, 0), [1, 3, 0, 2]), ((1, 0, -1, -1), [1, 0])])
+def test_the_team_with_the_lower_number_stands_on_the_left(teams, seats):
+    slots, sums = layout(BusyPiTanks(teams).state.robots)
+    assert [slot.seat for slot in slots] == seats
+    assert [panel.team for panel in sums] == ([0, 1] if len(seats) == 4 else [])
+    assert [slot.x for slot in slots] == sorted(slot.x for slot in slots)
+
+
 def test_the_clock_turns_alarm_in_the_last_ten_seconds(screen):
     scene = BusyPiTanks()
     view, state = seen(scene), scene.state

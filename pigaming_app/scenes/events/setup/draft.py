@@ -1,5 +1,6 @@
 """A new event while it is set up: what can be chosen for it, and its entrants."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import permutations
 
@@ -7,8 +8,10 @@ from pigaming_app.events.spec import DEFAULT_AI, SEATS, Entrant, EventSpec, Form
 from pigaming_app.games.game import Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_choice import first_arena
+from pigaming_app.scenes.views.registry import shown_games
 
 BY_TURNS = "turns"  # another game in every round
+MOST_ORDERED = 5  # games of which all orders are offered
 LENGTHS = ("short", "normal", "long")
 RULES = "party"  # short matches, and an overtime instead of a tie
 ROUNDS = {
@@ -36,7 +39,7 @@ class Draft:
     chosen: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        names = tuple(games())
+        names = tuple(shown_games())
         self.game, self.order = self.game or names[0], self.order or names
 
     @property
@@ -76,9 +79,9 @@ class Draft:
         if row == "format":
             return tuple(Format)
         if row == "game":
-            return (*games(), BY_TURNS)
+            return (*shown_games(), BY_TURNS)
         if row == "order":
-            return tuple(permutations(games()))
+            return _orders(shown_games())
         if row == "length":
             return LENGTHS if any(len(variant_of(game).minutes) > 1 for game in self.games) else ("normal",)
         if row == "rounds":
@@ -120,6 +123,13 @@ class Draft:
             seed=seed,
             fill=DEFAULT_AI if prix and self.fill else "",
         )
+
+
+def _orders(names: Sequence[str]) -> tuple[tuple[str, ...], ...]:
+    """All orders of a few games; of more of them, those that begin with another one."""
+    if len(names) <= MOST_ORDERED:
+        return tuple(permutations(names))
+    return tuple((*names[i:], *names[:i]) for i in range(len(names)))
 
 
 def variant_of(game: str) -> Variant:

@@ -58,9 +58,13 @@ class TeamPanel:
 
 
 def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
-    """Positions of the panels and of the totals of two teams. Empty seats have no panel."""
+    """Positions of the panels and of the totals of two teams, the lower number on the left, as the teams may have sides
+    of the arena. Empty seats have no panel.
+    """
     seats = [i for i, robot in enumerate(robots) if robot.present]
-    teams = list(dict.fromkeys(robots[i].team for i in seats))
+    teams = sorted({robots[i].team for i in seats})
+    if len(teams) == 2 == len(seats):
+        seats.sort(key=lambda i: robots[i].team)
     if len(teams) != 2 or len(seats) == 2:
         places = XS.get(len(seats), ())
         return [SeatPanel(seat, x, PANEL_W) for seat, x in zip(seats, places, strict=False)], []

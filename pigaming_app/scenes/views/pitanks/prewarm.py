@@ -5,10 +5,10 @@ from functools import partial
 from typing import Any
 
 from pigaming_app.games.pitanks.state import POWERS
-from pigaming_app.scenes.views.pitanks.background import wall_sprite
 from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.scenes.views.walled_background import wall_sprite
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS

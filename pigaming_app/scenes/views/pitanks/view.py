@@ -2,23 +2,19 @@
 
 import math
 
-import pygame
-
 from pigaming_app.games.pitanks.scoring import is_finale
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, SPEED, PiTanks
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
-from pigaming_app.scenes.views.hud.score import pulse
-from pigaming_app.scenes.views.pitanks.background import WalledBackground
 from pigaming_app.scenes.views.pitanks.effects import ABOVE, react
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
 from pigaming_app.scenes.views.pitanks.hud import PiTanksHud
 from pigaming_app.scenes.views.pitanks.prewarm import jobs
 from pigaming_app.scenes.views.rumble import BLOCKED, GIVEN, PICKED, TAKEN, rumbles
+from pigaming_app.scenes.views.simple import SimpleView
 from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
-from pigaming_app.scenes.views.view import REAL_WIDER, MatchView, Pose, SoundCue, ViewOptions
+from pigaming_app.scenes.views.view import REAL_WIDER, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from pigaming_app.ui.draw import FOCUS, THIN
@@ -34,26 +30,23 @@ MUZZLE = 70.0  # px from a robot to the centre of its muzzle flash
 RUMBLES = {"hit": TAKEN, "scored": GIVEN, "shielded": BLOCKED, "pickup": PICKED}  # by kind of event
 
 
-class PiTanksView(MatchView):
+class PiTanksView(SimpleView):
     """The view of one match of PiTanks."""
 
     def __init__(
         self, arena: Arena, state: PiTanks, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
-        seats = [i for i, robot in enumerate(state.robots) if robot.present]
-        self.walls = WalledBackground(
-            state, len(arena.walls), tuple((i, arena.starts[i].x, arena.starts[i].y) for i in seats)
-        )
-        super().__init__(state, players, options, words, self.walls, arena.things)
-        self.hud = PiTanksHud(self.background, state, players, words)
+        super().__init__(arena, state, players, options, words)
         self.detector = PiTanksEventDetector(state)
         self.flashed = [-1.0] * len(state.robots)
         self.shots = [(bullet.x, bullet.y) for bullet in state.bullets]
         self.flying = [0] * len(state.bullets)
-        self.add_prewarm_jobs(self.hud.jobs())
         self.add_prewarm_jobs(jobs(state, len(arena.walls), self.seats))
         self.marked = [slot.seat for event in self.hud.sums for slot in event.mates]
         self.first_team = self.hud.sums[0].team if self.hud.sums else 0
+
+    def make_hud(self, state: PiTanks) -> PiTanksHud:
+        return PiTanksHud(self.background, state, self.players, self.words)
 
     def watch(self, state: PiTanks) -> list[SoundCue]:
         self.record_poses(state)
@@ -70,52 +63,22 @@ class PiTanksView(MatchView):
         above = ABOVE + REAL_WIDER if self.real else ABOVE
         return react(events, state, self.particles, self.options, above)
 
-    def draw(self, screen: pygame.Surface, state: PiTanks, blend: float, seconds: float) -> None:
-        self.particles.advance(seconds)
-        self.walls.show_walls(state)
-        for slot in self.hud.show(state):
-            if self.options.flashes != "off":
-                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, pulse(slot.seat, slot.w))
-        under: Batch = []
-        over: Batch = []
-        light: Batch = []
-        top: Batch = []
-        self._items(over, light, state)
-        self._marks(under, top, state, blend)
-        for seat in self.seats:
-            self._robot(under, over, light, state, seat, self.pose(seat, blend))
-        self._bullets(light, state, blend)
-        self.particles.draw_light(light)
-        self.particles.draw_scores(top)
-        self.paint(screen, under, over, light, top)
-
-    def _items(self, over: Batch, light: Batch, state: PiTanks) -> None:
+    def marks(self, under: Batch, over: Batch, state: PiTanks, blend: float) -> None:
+        """Pickups, mines, and the lights on robots that stay."""
         rules = state.rules
         for pickup in state.pickups:
             if pickup.alive:
-                x, y = LEFT + pickup.x, TOP + pickup.y
-                put(over, things.pickup(POWERS[pickup.kind]), x, y)
-                put(light, effects.timer_ring(FOCUS, -(-48 * pickup.alive // max(1, rules.pickup_life)), 56), x, y)
+                put(over, things.pickup(POWERS[pickup.kind]), LEFT + pickup.x, TOP + pickup.y)
         for i, mine in enumerate(state.mines):
             if mine.alive:
                 armed = mine.age >= rules.mine_arming and mine.age // 12 % 2 == 0
                 put(over, things.mine(i // OWN_MINES, armed), LEFT + mine.x, TOP + mine.y)
-
-    def _marks(self, under: Batch, top: Batch, state: PiTanks, blend: float) -> None:
-        """Draw the lights on robots that stay, and the bounties."""
         for seat in self.seats:
             held = state.tanks[seat]
-            if held.lit or (state.rules.camping and held.camped > state.rules.camping - HZ):
+            if held.lit or (rules.camping and held.camped > rules.camping - HZ):
                 put(under, party.spotlight() if held.lit else party.stage(), LEFT + held.camp_x, TOP + held.camp_y)
-            if held.bounty:
-                x, y, heading = self.pose(seat, blend)
-                below = self.reach(seat, BOUNTY)  # popups rise above
-                trailed = seat in self.real and math.sin(heading) < 0.0  # by its badge
-                points = (1 + held.bounty) * (2 if is_finale(state) else 1)
-                x = min(max(x, LEFT + 84), LEFT + WIDTH - 84)
-                put(top, party.bounty(points), x, y - below if trailed or y + below > TOP + HEIGHT - 44 else y + below)
 
-    def _robot(self, under: Batch, over: Batch, light: Batch, state: PiTanks, seat: int, pose: Pose) -> None:
+    def draw_robot(self, under: Batch, over: Batch, light: Batch, state: PiTanks, seat: int, pose: Pose) -> None:
         x, y, heading = pose
         now, driven, held = self.particles.clock, state.robots[seat], state.tanks[seat]
         out = held.knocked_out / state.rules.knockout if held.knocked_out else 0.0
@@ -134,6 +97,22 @@ class PiTanksView(MatchView):
         if now - self.flashed[seat] < FLASH and self.options.flashes != "off":
             flash = effects.flash(seat, coarse)
             put(light, flash, x + MUZZLE * math.cos(heading), y + MUZZLE * math.sin(heading))
+
+    def above(self, light: Batch, top: Batch, state: PiTanks, blend: float) -> None:
+        """Bullets, the time that pickups stay, and bounties."""
+        for pickup in state.pickups:
+            if pickup.alive:
+                left = -(-48 * pickup.alive // max(1, state.rules.pickup_life))
+                put(light, effects.timer_ring(FOCUS, left, 56), LEFT + pickup.x, TOP + pickup.y)
+        self._bullets(light, state, blend)
+        for seat in self.seats:
+            if bounty := state.tanks[seat].bounty:
+                x, y, heading = self.pose(seat, blend)
+                below = self.reach(seat, BOUNTY)  # popups rise above
+                trailed = seat in self.real and math.sin(heading) < 0.0  # by its badge
+                points = (1 + bounty) * (2 if is_finale(state) else 1)
+                x = min(max(x, LEFT + 84), LEFT + WIDTH - 84)
+                put(top, party.bounty(points), x, y - below if trailed or y + below > TOP + HEIGHT - 44 else y + below)
 
     def _powers(self, light: Batch, state: PiTanks, seat: int, x: float, y: float) -> None:
         """Draw a timer ring for the power that ends first (the HUD names it). A shield is drawn itself, and blinks at

@@ -1,7 +1,7 @@
-"""Background of PiTanks: frame, grid, start positions, and walls, which are redrawn when damaged."""
+"""Background of a walled arena: frame, grid, start positions, and walls, which are redrawn when damaged."""
 
 import math
-from functools import partial
+from collections.abc import Callable
 from typing import Any
 
 import pygame
@@ -18,10 +18,12 @@ Starts = tuple[tuple[int, float, float], ...]  # seat, px, px
 
 
 class WalledBackground(Background):
-    """Background with the first `count` walls, those of the arena; the others belong to real things."""
+    """Background with the first `count` walls, those of the arena; the others belong to real things. `floor` renders
+    what lies under them.
+    """
 
-    def __init__(self, state: Any, count: int, starts: Starts) -> None:
-        super().__init__(partial(bare, starts))
+    def __init__(self, count: int, floor: Callable[[], pygame.Surface]) -> None:
+        super().__init__(floor)
         self.health: list[int] = [0] * count
         self.sprites: list[Sprite | None] = [None] * count
 
@@ -62,7 +64,7 @@ def _box(part: Any, sprite: Sprite) -> pygame.Rect:
 
 @cached
 @resumable
-def bare(starts: Starts) -> Steps[pygame.Surface]:
+def walled_floor(starts: Starts) -> Steps[pygame.Surface]:
     """Grid, frame and start position markers."""
     canvas = LayeredCanvas()
     glow, crisp = canvas.glow, canvas.crisp

@@ -1,0 +1,123 @@
+"""The operator's page of games that are plug-ins: each on or off from the next start on, where it is, why it failed."""
+
+import pygame
+
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.settings_page import SettingsPage
+from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.options.new_game import NewGame, game_name, place, short
+from pigaming_app.scenes.views.game_tile import picture
+from pigaming_app.scenes.views.registry import shown_games
+from pigaming_app.storage.plugins.consent import is_on, switch
+from pigaming_app.storage.plugins.found import Plugin, found, user_folder
+from pigaming_app.storage.plugins.parts import failure, plugins
+from pigaming_app.ui.draw import ALARM, BODY, MIST, STEEL, THIN
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import SMALLEST, fit_text, text
+from pigaming_app.ui.input.events import InputEvent
+from pigaming_app.ui.widgets import setting_row as dials
+from pigaming_app.ui.widgets.labels import sign
+from pigaming_app.ui.widgets.setting_row import SettingValue
+
+ROWS = 6  # plug-ins on a page
+MORE, NONE = "more", "none"  # names of rows
+PLACE_Y, REASON_Y = dials.PANEL.bottom - 36, 922  # px: where it is, why it failed
+SCALE = 0.8  # of the picture of a tile
+
+
+class GamesPage(SettingsPage):
+    """One page of plug-ins; the row below them leads to the next one. `first`: index of its first plug-in."""
+
+    def __init__(self, context: Context, first: int = 0) -> None:
+        self.first, every = first, found()
+        self.count = len(every)
+        self.plugins = {str(i): plugin for i, plugin in enumerate(every[first : first + ROWS])}
+        self.question: NewGame | None = None
+        rows = (*self.plugins, *((MORE,) if self.count > ROWS else ())) or (NONE,)
+        super().__init__(context, "plugins", "plugins.title", rows)
+        self.subtitle = "plugins.when"
+
+    def on_enter(self) -> None:
+        """First display, or return from a question."""
+        self.rewarm()
+
+    def update(self, seconds: float) -> StackOperation:
+        """Animate; ask about a new plug-in."""
+        if question := self.question:
+            self.question = None
+            return Push(question)
+        return super().update(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        super().draw(screen)
+        if plugin := self.plugins.get(self.focus.name):
+            if (reason := why(plugin)) and not self.navigation.sentence:
+                line, size = fit_text(reason, BODY, RIGHT - LEFT, "body")
+                text(line, size, ALARM, "body", "l").draw(screen, LEFT, REASON_Y)
+            room = dials.PANEL.w - 80
+            text(place(plugin, room), SMALLEST, MIST, "body", "l", room).draw(screen, dials.PANEL.x + 40, PLACE_Y)
+
+    def label(self, name: str) -> str:
+        return game_name(self.context.words, self.plugins[name]) if name in self.plugins else super().label(name)
+
+    def line(self, name: str) -> str:
+        """The state of a plug-in: plays, off, new, or why it failed."""
+        words = self.context.words
+        if name == NONE:
+            return words("plugins.none_line", folder=short(user_folder()))
+        if name == MORE:
+            return words("plugins.more_line")
+        plugin = self.plugins[name]
+        if why(plugin):
+            return words("plugins.failed_line")
+        on = is_on(plugin)
+        state = "new" if on is None else "on" if on else "off"
+        return words(f"plugins.{state}_line" if bool(on) == (plugin in plugins()) else f"plugins.{state}_later")
+
+    def value(self, name: str) -> SettingValue:
+        """On or off; a new one is off."""
+        words = self.context.words
+        if name not in self.plugins:
+            return SettingValue("deed", (words("plugins.next" if name == MORE else "options.hint_back"),))
+        return SettingValue("toggle", (words("options.off"), words("options.on")), int(bool(is_on(self.plugins[name]))))
+
+    def apply(self, name: str, chosen: int) -> None:
+        """Switch a plug-in; a new one asks first."""
+        plugin = self.plugins[name]
+        if chosen and is_on(plugin) is None:
+            self.question = NewGame(self.context, plugin)
+            return
+        self.save(lambda: switch(plugin.key, bool(chosen)))
+        self.rewarm()
+
+    def activate(self, name: str, event: InputEvent) -> StackOperation:
+        """The next page, or back if there is nothing."""
+        self.context.sounds.play("accept" if name == MORE else "back")
+        following = self.first + ROWS if self.first + ROWS < self.count else 0
+        return Swap(GamesPage(self.context, following)) if name == MORE else Pop()
+
+    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
+        self.render_picture(name, chosen).draw(screen, *dials.CENTRE)
+
+    def render_picture(self, name: str, chosen: int) -> LitImage:
+        """The picture of a game that plays, centred on (0, 0); else a sign."""
+        plugin = self.plugins.get(name)
+        if plugin in plugins() and plugin.name in shown_games():
+            return smaller(plugin.name)
+        if plugin is None:
+            return sign("right" if name == MORE else "list", 90, STEEL, THIN)
+        return sign("cross" if why(plugin) else "unknown", 90, ALARM if why(plugin) else STEEL, THIN)
+
+
+@cached
+def smaller(game: str) -> LitImage:
+    """The picture of a game, 560 x 284 px, as it fits the panel, centred on (0, 0)."""
+    lit = picture(game)
+    x, y = SCALE * (lit.at[0] - 280), SCALE * (lit.at[1] - 142)
+    return LitImage(pygame.transform.smoothscale_by(lit.image, SCALE), (round(x), round(y)))
+
+
+def why(plugin: Plugin) -> str:
+    """The reason why a plug-in is left out, or nothing."""
+    return plugin.fault or failure(plugin).partition(" is left out: ")[2]
