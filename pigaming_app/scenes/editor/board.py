@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Collection, Sequence
+from contextlib import suppress
 
 import pygame
 
@@ -9,7 +10,7 @@ from pigaming_app.games.drawing.values import Drawing, Part
 from pigaming_app.scenes.editor.model.shapes import Item, Paper, Shape, Tools
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BLACK, FOCUS, ICE, THIN, WALL, GlowCanvas, Point, cut_box, dim
-from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.frame_budget import Steps, Unfinished, budget, clock, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
@@ -20,6 +21,7 @@ BOARD = pygame.Rect(384, 118, round(SCALE * WIDTH), round(SCALE * HEIGHT))
 OUTLINE = cut_box(BOARD.x, BOARD.y, BOARD.w, BOARD.h, 28)
 EDGE = 60  # px around the outlines of a part, for what else belongs to it
 GRIP = 13  # px, half the size of a grip
+RENDER = 0.006  # s of a frame for the ground
 CROSS = 26  # px, of the pointer
 
 
@@ -32,6 +34,44 @@ def clear(screen: pygame.Surface) -> None:
     """Black out the board and draw its dots and frame."""
     pygame.draw.polygon(screen, BLACK, OUTLINE)
     frame().draw(screen)
+
+
+class Ground:
+    """What lies below the parts: quick lines while it changes, its lit picture as soon as that is rendered."""
+
+    def __init__(self, tools: Tools) -> None:
+        self.tools = tools
+        self._lit: tuple[Drawing, LitImage] | None = None
+
+    def work(self, drawing: Drawing) -> None:
+        """Render the picture, a few ms."""
+        needed = self.tools.ground_of(drawing)
+        if needed and (self._lit is None or self._lit[0] != needed):
+            with suppress(Unfinished), budget.until(clock() + RENDER):
+                self._lit = needed, ground(self.tools, needed)
+
+    def draw(self, screen: pygame.Surface, drawing: Drawing, share: float) -> None:
+        """Draw it; `share` (0..1): the first part of it."""
+        needed = self.tools.ground_of(drawing)
+        if needed is None:
+            return
+        screen.set_clip(BOARD)
+        if share >= 1.0 and self._lit and self._lit[0] == needed:
+            self._lit[1].draw(screen)
+        else:
+            self.tools.sketch_ground(screen, drawing, BOARD.topleft, SCALE, share)
+        screen.set_clip(None)
+
+
+@cached
+@resumable
+def ground(tools: Tools, drawing: Drawing) -> Steps[LitImage]:
+    """The picture of the ground, as light."""
+    ink = GlowCanvas(BOARD.w, BOARD.h)
+    yield from tools.draw_ground(Paper(ink, 0.0, 0.0, SCALE), drawing)
+    yield
+    image = yield from ink.lit_steps(0.75)
+    return LitImage(image, BOARD.topleft)
 
 
 def draw_parts(

@@ -73,13 +73,14 @@ def item_at(tools: Tools, drawing: Drawing, at: Point) -> Item | None:
     """The uppermost part that is pointed at."""
     for item in reversed(tools.items(drawing)):
         part = tools.part(drawing, item)
-        if any(touched(outline, at) for outline in tools.shapes[item.kind].outlines(part, item.k)):
+        shape = tools.shapes[item.kind]
+        if any(touched(outline, at, shape.hollow) for outline in shape.outlines(part, item.k)):
             return item
     return None
 
 
-def touched(outline: Sequence[Point], at: Point) -> bool:
-    """True for a point in a closed outline, or near to it."""
+def touched(outline: Sequence[Point], at: Point, hollow: bool = False) -> bool:
+    """True for a point near to a closed outline, or in it, unless it is hollow."""
     x, y = at
     inside = False
     for (ax, ay), (bx, by) in zip(outline, (*outline[1:], outline[0]), strict=True):
@@ -90,4 +91,4 @@ def touched(outline: Sequence[Point], at: Point) -> bool:
         share = min(1.0, max(0.0, ((x - ax) * ex + (y - ay) * ey) / length2)) if length2 else 0.0
         if apart((ax + share * ex, ay + share * ey), at) <= TOUCH:
             return True
-    return inside
+    return inside and not hollow

@@ -144,6 +144,28 @@ def _dice(pen: Pen) -> None:
         pen.dot(x, y, 0.15)
 
 
+def _worker(pen: Pen) -> None:
+    """A person who changes sides."""
+    pen.dot(0, -0.62, 0.26)
+    pen.line((0, -0.3), (0, 0.3), (-0.3, 0.95))
+    pen.line((0, 0.3), (0.3, 0.95))
+    for s in (1, -1):
+        pen.line((s * 0.5, 0.0), (s * 1.0, 0.0))
+        pen.line((s * 0.75, -0.25), (s * 1.0, 0.0), (s * 0.75, 0.25))
+
+
+def _slot(pen: Pen) -> None:
+    for x, y in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
+        pen.line((x * 0.9, y * 0.35), (x * 0.9, y * 0.9), (x * 0.35, y * 0.9))
+
+
+def _corner(pen: Pen) -> None:
+    """A bend with its control point."""
+    pen.line((-0.9, 0.9), (-0.9, -0.1), (-0.75, -0.5), (-0.5, -0.75), (-0.1, -0.9), (0.9, -0.9))
+    pen.line((0.0, 0.9), (0.0, 0.2), (0.2, 0.0), (0.9, 0.0))
+    pen.dot(-0.9, -0.9, 0.22)
+
+
 def _share(pen: Pen) -> None:
     pen.line((-0.4, -0.3), (-0.85, -0.3), (-0.85, 0.95), (0.85, 0.95), (0.85, -0.3), (0.4, -0.3))
     pen.line((0, 0.4), (0, -0.8))
@@ -164,6 +186,9 @@ PICTURES: dict[str, Callable[[Pen], None]] = {
     "pencil": _pencil,
     "dice": _dice,
     "share": _share,
+    "worker": _worker,
+    "shared": _slot,
+    "corner": _corner,
 }
 VALUED: dict[str, Callable[[Pen, str], None]] = {
     "thick": _thick,

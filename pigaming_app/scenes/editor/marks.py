@@ -9,13 +9,13 @@ import pygame
 from pigaming_app.games.drawing.problems import Problem
 from pigaming_app.scenes.editor.board import SCALE, on_canvas
 from pigaming_app.scenes.editor.model.shapes import Routes
-from pigaming_app.ui.draw import ALARM, LINE, ORANGE, Color, GlowCanvas, Point, dim, icon
+from pigaming_app.ui.draw import ALARM, BLACK, LINE, ORANGE, Color, GlowCanvas, Point, dim, icon
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed, pulse
 
 SIZES = (40, 60, 90, 130)  # px, radius of a mark
-ROUTE = (26, 62, 70)
+ROUTE = (38, 92, 104)
 DASH, GAP = 14.0, 12.0  # px
 
 
@@ -63,7 +63,9 @@ def mark(radius: int, blocks: bool, level: int) -> LitImage:
     ink = GlowCanvas(2 * size, 2 * size).set_transform(size, size)
     ink.ring(0, 0, radius, color, LINE)
     if blocks:
-        icon(ink, "cross", 0, 0, 22, color, LINE)
+        x = radius * math.sqrt(0.5)
+        ink.disc(x, -x, 24, BLACK)
+        icon(ink.disc(x, -x, 21, color), "cross", x, -x, 12, BLACK, LINE)
     else:
         for s in (1, -1):
             ink.line([(26 * s, -10), (12 * s, 0), (26 * s, 10)], dim(color, 0.9), 5)

@@ -13,6 +13,7 @@ from pigaming_app.games.drawing.values import Drawing
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.board import (
     BOARD,
+    Ground,
     clear,
     draw_grips,
     draw_outline,
@@ -22,7 +23,7 @@ from pigaming_app.scenes.editor.board import (
 from pigaming_app.scenes.editor.checker import Checker, Verdict
 from pigaming_app.scenes.editor.hand import Hand, grip_at, item_at
 from pigaming_app.scenes.editor.marks import draw_problems, draw_routes
-from pigaming_app.scenes.editor.model.edits import removed, replaced, with_copies
+from pigaming_app.scenes.editor.model.edits import changed_items, removed, replaced, with_copies
 from pigaming_app.scenes.editor.model.history import History
 from pigaming_app.scenes.editor.model.shapes import Item
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
@@ -54,7 +55,7 @@ class Editor:
     def __init__(self, context: Context, game: str, name: str, drawing: Drawing, reveal: bool = False) -> None:
         self.context, self.game, self.name, self.tools = context, game, name, EDITORS[game]
         self.history = History(drawing)
-        self.pointer, self.bar = Pointer(), ToolBar()
+        self.pointer, self.bar, self.ground = Pointer(), ToolBar(), Ground(self.tools)
         self.tool, self.symmetry = 0, Symmetry.OFF
         self.selected: Item | None = None
         self.hand: Hand | None = None
@@ -117,6 +118,8 @@ class Editor:
             self.pointer.glide(self.context.controls, seconds)
         if self.hand:
             self._drag(self.hand)
+        else:
+            self.ground.work(self.history.now)
         if self.autosave.failed and not self.told:
             self.told = True
             self.say("editor.disk", wrong=True)
@@ -127,11 +130,12 @@ class Editor:
     def draw(self, screen: pygame.Surface) -> None:
         screen.blit(backdrop(), (0, 0))
         drawing, verdict = self.shown, self.verdict
-        in_hand = self.hand.items if self.hand and self.hand.drawing != self.hand.base else ()
+        in_hand = changed_items(self.tools, self.hand.base, drawing) if self.hand else ()
         clear(screen)
+        share = 1.0 - max(0.0, self.reveal) / REVEAL
+        self.ground.draw(screen, drawing, share)
         if verdict and not self.hand:
             draw_routes(screen, verdict.routes, self.clock)
-        share = 1.0 - max(0.0, self.reveal) / REVEAL
         draw_parts(screen, self.tools, drawing, in_hand, share)
         for item in in_hand:
             draw_outline(screen, self.tools, drawing, item)

@@ -145,7 +145,8 @@ class Gallery:
         return [Card(title, lambda: self._begin(drawing), drawing)]
 
     def _new(self) -> StackOperation:
-        return self._begin(drawing_of(EDITORS[self.game].empty))
+        tools = EDITORS[self.game]
+        return self._begin(drawing_of(tools.empty or load_cached(self.game, tools.template).source))
 
     def _surprise(self) -> StackOperation:
         arena = load(self.game, f"surprise-{secrets.randbelow(SURPRISES)}")
@@ -154,7 +155,7 @@ class Gallery:
     def _begin(self, drawing: Drawing, reveal: bool = False) -> StackOperation:
         """Draw on a copy."""
         words = self.context.words
-        drawing = EDITORS[self.game].settled(store.titled(drawing, words("editor.new")))
+        drawing = store.titled(drawing, words("editor.new"))
         return Push(Editor(self.context, self.game, store.free_name(self.game), drawing, reveal))
 
     # ---- scrolling

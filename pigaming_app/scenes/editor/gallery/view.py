@@ -59,10 +59,11 @@ def picture(tools: Tools, drawing: Drawing, w: int, h: int) -> Steps[LitImage]:
     paper = Paper(ink, (w - k * WIDTH) / 2, (h - k * HEIGHT) / 2, k)
     paper.flat().line(cut_box(0, 0, WIDTH, HEIGHT, 28), dim(MIST, 0.7), 2 / k, True)
     yield
-    tools.draw_ground(paper, drawing)
+    yield from tools.draw_ground(paper, drawing)
     yield
     for item in tools.items(drawing):
-        tools.shapes[item.kind].draw(paper, tools.part(drawing, item), item.k)
-        yield
+        if not (shape := tools.shapes[item.kind]).is_handle:
+            shape.draw(paper, tools.part(drawing, item), item.k)
+            yield
     image = yield from ink.lit_steps(0.6)
     return LitImage(image, (0, 0))

@@ -17,13 +17,13 @@ def placed(tools: Tools, drawing: Drawing, tool: Tool, a: Point, b: Point, symme
 
 def with_copies(tools: Tools, drawing: Drawing, part: Part, most: int, symmetry: Symmetry) -> Changed:
     """With a new part and its images."""
-    shape, items, parts = tools.shapes[part.kind], list[Item](), list[Part]()
+    shape, out, parts = tools.shapes[part.kind], drawing, list[Part]()
     for one in (part, *(shape.image(part, image) for image in symmetry.images)):
-        if len(drawing.of(part.kind)) < most and not any(shape.same(one, other) for other in parts):
-            drawing, item = tools.added(drawing, one)
-            items.append(item)
-            parts.append(one)
-    return tools.settled(drawing), items
+        if len(out.of(part.kind)) < most and not any(shape.same(one, other) for other in parts):
+            out, item = tools.added(out, one)
+            parts.append(tools.part(out, item))
+    places = [out.of(part.kind).index(one) for one in parts]  # a later one may lie before an earlier one
+    return tools.settled(drawing, out), [Item(part.kind, k) for k in places]
 
 
 def replaced(tools: Tools, drawing: Drawing, item: Item, part: Part, symmetry: Symmetry) -> Changed:
@@ -34,17 +34,18 @@ def replaced(tools: Tools, drawing: Drawing, item: Item, part: Part, symmetry: S
             before = tools.part(drawing, other)
             out = tools.with_part(out, other, shape.kept(shape.image(part, image), before))
             items.append(other)
-    return tools.settled(out), items
+    return tools.settled(drawing, out), items
 
 
 def removed(tools: Tools, drawing: Drawing, item: Item, symmetry: Symmetry) -> Drawing | None:
     """Without a part and its images; None if it is needed."""
     gone = {item, *(other for _, other in images(tools, drawing, item, symmetry))}
+    out = drawing
     for one in sorted(gone, key=lambda one: -one.k):
-        if not tools.removable(drawing, one):
+        if not tools.removable(out, one):
             return None
-        drawing = tools.without(drawing, one)
-    return tools.settled(drawing)
+        out = tools.without(out, one)
+    return tools.settled(drawing, out)
 
 
 def images(tools: Tools, drawing: Drawing, item: Item, symmetry: Symmetry) -> Iterator[tuple[Image, Item]]:
@@ -56,3 +57,11 @@ def images(tools: Tools, drawing: Drawing, item: Item, symmetry: Symmetry) -> It
         found = (other for other in others if shape.same(looked, tools.part(drawing, other)))
         if (other := next(found, None)) is not None:
             yield image, other
+
+
+def changed_items(tools: Tools, before: Drawing, after: Drawing) -> list[Item]:
+    """The parts of a drawing that were not, or not there, in the one before."""
+    if before == after:
+        return []
+    old = {tools.part(before, item) for item in tools.items(before)}
+    return [item for item in tools.items(after) if tools.part(after, item) not in old]

@@ -9,11 +9,14 @@ from dataclasses import dataclass
 from math import hypot
 from typing import ClassVar, NamedTuple
 
+import pygame
+
 from pigaming_app.games.drawing.values import Drawing, Part, Value
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import GlowCanvas, Point
+from pigaming_app.ui.draw.frame_budget import Steps
 
 Outline = Sequence[Point]
 Routes = Sequence[Sequence[Point]]
@@ -61,6 +64,8 @@ class Shape:
     """A kind of part. `fixed`: all arenas have the same number of it."""
 
     fixed = True
+    is_handle = False  # it is not in pictures of the arena
+    hollow = False  # it is pointed at by its outline only
 
     def grips(self, part: Part) -> tuple[Point, ...]:
         """Points that can be dragged; the first is that by which the part is moved."""
@@ -117,7 +122,8 @@ class Tools:
     game = ""
     shapes: ClassVar[Mapping[str, Shape]] = {}  # by kind, those below others first
     palette: Sequence[Tool] = ()
-    empty = ""  # text of the arena file to begin with
+    empty = ""  # text of the arena file to begin with; empty: that of `template`
+    template = ""  # the name of an arena that comes with the game
 
     def items(self, drawing: Drawing) -> list[Item]:
         """All parts that can be pointed at, those below others first."""
@@ -142,12 +148,20 @@ class Tools:
         """True if an arena can do without this part."""
         return not self.shapes[item.kind].fixed
 
-    def draw_ground(self, paper: Paper, drawing: Drawing) -> None:
+    def draw_ground(self, paper: Paper, drawing: Drawing) -> Steps[None]:
         """Draw what lies below all parts."""
+        yield from ()
 
-    def settled(self, drawing: Drawing) -> Drawing:
+    def ground_of(self, drawing: Drawing) -> Drawing | None:
+        """What the ground depends on; None if there is none."""
+        return None
+
+    def sketch_ground(self, screen: pygame.Surface, drawing: Drawing, at: Point, scale: float, share: float) -> None:
+        """Draw the ground quickly, at a place of the canvas; `share` (0..1): the first part of it."""
+
+    def settled(self, before: Drawing, after: Drawing) -> Drawing:
         """The drawing after a change, with what follows from it."""
-        return drawing
+        return after
 
     def routes(self, arena: Arena) -> Routes:
         """How AIs will drive, as lines. It may take a second and runs in a thread. Raises FieldError."""
