@@ -52,9 +52,9 @@ class Artist:
     def go(self, at: Point) -> None:
         """Move the pointer to a point of the grid, step by step."""
         for axis, less, more in ((0, "left", "right"), (1, "up", "down")):
-            steps = round((at[axis] - self.editor.pointer.at[axis]) / GRID)
+            steps = round((at[axis] - self.editor.bench.pointer.at[axis]) / GRID)
             self.tap(*[more if steps > 0 else less] * abs(steps))
-        assert self.editor.pointer.at == at
+        assert self.editor.bench.pointer.at == at
 
     def drag(self, a: Point, b: Point) -> None:
         """Hold the button from a to b."""
@@ -152,6 +152,6 @@ def wait_for(arcade: Arcade, condition: Callable[[], bool], seconds: float = 20.
 def checked(artist: Artist) -> Editor:
     """The editor, once its drawing is checked and kept."""
     editor = artist.editor
-    wait_for(artist.arcade, lambda: bool(editor.verdict and editor.verdict.done))
-    editor.autosave.finish()
+    wait_for(artist.arcade, lambda: bool(editor.bench.verdict and editor.bench.verdict.done))
+    editor.bench.autosave.finish()
     return editor

@@ -40,12 +40,12 @@ def story(artist: Artist) -> None:
     begin(arcade)
     editor = artist.editor
     artist.drag((600, 300), (900, 300))
-    (wall,) = editor.history.now.of("wall")
+    (wall,) = editor.bench.history.now.of("wall")
     assert {wall.get("from"), wall.get("to")} == {(600, 300), (900, 300)}
     artist.choose("undo")
-    assert not editor.history.now.of("wall")
+    assert not editor.bench.history.now.of("wall")
     artist.choose("redo")
-    assert editor.history.now.of("wall") == (wall,)
+    assert editor.bench.history.now.of("wall") == (wall,)
     checked(artist)
     artist.choose("play")
     assert len(arcade.shown(PlayTest).match.state.walls) >= 1
