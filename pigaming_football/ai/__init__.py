@@ -1,8 +1,6 @@
 """The AIs of Robot Football: one footballer in five levels and as `hand1` to `hand3`, and a network."""
 
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.game_ai import LEVELS, GameAI
