@@ -230,7 +230,8 @@ def facing(match: Any, j: int) -> float:
         return 1.0
     robot = match.robots[j]
     dx, dy = match.ball.x - robot.x, match.ball.y - robot.y
-    return 0.5 * (cos(robot.heading) * dx + sin(robot.heading) * dy) / (sqrt(dx * dx + dy * dy) + 1e-9)
+    along: float = cos(robot.heading) * dx + sin(robot.heading) * dy
+    return 0.5 * along / (sqrt(dx * dx + dy * dy) + 1e-9)
 
 
 @kernel
