@@ -13,7 +13,7 @@ import numpy as np
 
 from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
-from pigaming_app.gym.rewards import Tallies, is_over, sign
+from pigaming_app.ai.tallies import Tallies, is_over, sign
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import WIDTH
 

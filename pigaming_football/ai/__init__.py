@@ -1,9 +1,12 @@
 """The AIs of Robot Football: one footballer in five levels and as `hand1` to `hand3`, and a network."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.game_ai import LEVELS, GameAI
+from pigaming_app.ai.networks.files import shipped_brain
+from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.sim.rng import seeded, uniform
 
 from .footballer import think
@@ -50,9 +53,13 @@ def _footballer(name: str, strength: Strength) -> BrainKind:
     return BrainKind(name, Mind, think, reset, explain=explain)
 
 
+NET = shipped_brain("net", "football", "football", Handicap(sharpness=2.0), Path(__file__).parents[1] / "brains")
+
 AI = GameAI(
     {
         **{name: _footballer(name, strength) for name, strength in zip(LEVELS, STRENGTHS, strict=True)},
         **{f"hand{i}": _footballer(f"hand{i}", strength) for i, strength in enumerate(HANDS, start=1)},
-    }
+        "net": NET,
+    },
+    rivals=(*LEVELS, "net"),
 )
