@@ -159,7 +159,7 @@ class Shared(Shape):
 class Aisle(Shape):
     """The area where people walk."""
 
-    hollow = True
+    hollow = has_ends = True
 
     def grips(self, part: Part) -> tuple[Point, ...]:
         x, y, w, h = _box(part)

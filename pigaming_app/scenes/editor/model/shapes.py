@@ -64,6 +64,7 @@ class Shape:
     """A kind of part. `fixed`: all arenas have the same number of it."""
 
     fixed = True
+    has_ends = False  # its first grip is an end, not its middle
     is_handle = False  # it is not in pictures of the arena
     hollow = False  # it is pointed at by its outline only
 

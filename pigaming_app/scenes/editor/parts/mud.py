@@ -11,7 +11,7 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import Point
 
 RADII, RADIUS = (50, 75, 100, 150), 75  # px
-CORNERS, FLAT = 16, 0.8  # of a patch; its height relative to its width
+CORNERS = 20  # of a patch; round ones need a single capsule each
 MOST = 6  # in an arena
 
 
@@ -84,4 +84,4 @@ def _sized(part: Part, radius: float) -> Part:
 
 def _outline(x: float, y: float, radius: float) -> tuple[Point, ...]:
     turns = [tau * k / CORNERS for k in range(CORNERS)]
-    return tuple((round(x + radius * cos(a), 1), round(y + FLAT * radius * sin(a), 1)) for a in turns)
+    return tuple((round(x + radius * cos(a), 1), round(y + radius * sin(a), 1)) for a in turns)

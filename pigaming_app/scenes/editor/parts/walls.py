@@ -34,6 +34,7 @@ class Wall(Shape):
     """A wall from `from` to `to`. `healthy`: bullets can break it."""
 
     fixed = False
+    has_ends = True
 
     def __init__(self, healthy: bool = True) -> None:
         self.healthy = healthy
