@@ -25,6 +25,7 @@ from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
+from tests.cases import one_in
 from tests.disks import room_for
 from tests.scenes.arcade import Arcade
 from tests.scenes.editor.artist import Mouse, checked, wait_for
@@ -92,7 +93,7 @@ DAMAGED = (
     "",
     "\0",
     "wall = 3",
-    "title = {en = 'a\u0007'}\n[[wall]]\nfrom = 'x'\nthick = 1e300\nhealth = -9\n",
+    "title = {en = \"a\\u0007\"}\n[[wall]]\nfrom = 'x'\nthick = 1e300\nhealth = -9\n",
     "[[start]]\nat = [1e300, nan]\nheading = inf\n" * 9,
     "[track]\nlines = [nan, 9, 'x', 0]\n[[corner]]\nat = [1, 1]\nwidth = 1e300\nradius = nan\n",
     "[[corner]]\nat = [800, 450]\n" * 5,
@@ -157,7 +158,7 @@ def test_a_full_disk_is_one_sentence_and_the_drawing_stays(mouse: Mouse) -> None
     assert own_arenas("pitanks") == ["mine"]
 
 
-@pytest.mark.parametrize("game", EDITORS)
+@pytest.mark.parametrize("game", one_in(3, EDITORS))
 def test_a_damaged_draft_is_left_out_or_can_be_mended(mouse: Mouse, game: str) -> None:
     store.drafts_folder(game).mkdir(parents=True)
     for i, text in enumerate(DAMAGED):
