@@ -95,7 +95,8 @@ def draw_outline(screen: pygame.Surface, tools: Tools, drawing: Drawing, item: I
 
 def draw_grips(screen: pygame.Surface, tools: Tools, drawing: Drawing, item: Item) -> None:
     """Draw the points of a part that can be dragged."""
-    for point in tools.shapes[item.kind].grips(tools.part(drawing, item)):
+    shape = tools.shapes[item.kind]
+    for point in shape.grips(tools.part(drawing, item))[0 if shape.has_ends else 1 :]:
         grip().draw(screen, *on_canvas(*point))
 
 

@@ -176,15 +176,19 @@ class Editor:
             (Button.START, "editor.hint_play"),
             (Button.BACK, "editor.hint_back"),
         )
-        hints: Hints = ((Button.FIRE, "editor.hint_draw"), *common)
+        hints: Hints
         if bench.hand:
             hints = ((Button.FIRE, "editor.hint_drop"), (Button.BACK, "editor.hint_cancel"))
         elif self.bar.open:
             hints = ((Button.FIRE, "editor.hint_choose"), (Button.Y, "editor.hint_draw"), *common[1:])
-        elif bench.pointed:
-            hints = ((Button.FIRE, "editor.hint_take"), (Button.X, "editor.hint_delete"), *common)
-        elif bench.selected and self.tools.removable(bench.history.now, bench.selected):
-            hints = ((Button.FIRE, "editor.hint_draw"), (Button.X, "editor.hint_delete"), *common)
+        else:
+            pointed, meant = bench.pointed, bench.selected or bench.pointed
+            removable = meant is not None and self.tools.removable(bench.history.now, meant)
+            hints = (
+                (Button.FIRE, "editor.hint_take" if pointed else "editor.hint_draw"),
+                *(((Button.X, "editor.hint_delete"),) if removable else ()),
+                *common,
+            )
         if hints not in self._prompts:
             self._prompts[hints] = self.context.prompts(hints, PROMPTS_Y, PROMPTS_W)
         return self._prompts[hints]

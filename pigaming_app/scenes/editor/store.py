@@ -74,7 +74,7 @@ def title_of(drawing: Drawing, language: str) -> str:
     """The title of a drawing in a language; empty if it has none."""
     for part in drawing.of("title"):
         for key in (language, "en"):
-            if isinstance(title := part.get(key), str):
+            if isinstance(title := part.get(key), str) and title.isprintable() and len(title) <= MAX_TITLE:
                 return title
     return ""
 

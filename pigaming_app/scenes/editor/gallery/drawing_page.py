@@ -99,7 +99,8 @@ class DrawingPage:
         match what:
             case "edit":
                 self.context.sounds.play("accept")
-                return Push(Editor(self.context, self.game, self.name, drawing))
+                named = drawing if store.title_of(drawing, "en") else store.titled(drawing, self.name)
+                return Push(Editor(self.context, self.game, self.name, named))
             case "play":
                 return self._play(event)
             case "rename":

@@ -159,7 +159,7 @@ class Shared(Shape):
 class Aisle(Shape):
     """The area where people walk."""
 
-    hollow = True
+    hollow = has_ends = True
 
     def grips(self, part: Part) -> tuple[Point, ...]:
         x, y, w, h = _box(part)
@@ -266,6 +266,6 @@ def _swapped(part: Part) -> Part:
 def _box(part: Part) -> tuple[float, float, float, float]:
     x, y = point_of(part, "at")
     match part.get("size"):
-        case (int() | float() as w, int() | float() as h):
+        case (int() | float() as w, int() | float() as h) if 0 < w <= WIDTH and 0 < h <= HEIGHT:
             return x, y, float(w), float(h)
     return x, y, float(LEAST), float(LEAST)

@@ -9,7 +9,7 @@ from typing import ClassVar
 import pygame
 
 from pigaming_app.games.drawing.values import Drawing, Part
-from pigaming_app.games.race.circuit import NARROWEST, Corner, traced
+from pigaming_app.games.race.circuit import NARROWEST, WIDEST, Corner, traced
 from pigaming_app.games.race.course import POINTS, Course, point_at
 from pigaming_app.games.race.racing_line import line_round
 from pigaming_app.games.race.state import LINES, Rules
@@ -125,8 +125,12 @@ class RaceTools(Tools):
     empty = EMPTY
 
     def items(self, drawing: Drawing) -> list[Item]:
-        there = {"line": LINES if _shares(drawing) and course_in(drawing.of("corner")) else 0}
-        return [Item(kind, k) for kind in self.shapes for k in range(there.get(kind, len(drawing.of(kind))))]
+        """The lines lie between mud and control points."""
+        found = super().items(drawing)
+        if not _shares(drawing) or course_in(drawing.of("corner")) is None:
+            return found
+        mud = sum(item.kind == "thing" for item in found)
+        return [*found[:mud], *(Item("line", k) for k in range(LINES)), *found[mud:]]
 
     def part(self, drawing: Drawing, item: Item) -> Part:
         course = course_in(drawing.of("corner"))
@@ -152,6 +156,8 @@ class RaceTools(Tools):
             return super().added(drawing, part)
         corners, at = [*drawing.of("corner")], point_of(part, "at")
         points = [point_of(corner, "at") for corner in corners]
+        if not points:
+            return super().added(drawing, part)
         k = min(range(len(points)), key=lambda i: _detour(points[i], at, points[(i + 1) % len(points)])) + 1
         width = number_of(corners[k - 1], "width", WIDE)
         corners.insert(k, part.changed("width", round(width)))
@@ -179,7 +185,8 @@ class RaceTools(Tools):
         for _ in range(CLODS):
             ink.disc(random.uniform(20, WIDTH - 20), random.uniform(20, HEIGHT - 20), random.choice((2, 3, 4)), EARTH)
         if course is None:
-            ink.line([point_of(corner, "at") for corner in drawing.of("corner")], ALARM, 5, True)
+            if corners := [point_of(corner, "at") for corner in drawing.of("corner")]:
+                ink.line(corners, ALARM, 5, True)
             return
         yield
         left, right = edges(course)
@@ -206,7 +213,8 @@ class RaceTools(Tools):
         course = course_in(drawing.of("corner"))
         if course is None:
             corners = [point_of(corner, "at") for corner in drawing.of("corner")]
-            pygame.draw.lines(screen, ALARM, True, placed(corners), 4)
+            if len(corners) > 1:
+                pygame.draw.lines(screen, ALARM, True, placed(corners), 4)
             return
         count = max(2, round(share * POINTS))
         left, right = (placed(edge[:count]) for edge in edges(course))
@@ -232,8 +240,8 @@ def course_in(corners: tuple[Part, ...]) -> Course | None:
 
 def _spec(part: Part) -> Corner:
     x, y = point_of(part, "at")
-    width = max(number_of(part, "width", WIDE), NARROWEST)
-    return Corner(x, y, max(number_of(part, "radius", TIGHTEST), TIGHTEST), width)
+    width = number_of(part, "width", WIDE, NARROWEST, WIDEST)
+    return Corner(x, y, number_of(part, "radius", TIGHTEST, TIGHTEST, 2000), width)
 
 
 def _corner(at: Point) -> Part:
@@ -254,7 +262,8 @@ def _shares(drawing: Drawing) -> tuple[float, ...]:
     for part in drawing.of("track"):
         found = part.get("lines")
         if isinstance(found, tuple) and len(found) == LINES:
-            return tuple(float(share) for share in found if isinstance(share, int | float))
+            shares = tuple(float(share) for share in found if isinstance(share, int | float) and 0.0 <= share <= 1.0)
+            return shares if len(shares) == LINES else ()
     return ()
 
 

@@ -6,7 +6,7 @@ such as the lines of a track.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, isfinite
 from typing import ClassVar, NamedTuple
 
 import pygame
@@ -18,6 +18,8 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import GlowCanvas, Point
 from pigaming_app.ui.draw.frame_budget import Steps
 
+MOST = 60  # parts of a kind that are shown; no arena that can be played has more
+FAR = 400.0  # px
 Outline = Sequence[Point]
 Routes = Sequence[Sequence[Point]]
 
@@ -64,6 +66,7 @@ class Shape:
     """A kind of part. `fixed`: all arenas have the same number of it."""
 
     fixed = True
+    has_ends = False  # its first grip is an end, not its middle
     is_handle = False  # it is not in pictures of the arena
     hollow = False  # it is pointed at by its outline only
 
@@ -127,7 +130,7 @@ class Tools:
 
     def items(self, drawing: Drawing) -> list[Item]:
         """All parts that can be pointed at, those below others first."""
-        return [Item(kind, k) for kind in self.shapes for k in range(len(drawing.of(kind)))]
+        return [Item(kind, k) for kind in self.shapes for k in range(min(MOST, len(drawing.of(kind))))]
 
     def part(self, drawing: Drawing, item: Item) -> Part:
         return drawing.of(item.kind)[item.k]
@@ -174,17 +177,22 @@ def part_of(kind: str, /, **entries: Value) -> Part:
 
 
 def point_of(part: Part, key: str) -> Point:
-    """A point of a part, px; the middle of the arena if it has none."""
-    match part.get(key):
-        case (int() | float() as x, int() | float() as y):
-            return float(x), float(y)
-    return WIDTH / 2, HEIGHT / 2
+    """A point of a part, px, not far from the arena; its middle if the part has none."""
+    return point(part.get(key)) or (WIDTH / 2, HEIGHT / 2)
 
 
-def number_of(part: Part, key: str, default: float) -> float:
-    """A number of a part."""
+def point(value: Value) -> Point | None:
+    """A value as a point, px, not far from the arena; None if it is none."""
+    match value:
+        case (int() | float() as x, int() | float() as y) if isfinite(x) and isfinite(y):
+            return min(max(float(x), -FAR), WIDTH + FAR), min(max(float(y), -FAR), HEIGHT + FAR)
+    return None
+
+
+def number_of(part: Part, key: str, default: float, least: float = -1e4, most: float = 1e4) -> float:
+    """A number of a part, from `least` to `most`."""
     value = part.get(key, default)
-    return float(value) if isinstance(value, int | float) else default
+    return min(max(float(value), least), most) if isinstance(value, int | float) and isfinite(value) else default
 
 
 def whole(x: float, y: float) -> tuple[int, int]:

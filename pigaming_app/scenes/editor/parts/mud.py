@@ -4,14 +4,25 @@ from collections.abc import Sequence
 from math import cos, hypot, sin, tau
 
 from pigaming_app.games.drawing.values import Part
-from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape, Tool, apart, following, inside, part_of
+from pigaming_app.scenes.editor.model.shapes import (
+    Dial,
+    Outline,
+    Paper,
+    Shape,
+    Tool,
+    apart,
+    following,
+    inside,
+    part_of,
+    point,
+)
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.things.styles import mud
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import Point
 
 RADII, RADIUS = (50, 75, 100, 150), 75  # px
-CORNERS, FLAT = 16, 0.8  # of a patch; its height relative to its width
+CORNERS = 20  # of a patch; round ones need a single capsule each
 MOST = 6  # in an arena
 
 
@@ -65,9 +76,8 @@ MUD = Tool("mud", "thing", patch, MOST)
 
 def _corners(part: Part) -> list[Point]:
     found = part.get("outline")
-    if not isinstance(found, tuple):
-        return [(WIDTH / 2, HEIGHT / 2)]
-    return [(float(p[0]), float(p[1])) for p in found if isinstance(p, tuple)]  # type: ignore[arg-type]
+    corners = [corner for value in found if (corner := point(value))] if isinstance(found, tuple) else []
+    return corners if len(corners) > 2 else list(_outline(WIDTH / 2, HEIGHT / 2, RADII[0]))
 
 
 def _round(part: Part) -> tuple[float, float, float]:
@@ -84,4 +94,4 @@ def _sized(part: Part, radius: float) -> Part:
 
 def _outline(x: float, y: float, radius: float) -> tuple[Point, ...]:
     turns = [tau * k / CORNERS for k in range(CORNERS)]
-    return tuple((round(x + radius * cos(a), 1), round(y + FLAT * radius * sin(a), 1)) for a in turns)
+    return tuple((round(x + radius * cos(a), 1), round(y + radius * sin(a), 1)) for a in turns)

@@ -8,7 +8,7 @@ from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape,
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.ui.draw import Point, regular_polygon
+from pigaming_app.ui.draw import PLAYERS, Point, regular_polygon
 
 NOSE = 90.0  # px from a robot to the grip by which it is turned
 STEP = 15  # degrees
@@ -30,7 +30,7 @@ class Start(Shape):
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
         (x, y), _ = self.grips(part)
-        robot(paper.ink, k, *paper.at(x, y), radians(number_of(part, "heading", 0.0)), paper.scale)
+        robot(paper.ink, k % len(PLAYERS), *paper.at(x, y), radians(number_of(part, "heading", 0.0)), paper.scale)
 
     def moved(self, part: Part, dx: float, dy: float) -> Part:
         x, y = point_of(part, "at")

@@ -34,6 +34,7 @@ class Wall(Shape):
     """A wall from `from` to `to`. `healthy`: bullets can break it."""
 
     fixed = False
+    has_ends = True
 
     def __init__(self, healthy: bool = True) -> None:
         self.healthy = healthy
@@ -43,14 +44,14 @@ class Wall(Shape):
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
         (ax, ay), (bx, by) = self.grips(part)
-        angle, half = atan2(by - ay, bx - ax), number_of(part, "thick", THICK) / 2
+        angle, half = atan2(by - ay, bx - ax), _thick(part) / 2
         turns = [(i / ROUNDED - 0.5) * pi for i in range(ROUNDED + 1)]
         ends = [(bx, by, angle + turn) for turn in turns] + [(ax, ay, angle + pi + turn) for turn in turns]
         return ([(x + half * cos(a), y + half * sin(a)) for x, y, a in ends],)
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
         (ax, ay), (bx, by) = self.grips(part)
-        thick = number_of(part, "thick", THICK)
+        thick = _thick(part)
         health = self.health(part)
         ink = paper.turned((ax + bx) / 2, (ay + by) / 2, atan2(by - ay, bx - ax))
         draw_wall(ink, hypot(bx - ax, by - ay) + thick - 4, thick - 4, health, int(ax * 7 + ay * 13 + bx), abs(health))
@@ -75,7 +76,7 @@ class Wall(Shape):
     def dials(self, part: Part) -> Sequence[Dial]:
         dials = [
             Dial("turn", lambda part: "", self.turned),
-            Dial("thick", lambda part: f"{number_of(part, 'thick', THICK):g}", _thicker),
+            Dial("thick", lambda part: f"{_thick(part):g}", _thicker),
         ]
         return [*dials, Dial("health", lambda part: str(self.health(part)), _weaker)] if self.healthy else dials
 
@@ -83,7 +84,7 @@ class Wall(Shape):
         """Bullets it takes; SOLID: any number."""
         if not self.healthy or part.get("solid", False) is True:
             return SOLID
-        return int(number_of(part, "health", HEALTH))
+        return int(number_of(part, "health", HEALTH, 1, HEALTH))
 
     def turned(self, part: Part) -> Part:
         """Turned clockwise about its middle, as far as the arena allows."""
@@ -118,12 +119,16 @@ SOLID_WALL = Tool("wall", "wall", solid_wall, BUILT, tap=False)
 
 
 def _thicker(part: Part) -> Part:
-    return part.changed("thick", int(following(THICKNESSES, number_of(part, "thick", THICK))))
+    return part.changed("thick", int(following(THICKNESSES, _thick(part))))
+
+
+def _thick(part: Part) -> float:
+    return number_of(part, "thick", THICK, 10, 200)
 
 
 def _weaker(part: Part) -> Part:
     """One bullet less; after one, solid; after that, whole again."""
     if part.get("solid", False) is True:
         return part.changed("solid", None).changed("health", HEALTH)
-    health = int(number_of(part, "health", HEALTH))
+    health = int(number_of(part, "health", HEALTH, 1, HEALTH))
     return part.changed("health", health - 1) if health > 1 else part.changed("health", None).changed("solid", True)
