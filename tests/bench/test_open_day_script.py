@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from pigaming_app.ai.brain.kind import HumanPlayer
-from pigaming_app.ai.registry import new_match
+from pigaming_app.ai.game_ai import HELPED_POINT, TURN
+from pigaming_app.ai.registry import make_person, new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.flow.stack import StackOperation
@@ -56,14 +56,15 @@ def test_a_match_of_an_event_is_noted_with_its_number_and_scores(arcade: Arcade,
     assert list(audit.journal_agrees(saved(run), seen.matches)) == []
 
 
-def test_a_visitor_drives_a_race_to_its_finish() -> None:
-    """With the stick alone, looked at as often as on the stage."""
+@pytest.mark.parametrize("style", [TURN, HELPED_POINT])
+def test_a_visitor_drives_a_race_to_its_finish(style: str) -> None:
+    """With the stick alone, looked at as often as on the stage, in both driving styles of a kiosk."""
     seats = Seat("human", 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
     match = new_match(Setup("race", "classic", seats, 10.0, 1, "standard", 1))
-    scene, stick = SimpleNamespace(match=match), StickState()
+    scene, stick = SimpleNamespace(match=match, devices=[Device("pad", 1)], style_of=lambda device: style), StickState()
     visit = Visit(SimpleNamespace(reactions={}))
-    match.sit(0, HumanPlayer(lambda: stick))
-    while not match.over and match.seconds < 60.0:
+    match.sit(0, make_person("race", style, lambda: stick, 3))
+    while not match.over and match.seconds < 20.0:
         if match.state.tick % 5 == 0:
             x, y, fire, turbo = visit._racing_line(scene, 0)
             stick = StickState(-y, x, fire, turbo)

@@ -1,9 +1,12 @@
 """What visitors do on the screens of a game: title, lobby, set-up, match, results."""
 
+import math
 from copy import copy
 from typing import Any
 
+from pigaming_app.ai.brain.driving import FORESIGHT, TURN_GAIN
 from pigaming_app.ai.brain.kind import BrainPlayer
+from pigaming_app.ai.game_ai import HELPED_POINT, POINT
 from pigaming_app.ai.race.racer import HAND3, act
 from pigaming_app.games.race.observation import observe
 from pigaming_app.scenes.howto.scene import HowTo
@@ -34,6 +37,7 @@ LOOK = 8.0  # s on a page of the title's menu
 REST = 95.0  # s for which nobody drives
 MINUTES, GOAL = 2, 3  # of a match, at most
 MISHAP_AT = 8.0  # s of the match
+LEAST_REACH = 0.3  # deflection of a stick that turns a robot where it stands
 
 
 class Visit:
@@ -158,7 +162,10 @@ class Visit:
         mind, action = self.drivers[seat]
         observe(state, seat, mind.senses, mind.obs)
         act(mind.obs, mind, action)
-        return float(action.angular), -float(action.linear), bool(action.fire), bool(action.turbo)
+        x, y = float(action.angular), -float(action.linear)
+        if scene.style_of(scene.devices[seat]) in (POINT, HELPED_POINT):
+            x, y = where_to_go(action, state.robots[seat], state.rules.turn_rate)
+        return x, y, bool(action.fire), bool(action.turbo)
 
     def _mishap(self, scene: MatchScene) -> None:
         """The mishap of the group, once."""
@@ -237,6 +244,13 @@ class Visit:
     def leave_page(self) -> None:
         """An unexpected page is left."""
         self.stage.one_presses(Button.BACK)
+
+
+def where_to_go(action: Any, robot: Any, turn_rate: float) -> tuple[float, float]:
+    """The stick that points where an action leads; backwards it turns round. See `driving.pointed`."""
+    reach, angle = max(LEAST_REACH, abs(action.linear)), action.angular * turn_rate / TURN_GAIN
+    heading = robot.heading + (math.pi if action.linear < 0.0 else FORESIGHT * robot.angular + angle)
+    return reach * math.cos(heading), reach * math.sin(heading)
 
 
 def next_letter(picker: LetterPicker, wanted: str) -> Button:
