@@ -21,7 +21,7 @@ PERIOD = 5  # ticks between decisions: 10 Hz
 
 @dataclass(frozen=True)
 class Encoding:
-    """Inputs and outputs of a game's networks. `encode` and `act` are kernels.
+    """Inputs and outputs of a game's networks, an even number each. `encode` and `act` are kernels.
 
     - `encode(match, seat, senses, inputs)` fills `inputs`, which has the length `size`.
     - `act(match, seat, choices)` sets the seat's action from one choice for each head.
@@ -36,7 +36,7 @@ class Encoding:
 
     def __post_init__(self) -> None:
         if self.size % 2 or self.outputs % 2:
-            raise ValueError(f"{self.size} inputs and {self.outputs} choices: both numbers must be even")  # records
+            raise ValueError(f"{self.size} inputs, {self.outputs} choices; both must be even")
 
     @property
     def size(self) -> int:

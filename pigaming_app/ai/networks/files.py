@@ -15,6 +15,7 @@ from typing import Any
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, unpack, verify
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, Handicap, Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.networks.thoughts import make_explain
@@ -113,9 +114,10 @@ def brain_of(trained: TrainedNetwork) -> BrainKind:
 def explained_brain(
     name: str, game: str, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
 ) -> BrainKind:
-    """A brain by a network of a game, with its explanation."""
+    """A brain by a network of a game, with its explanation if the game has a `Subject`."""
     encoding = ENCODINGS[game]
-    return replace(network_brain(name, encoding, weights, handicap), explain=make_explain(encoding))
+    brain = network_brain(name, encoding, weights, handicap)
+    return replace(brain, explain=make_explain(encoding)) if game in SUBJECTS else brain
 
 
 def policy_of(trained: TrainedNetwork) -> Policy:
@@ -127,7 +129,7 @@ def policy_of(trained: TrainedNetwork) -> Policy:
 
 @cache
 def shipped(name: str, folder: Path = BRAINS) -> TrainedNetwork:
-    """A network that ships with the arcade, or in the `folder` of a plug-in, cached. Raises OSError, NetworkError."""
+    """A network that ships with the arcade, or with a plug-in in its folder, cached. Raises OSError, NetworkError."""
     path = folder / f"{name}.npz"
     return decode(path.read_bytes(), path.name)
 
@@ -135,7 +137,7 @@ def shipped(name: str, folder: Path = BRAINS) -> TrainedNetwork:
 def shipped_brain(
     name: str, game: str, file: str, handicap: Handicap = NO_HANDICAP, folder: Path = BRAINS
 ) -> BrainKind:
-    """A brain `name` by a network that ships as `file`.npz in a folder, which is read on first use."""
+    """A brain `name` by a network that ships as `file`.npz, which is read on first use."""
 
     @cache
     def policy() -> Policy:
