@@ -32,7 +32,7 @@ HANDS = (
     Strength(0.90, 6, 0.05, turbo=True, passes=True),
 )
 STRENGTHS = (
-    Strength(0.73, 36, 0.23, turbo=False, passes=False, form=0.5),
+    Strength(0.74, 36, 0.23, turbo=False, passes=False, form=0.48),
     Strength(0.80, 28, 0.18, turbo=False, passes=True, form=0.45),
     Strength(0.87, 22, 0.14, turbo=False, passes=True, form=0.4),
     Strength(0.85, 17, 0.11, turbo=True, passes=True, form=0.36),

@@ -36,7 +36,7 @@ class Encoding:
 
     def __post_init__(self) -> None:
         if self.size % 2 or self.outputs % 2:
-            raise ValueError(f"{self.size} inputs and {self.outputs} choices: both numbers must be even")  # records
+            raise ValueError(f"{self.size} inputs, {self.outputs} choices; both must be even")
 
     @property
     def size(self) -> int:

@@ -129,7 +129,7 @@ def policy_of(trained: TrainedNetwork) -> Policy:
 
 @cache
 def shipped(name: str, folder: Path = BRAINS) -> TrainedNetwork:
-    """A network that ships with the arcade, or in the `folder` of a plug-in, cached. Raises OSError, NetworkError."""
+    """A network that ships with the arcade, or with a plug-in in its folder, cached. Raises OSError, NetworkError."""
     path = folder / f"{name}.npz"
     return decode(path.read_bytes(), path.name)
 
@@ -137,7 +137,7 @@ def shipped(name: str, folder: Path = BRAINS) -> TrainedNetwork:
 def shipped_brain(
     name: str, game: str, file: str, handicap: Handicap = NO_HANDICAP, folder: Path = BRAINS
 ) -> BrainKind:
-    """A brain `name` by a network that ships as `file`.npz in a folder, which is read on first use."""
+    """A brain `name` by a network that ships as `file`.npz, which is read on first use."""
 
     @cache
     def policy() -> Policy:
