@@ -120,7 +120,7 @@ class Editor:
         share = 1.0 - max(0.0, self.reveal) / REVEAL
         clear(screen)
         self.ground.draw(screen, drawing, share)
-        if verdict and not bench.hand:
+        if verdict and not bench.hand and share >= 1.0:
             draw_routes(screen, verdict.routes, self.clock)
         draw_parts(screen, self.tools, drawing, in_hand, share)
         for item in in_hand:

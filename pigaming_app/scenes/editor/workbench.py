@@ -3,9 +3,10 @@
 Actions return the name of a sound, "" if there is none.
 """
 
+import threading
 from collections.abc import Callable
 
-from pigaming_app.games.arenas import is_own_name
+from pigaming_app.games.arenas import is_own_name, own_arenas
 from pigaming_app.games.drawing.values import Drawing
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.checker import Checker, Verdict
@@ -158,6 +159,9 @@ class Workbench:
         self.name = name
         self.autosave = store.Autosave(store.draft_file(game, name))
         self.checker.check(drawing)
+        threading.Thread(
+            target=own_arenas, args=(game,), name="own arenas", daemon=True
+        ).start()  # read it for the lobby
 
     # ---- inside
 

@@ -185,6 +185,7 @@ def test_a_surprise_draws_itself(mouse: Mouse, game: str) -> None:
     mouse.arcade.open(Gallery(mouse.arcade.context, game))
     mouse.arcade.press(Button.RIGHT)
     mouse.arcade.press(Button.FIRE)
+    wait_for(mouse.arcade, lambda: isinstance(mouse.arcade.stack.top, Editor))
     editor = mouse.editor
     shown = []
     for _ in range(4):
