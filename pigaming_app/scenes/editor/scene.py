@@ -198,7 +198,7 @@ class Editor:
         """The sentence at the top: a message, or the worst problem."""
         if self.sentence_left > 0.0:
             return self.sentence, ALARM if self.wrong else FOCUS
-        verdict = None if self.bench.hand else self.bench.verdict
+        verdict = self.bench.verdict
         if verdict and verdict.problems:
             worst = next((problem for problem in verdict.problems if problem.blocks), verdict.problems[0])
             kind = worst.key.partition("[")[0].partition(".")[0] if worst.blocks else "gap"
@@ -234,7 +234,7 @@ class Editor:
     def _back(self) -> StackOperation:
         self._play("back")
         if self.bench.hand:
-            self.bench.hand = None
+            self.bench.cancel()
         elif self.bar.open:
             self.bar.open = False
         elif self.bench.selected:
