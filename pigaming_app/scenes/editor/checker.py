@@ -1,10 +1,11 @@
-"""Checks of a drawing in a thread: its problems at once, then the plans of AIs. Only the latest drawing counts."""
+"""Checks of a drawing in threads: its problems at once, then the plans of AIs. Only the latest drawing counts."""
 
 import logging
 import sys
 import threading
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
 
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.drawing.problems import Problem, problems
@@ -17,11 +18,13 @@ from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 log = logging.getLogger("pigaming")
+Task = TypeVar("Task")
+NORMAL_INTERVAL = sys.getswitchinterval()  # s
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is known about a drawing. `arena`: None until it is parsed, or if something blocks."""
+    """What is known about a drawing. `arena`: None until it is parsed, or if something blocks; `done`: that is all."""
 
     drawing: Drawing
     problems: Sequence[Problem]
@@ -35,24 +38,62 @@ class Verdict:
         return any(problem.blocks for problem in self.problems)
 
 
+class LatestTask(Generic[Task]):
+    """A thread that does the latest of the tasks that it was given meanwhile."""
+
+    def __init__(self, name: str, work: Callable[[Task], None]) -> None:
+        self.name, self.work = name, work
+        self._task: Task | None = None
+        self._ended, self._wake = False, threading.Condition()
+        self._thread: threading.Thread | None = None
+
+    def give(self, task: Task) -> None:
+        """Do this task next, in place of any other one."""
+        with self._wake:
+            self._task = task
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._run, name=self.name, daemon=True)
+                self._thread.start()
+            self._wake.notify()
+
+    def end(self) -> None:
+        """Stop after the current task."""
+        with self._wake:
+            self._ended = True
+            self._wake.notify()
+
+    def _run(self) -> None:
+        while (task := self._next()) is not None:
+            sys.setswitchinterval(SWITCH_INTERVAL)  # so that the thread that draws need not wait
+            try:
+                self.work(task)
+            except Exception:
+                log.exception("the %s failed", self.name)
+            finally:
+                sys.setswitchinterval(NORMAL_INTERVAL)
+
+    def _next(self) -> Task | None:
+        with self._wake:
+            self._wake.wait_for(lambda: self._ended or self._task is not None)
+            task, self._task = self._task, None
+            return None if self._ended else task
+
+
 class Checker:
-    """The checker of one editor. `verdict`: of a drawing, not always the latest one."""
+    """The checks of one editor. `verdict`: of a drawing, not always of the latest one."""
 
     def __init__(self, tools: Tools, name: str) -> None:
         self.tools, self.name = tools, name
         self.verdict: Verdict | None = None
         self._asked: Drawing | None = None
-        self._ended, self._wake = False, threading.Condition()
-        self._thread: threading.Thread | None = None
+        self._finder = LatestTask("arena checker", self._find)
+        self._planner = LatestTask("arena planner", self._plan)
 
-    def check(self, drawing: Drawing) -> None:
-        """Check a drawing, in place of any other."""
-        if self._thread is None:
-            self._thread = threading.Thread(target=self._work, name="arena checker", daemon=True)
-            self._thread.start()
-        with self._wake:
+    def check(self, drawing: Drawing, plan: bool = True) -> None:
+        """Check a drawing, in place of any other; `plan`: how AIs will drive there, too."""
+        if (drawing, plan) != (self._asked, False):
             self._asked = drawing
-            self._wake.notify()
+            self._finder.give((drawing, plan))
 
     def of(self, drawing: Drawing) -> Verdict | None:
         """The verdict on a drawing, as far as it is known."""
@@ -60,46 +101,31 @@ class Checker:
         return verdict if verdict and verdict.drawing == drawing else None
 
     def end(self) -> None:
-        """Stop after the current check."""
-        with self._wake:
-            self._ended = True
-            self._wake.notify()
+        """Stop after the current checks."""
+        self._finder.end()
+        self._planner.end()
 
-    def _work(self) -> None:
-        before = sys.getswitchinterval()
-        sys.setswitchinterval(SWITCH_INTERVAL)  # so that the thread that draws need not wait
+    def _find(self, task: tuple[Drawing, bool]) -> None:
+        """Publish the problems of a drawing."""
+        drawing, plan = task
+        found = Verdict(drawing, problems(games()[self.tools.game], drawing))
+        self.verdict = replace(found, done=found.blocked)
+        if plan and not found.blocked:
+            self._planner.give(found)
+
+    def _plan(self, found: Verdict) -> None:
+        """Publish the arena, then the plans of AIs, unless there is another drawing by then."""
         try:
-            while drawing := self._next():
-                self._judge(drawing)
-        except Exception:
-            log.exception("the arena checker failed")
-        finally:
-            sys.setswitchinterval(before)
-
-    def _next(self) -> Drawing | None:
-        with self._wake:
-            self._wake.wait_for(lambda: self._ended or self._asked is not None)
-            asked, self._asked = self._asked, None
-            return None if self._ended else asked
-
-    @property
-    def _outdated(self) -> bool:
-        return self._ended or self._asked is not None
-
-    def _judge(self, drawing: Drawing) -> None:
-        """Publish verdicts, each more complete than the one before."""
-        found = problems(games()[self.tools.game], drawing)
-        blocked = any(problem.blocks for problem in found)
-        self.verdict = Verdict(drawing, found, done=blocked)
-        if blocked or self._outdated:
-            return
-        try:
-            arena = parse(self.tools.game, text_of(drawing), self.name)
-            self.verdict = Verdict(drawing, found, arena)
-            self.verdict = Verdict(drawing, found, arena, self.tools.routes(arena), done=True)
+            arena = parse(self.tools.game, text_of(found.drawing), self.name)
+            self._publish(replace(found, arena=arena))
+            self._publish(replace(found, arena=arena, routes=self.tools.routes(arena), done=True))
         except (ArenaError, FieldError) as error:
             log.warning("%s", error)
-            self.verdict = Verdict(drawing, [*found, unknown(str(error))], done=True)
+            self._publish(replace(found, problems=[*found.problems, unknown(str(error))], done=True))
+
+    def _publish(self, verdict: Verdict) -> None:
+        if self._asked == verdict.drawing:
+            self.verdict = verdict
 
 
 def unknown(reason: str) -> Problem:

@@ -8,7 +8,7 @@ from pigaming_app.scenes.editor.model.edits import Changed, placed, replaced
 from pigaming_app.scenes.editor.model.shapes import Item, Tool, Tools, apart
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
 from pigaming_app.scenes.editor.pointer import Pointer
-from pigaming_app.sim.things.convex import Point
+from pigaming_app.ui.draw import Point
 from pigaming_app.ui.input.events import InputEvent
 
 NEAR = 20.0  # px of the arena, from a grip

@@ -120,7 +120,7 @@ class Editor:
         share = 1.0 - max(0.0, self.reveal) / REVEAL
         clear(screen)
         self.ground.draw(screen, drawing, share)
-        if verdict and not bench.hand:
+        if verdict and not bench.hand and share >= 1.0:
             draw_routes(screen, verdict.routes, self.clock)
         draw_parts(screen, self.tools, drawing, in_hand, share)
         for item in in_hand:
@@ -198,7 +198,7 @@ class Editor:
         """The sentence at the top: a message, or the worst problem."""
         if self.sentence_left > 0.0:
             return self.sentence, ALARM if self.wrong else FOCUS
-        verdict = None if self.bench.hand else self.bench.verdict
+        verdict = self.bench.verdict
         if verdict and verdict.problems:
             worst = next((problem for problem in verdict.problems if problem.blocks), verdict.problems[0])
             kind = worst.key.partition("[")[0].partition(".")[0] if worst.blocks else "gap"
@@ -234,7 +234,7 @@ class Editor:
     def _back(self) -> StackOperation:
         self._play("back")
         if self.bench.hand:
-            self.bench.hand = None
+            self.bench.cancel()
         elif self.bar.open:
             self.bar.open = False
         elif self.bench.selected:

@@ -3,9 +3,10 @@
 Actions return the name of a sound, "" if there is none.
 """
 
+import threading
 from collections.abc import Callable
 
-from pigaming_app.games.arenas import is_own_name
+from pigaming_app.games.arenas import is_own_name, own_arenas
 from pigaming_app.games.drawing.values import Drawing
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.checker import Checker, Verdict
@@ -47,8 +48,8 @@ class Workbench:
 
     @property
     def verdict(self) -> Verdict | None:
-        """What is known about the current drawing."""
-        return self.checker.of(self.history.now)
+        """What is known about the current drawing; while something is in hand, about what was checked last."""
+        return self.checker.verdict if self.hand else self.checker.of(self.history.now)
 
     @property
     def named(self) -> bool:
@@ -86,6 +87,7 @@ class Workbench:
         if hand is None:
             return ""
         hand.follow(self.tools, self.pointer, self.symmetry)
+        self.checker.check(hand.drawing, plan=False)
         if hand.loose or controls.holds(hand.event.device, hand.event.button):
             return ""
         if hand.tool and not hand.tool.tap and not hand.moved:
@@ -100,9 +102,15 @@ class Workbench:
         self.selected = hand.items[0] if hand.items else None
         return self.change(hand.drawing)
 
+    def cancel(self) -> None:
+        """Let go of what is in hand, which stays as it was."""
+        self.hand = None
+        self.checker.check(self.history.now)
+
     def change(self, drawing: Drawing) -> str:
         """Go on with another drawing."""
         if not self.history.push(drawing):
+            self.checker.check(drawing)
             return ""
         self._changed()
         return "accept"
@@ -158,6 +166,9 @@ class Workbench:
         self.name = name
         self.autosave = store.Autosave(store.draft_file(game, name))
         self.checker.check(drawing)
+        threading.Thread(
+            target=own_arenas, args=(game,), name="own arenas", daemon=True
+        ).start()  # read it for the lobby
 
     # ---- inside
 

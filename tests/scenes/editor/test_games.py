@@ -14,8 +14,9 @@ from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.editor.store import titled
 from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
-from tests.scenes.editor.artist import Artist, Gamer, Mouse, Typist, checked
+from tests.scenes.editor.artist import Artist, Gamer, Mouse, Typist, checked, wait_for
 from tests.ui.input.virtual_pad import VirtualPad
 
 pytestmark = pytest.mark.usefixtures("home")
@@ -143,6 +144,19 @@ def test_problems_are_shown_where_they_are_and_block_the_match(mouse: Mouse) -> 
     verdict = checked(mouse).bench.verdict
     assert [(one.key, one.blocks) for one in verdict.problems] == [("wall[2]", False)]
     assert verdict.arena
+
+
+def test_problems_are_found_while_a_part_is_in_hand(mouse: Mouse) -> None:
+    bench = opened(mouse, "race").bench
+    checked(mouse)
+    mouse.go((150, 150))
+    mouse.press("fire")
+    mouse.arcade.frame()
+    mouse.go((25, 25))
+    wait_for(mouse.arcade, lambda: bool(bench.verdict and bench.verdict.blocked))
+    assert bench.hand
+    mouse.arcade.press(Button.BACK)
+    assert not checked(mouse).bench.verdict.blocked
 
 
 def test_a_course_over_itself_is_marked_at_the_crossing(mouse: Mouse) -> None:

@@ -13,7 +13,7 @@ from pigaming_app.games.arenas import load, own_arenas, shipped_arenas
 from pigaming_app.games.drawing.values import Drawing, drawing_of, text_of
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
-from pigaming_app.scenes.editor.checker import Checker
+from pigaming_app.scenes.editor.checker import Checker, Verdict
 from pigaming_app.scenes.editor.gallery.drawing_page import DrawingPage
 from pigaming_app.scenes.editor.gallery.page import Gallery
 from pigaming_app.scenes.editor.model.edits import placed, removed, replaced
@@ -41,6 +41,15 @@ def mouse(controls: Controls) -> Mouse:
 def empty(game: str) -> Drawing:
     tools = EDITORS[game]
     return store.titled(drawing_of(tools.empty or load(game, tools.template).source), "NEW")
+
+
+def verdict_on(game: str, drawing: Drawing) -> Verdict:
+    """The whole verdict, in this thread."""
+    checker = Checker(EDITORS[game], "new-1")
+    checker._asked, checker._planner.give = drawing, checker._plan  # type: ignore[method-assign]
+    checker._find((drawing, True))
+    assert checker.verdict
+    return checker.verdict
 
 
 def random_edit(game: str, drawing: Drawing, random: Random) -> Drawing:
@@ -83,10 +92,7 @@ def test_every_edit_can_be_undone_and_redone_and_written(game: str) -> None:
         assert history.now == drawing
     assert not history.redo()
     for drawing in drawings[::20]:
-        checker = Checker(EDITORS[game], "new-1")
-        checker._judge(drawing)
-        assert checker.verdict
-        assert checker.verdict.done
+        assert verdict_on(game, drawing).done
 
 
 DAMAGED = (
@@ -185,6 +191,7 @@ def test_a_surprise_draws_itself(mouse: Mouse, game: str) -> None:
     mouse.arcade.open(Gallery(mouse.arcade.context, game))
     mouse.arcade.press(Button.RIGHT)
     mouse.arcade.press(Button.FIRE)
+    wait_for(mouse.arcade, lambda: isinstance(mouse.arcade.stack.top, Editor))
     editor = mouse.editor
     shown = []
     for _ in range(4):
@@ -251,12 +258,10 @@ def test_a_new_name_never_mixes_two_drawings(mouse: Mouse) -> None:
 def test_plans_of_ais_take_less_than_two_seconds_and_a_frame_never_waits(game: str) -> None:
     """Processor time, on an arena that no cache knows."""
     drawing = drawing_of(games()[game].surprise(987_654))
-    checker = Checker(EDITORS[game], "new-1")
     begin = time.thread_time()
-    checker._judge(drawing)
+    assert verdict_on(game, drawing).routes
     assert time.thread_time() - begin < 2.0
-    assert checker.verdict
-    assert checker.verdict.routes
+    checker = Checker(EDITORS[game], "new-1")
     begin = time.thread_time()
     checker.check(drawing)
     assert time.thread_time() - begin < 0.01

@@ -1,12 +1,13 @@
 """The gallery of a game: a new arena, a surprise, the user's own, and ours as templates."""
 
 import secrets
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.games.arenas import load, shipped_arenas
+from pigaming_app.games.arenas import shipped_arenas
 from pigaming_app.games.drawing.values import Drawing, drawing_of
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
@@ -45,6 +46,19 @@ class Card:
     name: str = ""
 
 
+class Surprise:
+    """A made-up arena of a game, made in a thread, as that takes up to half a second."""
+
+    def __init__(self, game: str) -> None:
+        self.drawing: Drawing | None = None
+        self._make = games()[game].surprise
+        threading.Thread(target=self._work, name="surprise", daemon=True).start()
+
+    def _work(self) -> None:
+        if self._make:
+            self.drawing = drawing_of(self._make(secrets.randbelow(SURPRISES)))
+
+
 class Gallery:
     """The gallery of a game, which Y changes to the next one."""
 
@@ -53,6 +67,7 @@ class Gallery:
         self.game = game if game in EDITORS else next(iter(EDITORS))
         self.first = 0  # card at the upper left
         self.cards: list[Card] = []
+        self.surprise: Surprise | None = None  # being made since it was asked for
         self._read()
         self.focus = Focus(self._spots())
         hints = [(Button.FIRE, "editor.hint_open"), (Button.Y, "editor.hint_game"), (Button.BACK, "editor.hint_back")]
@@ -61,6 +76,7 @@ class Gallery:
     def on_enter(self) -> None:
         """First display, or return from a drawing."""
         self.context.sounds.music(True)
+        self.surprise = None
         self._read()
         self._scroll()
 
@@ -88,7 +104,9 @@ class Gallery:
         return self.navigation.handle(event)
 
     def update(self, seconds: float) -> StackOperation:
-        return self.navigation.update(seconds)
+        """Animate; open the surprise that was asked for."""
+        turn = self.navigation.update(seconds)
+        return turn or (self._surprise() if self.surprise else None)
 
     def draw(self, screen: pygame.Surface) -> None:
         words = self.context.words
@@ -116,8 +134,9 @@ class Gallery:
         words = self.context.words
         self.cards = [
             Card(words("editor.new"), self._new, sign="plus"),
-            Card(words("editor.surprise"), self._surprise, sign="dice"),
         ]
+        if games()[self.game].surprise:
+            self.cards.append(Card(words("editor.surprise"), self._surprise, sign="dice"))
         for name in store.own_names(self.game):
             self.cards += self._own_card(name)
         for name in shipped_arenas(self.game):
@@ -149,8 +168,12 @@ class Gallery:
         return self._begin(drawing_of(tools.empty or load_cached(self.game, tools.template).source))
 
     def _surprise(self) -> StackOperation:
-        arena = load(self.game, f"surprise-{secrets.randbelow(SURPRISES)}")
-        return self._begin(drawing_of(arena.source), True)
+        """Open a made-up arena, as soon as it is made."""
+        self.surprise = self.surprise or Surprise(self.game)
+        if self.surprise.drawing is None:
+            return None
+        drawing, self.surprise = self.surprise.drawing, None
+        return self._begin(drawing, True)
 
     def _begin(self, drawing: Drawing, reveal: bool = False) -> StackOperation:
         """Draw on a copy."""

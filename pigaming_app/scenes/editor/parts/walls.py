@@ -76,7 +76,7 @@ class Wall(Shape):
     def dials(self, part: Part) -> Sequence[Dial]:
         dials = [
             Dial("turn", lambda part: "", self.turned),
-            Dial("thick", lambda part: f"{_thick(part):g}", _thicker),
+            Dial("thick", lambda part: str(round(_thick(part))), _thicker),
         ]
         return [*dials, Dial("health", lambda part: str(self.health(part)), _weaker)] if self.healthy else dials
 
