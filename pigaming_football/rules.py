@@ -22,6 +22,7 @@ from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS, stop_all
 from pigaming_app.sim.world import ROBOTS, WIDTH
 
+from .overlaps import is_free, nearest_free
 from .physics import (
     NOWHERE,
     SCORED,
@@ -29,9 +30,7 @@ from .physics import (
     can_catch,
     carry,
     catch,
-    is_free,
     lose,
-    nearest_free,
     note_steps,
     roll,
     settle,

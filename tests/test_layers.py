@@ -53,7 +53,7 @@ _BRAINS = (*RULES_FACE, "ai.brain", "ai.game_ai")
 FACE = {  # parts of a plug-in and the modules of this package that they may import; all others are its rules
     "ai": (*_BRAINS, "ai.networks"),
     "network": (*_BRAINS, "ai.networks"),
-    "training": (*_BRAINS, "ai.networks", "ai.ppo", "gym.rewards"),
+    "training": (*_BRAINS, "ai.networks", "ai.ppo", "ai.tallies"),
     "screens": (*RULES_FACE, "scenes.views", "ui"),
 }
 PACKAGES_OF = {"pygame": {"screens"}, "numpy": {"training"}}

@@ -1,6 +1,7 @@
 """Renders the animation on top of README: `python assets/pictures/render.py` writes arcade.webp beside this file.
 
-AIs play some seconds of each game; the same script always renders the same frames. Needs Pillow (the extra `pictures`).
+AIs play some seconds of all four games, each on a tile; the same script always renders the same frames. Needs Pillow
+(the extra `pictures`).
 """
 
 import os
@@ -20,32 +21,43 @@ from pigaming_app.games.setup import make_setup  # noqa: E402
 from pigaming_app.scenes.views.screenshot import Screenshot  # noqa: E402
 from pigaming_app.sim.world import HZ  # noqa: E402
 
-SIZE = (800, 450)  # px
-TICKS = 4  # of a match between two frames
+TILE, GAP = (480, 270), 6  # px
+TICKS = 5  # of a match between two frames
+SECONDS = 9.0  # of a clip
 WARM_UP = 3.0  # s of a match rendered before a clip, so that treads and sparks are there
 QUALITY = 50
-CLIPS = (  # game, arena, seed, first and last second
-    ("pitanks", "classic", 3, 14.0, 21.0),
-    ("factory", "hall", 1, 20.0, 27.0),
-    ("race", "classic", 1, 6.0, 12.0),
+CLIPS = (  # game, arena, seed, first second; by tile
+    ("pitanks", "classic", 3, 14.0),
+    ("factory", "hall", 1, 20.0),
+    ("race", "classic", 1, 6.0),
+    ("football", "classic", 3, 8.0),
 )
 
 
+def clip(game: str, arena: str, seed: int, first: float) -> Iterator[pygame.Surface]:
+    """The frames of a clip."""
+    setup = make_setup(game, ["hard"] * 4, arena, None, seed, None, None, list(BRAINS[game]), None)
+    match = new_match(setup)
+    camera = None
+    while match.seconds < first + SECONDS:
+        match.tick()
+        if match.seconds < first - WARM_UP:
+            continue
+        camera = camera or Screenshot(match)
+        camera.watch()
+        if match.seconds >= first and match.state.tick % TICKS == 0:
+            yield pygame.transform.smoothscale(camera.screen, TILE)
+
+
 def frames() -> Iterator[Image.Image]:
-    """The frames of all clips, in order."""
-    for game, arena, seed, first, last in CLIPS:
-        setup = make_setup(game, ["hard"] * 4, arena, None, seed, None, None, list(BRAINS[game]), None)
-        match = new_match(setup)
-        camera = None
-        while match.seconds < last:
-            match.tick()
-            if match.seconds < first - WARM_UP:
-                continue
-            camera = camera or Screenshot(match)
-            camera.watch()
-            if match.seconds >= first and match.state.tick % TICKS == 0:
-                small = pygame.transform.smoothscale(camera.screen, SIZE)
-                yield Image.frombytes("RGB", SIZE, pygame.image.tobytes(small, "RGB"))
+    """The frames of all clips side by side, in order."""
+    w, h = TILE
+    size = 2 * w + GAP, 2 * h + GAP
+    for tiles in zip(*(clip(*one) for one in CLIPS), strict=False):
+        page = pygame.Surface(size)
+        for i, tile in enumerate(tiles):
+            page.blit(tile, ((w + GAP) * (i % 2), (h + GAP) * (i // 2)))
+        yield Image.frombytes("RGB", size, pygame.image.tobytes(page, "RGB"))
 
 
 def main() -> None:

@@ -10,8 +10,9 @@ from typing import Any
 from pigaming_app.ai.experiments.cast import Family, Think, dispatcher
 from pigaming_app.ai.networks.encoding import UNIT, Encoding
 from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.ai.tallies import Tallies
 from pigaming_app.games.registry import games
-from pigaming_app.gym.rewards import TALLIES, Tallies
+from pigaming_app.gym.rewards import TALLIES
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled, kernel

@@ -1,15 +1,13 @@
 """Rewards: weighted changes of a seat's tallies from one decision to the next.
 
-A tally is a number that a match keeps for a seat. Each game has a kernel `tally(match, seat, senses, totals)` that
-fills the array `totals` with them, in the order of their names; `senses` are those of the observation just made. In
-every game `win` is 0 until the match is decided for the seat, then 1 for a win, -1 for a defeat and 0 for a tie.
+In every game `win` is 0 until the match is decided for the seat, then 1 for a win, -1 for a defeat and 0 for a tie.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from math import sqrt
 from typing import Any
 
+from pigaming_app.ai.tallies import Tallies, is_over, sign
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DELIVERED,
@@ -25,31 +23,6 @@ from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import CELL, ROBOTS
 from pigaming_app.storage.plugins.parts import parts
-
-
-@dataclass(frozen=True)
-class Tallies:
-    """The tallies of a game. `tally` and `is_done` are kernels.
-
-    `is_done(match, seat)` is 1 when nothing that the seat does can change its result any more.
-    """
-
-    names: tuple[str, ...]
-    weights: Mapping[str, float]  # of the default reward; tallies that are not named count nothing
-    tally: Callable[[Any, int, Any, Any], None]
-    is_done: Callable[[Any, int], int]
-
-
-@kernel
-def is_over(match: Any, seat: int) -> int:
-    """1 if the match is over."""
-    return int(match.over)
-
-
-@kernel
-def sign(value: float) -> float:
-    return 1.0 if value > 0 else -1.0 if value < 0 else 0.0
-
 
 # ------------------------------------------------------------------------------------------------------------- PiTanks
 

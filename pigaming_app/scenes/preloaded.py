@@ -4,6 +4,7 @@ MODULES = (
     "numpy",
     "pigaming_app.scenes.lobby.scene",
     "pigaming_app.scenes.play.scene",
+    "pigaming_app.scenes.editor.gallery.page",
     "pigaming_app.scenes.views.race.mud",
     "pigaming_app.scenes.robots.start_match",
     "pigaming_app.scenes.options.page",

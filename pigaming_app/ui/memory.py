@@ -24,6 +24,19 @@ def return_large_blocks() -> None:
             return  # another C library
 
 
+def return_freed_blocks() -> None:
+    """Return the free pages of the heap to the system; takes 6 to 10 ms after a match.
+
+    By itself glibc returns only those at the end of the heap. Between blocks that live longer up to 110 MB stay, slowly
+    more of them over the hours.
+    """
+    if sys.platform.startswith("linux"):
+        try:
+            ctypes.CDLL(None).malloc_trim(0)
+        except (OSError, AttributeError):
+            return  # another C library
+
+
 _busy = Event()  # set while collection is paused
 
 

@@ -1,44 +1,65 @@
-"""The AIs of Robot Football: one footballer in five levels, which differ in speed, reaction time and aim."""
+"""The AIs of Robot Football: one footballer in five levels and as `hand1` to `hand3`, and a network."""
 
-from typing import Any
+from dataclasses import dataclass
+from pathlib import Path
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.game_ai import LEVELS, GameAI
-from pigaming_app.sim.rng import seeded
+from pigaming_app.ai.networks.files import shipped_brain
+from pigaming_app.ai.networks.policy import Handicap
+from pigaming_app.sim.rng import seeded, uniform
 
 from .footballer import think
 from .mind import PERIOD, Mind
 from .thoughts import explain
 
-# Share of full speed, ticks between looks at the ball, standard deviation of the aim (rad), turbo, passes.
+
+@dataclass(frozen=True)
+class Strength:
+    """What makes a footballer weaker than it could be."""
+
+    speed: float  # share of full speed
+    reaction: int  # ticks between looks at the ball
+    error: float  # rad, standard deviation of the aim
+    turbo: bool  # whether it uses the turbo
+    passes: bool
+    form: float = 0.0  # share of its speed that it lacks at most, on a bad day; drawn for each match
+
+
+HANDS = (
+    Strength(0.50, 40, 0.26, turbo=False, passes=False),
+    Strength(0.70, 18, 0.12, turbo=False, passes=True),
+    Strength(0.90, 6, 0.05, turbo=True, passes=True),
+)
 STRENGTHS = (
-    (0.50, 40, 0.26, 0, 0),
-    (0.60, 28, 0.18, 0, 0),
-    (0.70, 18, 0.12, 0, 1),
-    (0.80, 12, 0.08, 1, 1),
-    (0.90, 6, 0.05, 1, 1),
+    Strength(0.74, 36, 0.23, turbo=False, passes=False, form=0.48),
+    Strength(0.80, 28, 0.18, turbo=False, passes=True, form=0.45),
+    Strength(0.87, 22, 0.14, turbo=False, passes=True, form=0.4),
+    Strength(0.85, 17, 0.11, turbo=True, passes=True, form=0.36),
+    Strength(0.88, 12, 0.09, turbo=True, passes=True, form=0.28),
 )
 
 
-def _reset(speed: float, reaction: int, error: float, turbo: int, plays: int) -> Any:
-    """A `reset` for a level."""
+def _footballer(name: str, strength: Strength) -> BrainKind:
+    """A footballer of a strength."""
 
-    def fill(mind: Mind, seed: int) -> None:
-        mind.speed, mind.reaction, mind.error, mind.turbo, mind.plays = speed, reaction, error, turbo, plays
+    def reset(mind: Mind, seed: int) -> None:
         mind.random = seeded(seed)
         mind.phase = mind.random % PERIOD
+        mind.speed = strength.speed * (1.0 - strength.form * uniform(mind)) if strength.form else strength.speed
+        mind.reaction, mind.error = strength.reaction, strength.error
+        mind.turbo, mind.plays = int(strength.turbo), int(strength.passes)
 
-    return fill
+    return BrainKind(name, Mind, think, reset, explain=explain)
 
 
-def _footballer(name: str, strength: int) -> BrainKind:
-    """A footballer of strength 0..4."""
-    return BrainKind(name, Mind, think, _reset(*STRENGTHS[strength]), explain=explain)
-
+NET = shipped_brain("net", "football", "football", Handicap(sharpness=2.0), Path(__file__).parents[1] / "brains")
 
 AI = GameAI(
     {
-        **{name: _footballer(name, strength) for strength, name in enumerate(LEVELS)},
-        **{f"hand{i + 1}": _footballer(f"hand{i + 1}", strength) for i, strength in enumerate((0, 2, 4))},
-    }
+        **{name: _footballer(name, strength) for name, strength in zip(LEVELS, STRENGTHS, strict=True)},
+        **{f"hand{i}": _footballer(f"hand{i}", strength) for i, strength in enumerate(HANDS, start=1)},
+        "net": NET,
+    },
+    rivals=(*LEVELS, "net"),
 )

@@ -10,7 +10,7 @@ from ..observation import OWN, from_left, polar
 from ..rules import side_of
 from ..state import LEFT, MIDDLE
 from .footballer import STUCK_TICKS
-from .mind import CHASER, KEEPER
+from .mind import CHASER, KEEPER, SUPPORTER
 
 FAR = 1200.0  # px
 BEHAVIOURS = ("football_chase", "football_keep", "football_support")  # by role
@@ -42,9 +42,11 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
         utilities={
             "football_chase": clamp(1.0 - obs.ball_distance / FAR) if mind.role != CHASER else 1.0,
             "football_keep": clamp(1.0 - mind.seen_x / WIDTH) if mind.role != KEEPER else 1.0,
+            "football_support": 1.0 if mind.role == SUPPORTER else 0.0,
             "football_aim": 1.0 if obs.held == OWN else 0.0,
             "free": 1.0 if mind.freeing else clamp(mind.stuck_ticks / STUCK_TICKS),
         },
+        chosen=behaviour,
     )
 
 

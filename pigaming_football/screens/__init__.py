@@ -54,6 +54,18 @@ LESSONS: dict[str, Any] = {
     "football_golden": lessons.golden,
 }
 
+SIGNS = {
+    "football_chase": "faster",
+    "football_keep": "shield",
+    "football_support": "ahead",
+    "football_aim": "shoot",
+    "ball": "circle",
+    "goal": "square",
+    "mate": "plus",
+    "feet": "shoot",
+    "kick": "shoot",
+}
+
 SCREENS = GameScreens(
     FootballView,
     tile,
@@ -62,4 +74,5 @@ SCREENS = GameScreens(
     confetti=footballs,
     team_colors=True,
     lessons=LESSONS,
+    signs=SIGNS,
 )

@@ -14,13 +14,14 @@ from typing import Any
 
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
-from tests.bench import fairness_factory, fairness_pitanks, fairness_race
+from tests.bench import fairness_factory, fairness_football, fairness_pitanks, fairness_race
 from tests.bench.trial import Trial
 
 MEASURES: Mapping[str, Callable[[Trial], Mapping[str, Any]]] = {
     "pitanks": fairness_pitanks.measure,
     "factory": fairness_factory.measure,
     "race": fairness_race.measure,
+    "football": fairness_football.measure,
 }
 
 

@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from tests.bench import fairness
+from tests.bench import fairness, fairness_football
 from tests.bench.fairness_pitanks import Grudges, company
 from tests.bench.trial import SAMPLE, StandingStill, Trial, by_arena, of_robots
 
@@ -61,6 +61,15 @@ def test_the_victims_next_hit_on_the_same_robot_is_revenge():
         grudges.sample(batch)
         grudges.sample(batch)
     assert grudges.share([0]) == pytest.approx(2 / 3)
+
+
+def test_a_football_that_nobody_plays_rests_is_dropped_anew_and_the_match_is_a_tie():
+    found = fairness_football.company(Trial("football", "standard", 3, 1, ("idle",) * 4, 0.2))["all"]
+    assert found["ties"] == found["standing still, median"] == 1.0
+    assert found["goals, a match"] == found["passes, a match"] == found["shots, a match"] == 0.0
+    assert found["drops, a match"] == 1.0, "12 s: kick-off after one, five of rest, one of warning, five of rest"
+    assert 0.15 < found["ball out of play"] < 0.2
+    assert found["ball at rest"] + found["ball out of play"] == pytest.approx(1.0)
 
 
 def test_the_matches_are_spread_over_the_arenas():

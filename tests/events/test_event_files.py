@@ -128,6 +128,7 @@ def test_a_folder_lists_unreadable_files_too(tmp_path):
     assert (tmp_path / "b.json").read_text() == "{"
 
 
+@pytest.mark.again  # of a whole arcade: jobs/kiosk/test_running_event.py
 @pytest.mark.long
 @pytest.mark.skipif(os.name != "posix", reason="needs fork and SIGKILL")
 def test_a_kill_at_any_moment_loses_no_acknowledged_result(tmp_path):

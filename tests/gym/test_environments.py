@@ -16,6 +16,7 @@ from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.gym import ENVIRONMENTS, OptionError, parallel_env
 from pigaming_app.gym.rewards import TALLIES
+from tests.cases import repeated
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", DeprecationWarning)  # of PettingZoo's own games, which its tests import
@@ -69,7 +70,7 @@ def test_a_vector_plays_the_episodes_of_single_environments(name, game):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("name", "game"), GAMES)
+@pytest.mark.parametrize(("name", "game"), repeated(GAMES))
 def test_compiled_and_plain_play_agree_to_the_last_bit(name, game):
     options = {"num_envs": 6, "agents": 2, "opponents": ("level3", "level5"), "arena": "all", "minutes": 0.5}
     for variant in ("party", None):

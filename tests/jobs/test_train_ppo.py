@@ -127,6 +127,15 @@ def test_without_numba_it_names_the_extra(tmp_path, capsys, monkeypatch):
     assert "numba is missing (extra `train`)" in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("_plain")
+def test_the_number_of_threads_changes_no_bit(tmp_path, monkeypatch):
+    for name, processors in (("a.npz", 1), ("b.npz", 3)):
+        monkeypatch.setattr(os, "cpu_count", lambda count=processors: count)
+        assert train(tmp_path / name, updates="2") == 0
+    assert weights(tmp_path / "a.npz") == weights(tmp_path / "b.npz")
+
+
+@pytest.mark.again  # in the Lab: tests/ai/ppo/test_lab.py
 @pytest.mark.long(first=True)
 def test_a_short_training_beats_a_driver_by_hand_whatever_the_threads(tmp_path):
     """The real task, compiled, in processes of their own: 60 updates, and the same bits with one processor."""

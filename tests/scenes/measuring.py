@@ -23,6 +23,7 @@ from tests.scenes.cache import empty_cache
 SAFE = pygame.Rect(60, 16, 1800, 1048)  # slightly more than the safe area of menus: prompts may lie in its margin
 Painting = Callable[..., Steps[pygame.Surface]]
 SMALLEST = 9 * 1920 / 1024  # px, minimum height of capitals: 9 px in a window of 1024 x 768
+KEPT = [f"pigaming_app.ui.{name}" for name in ("i18n", "draw.theme", "widgets.word_filter")]  # texts and fonts
 NEAR = 3  # px, minimum distance between a text and an outline
 
 
@@ -136,12 +137,19 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
 
 def forget() -> None:
     """Clear every other cache of rendered surfaces."""
+    for cached in _caches(len(sys.modules)):
+        cached.cache_clear()
+
+
+@functools.lru_cache(1)
+def _caches(modules: int) -> list[Any]:
+    """The caches of functions in scenes and ui, of which `modules` are loaded, but not those of texts and fonts."""
+    found = []
     for name, module in list(sys.modules.items()):
         if name.startswith(("pigaming_app.scenes", "pigaming_app.ui")):
             for part in [module, *(one for one in vars(module).values() if isinstance(one, type))]:
-                for cached in vars(part).values():
-                    if isinstance(cached, functools._lru_cache_wrapper):
-                        cached.cache_clear()
+                found += [one for one in vars(part).values() if isinstance(one, functools._lru_cache_wrapper)]
+    return [one for one in found if one.__module__ not in KEPT]
 
 
 def marks_of(ink: Any) -> list[Mark]:

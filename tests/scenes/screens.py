@@ -17,12 +17,21 @@ from pigaming_app.events.day_report import figures as day_figures
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.events.spec import Entrant, Format
-from pigaming_app.games.arenas import arenas
+from pigaming_app.games.arenas import arenas, load, shipped_arenas
+from pigaming_app.games.drawing.problems import Problem
+from pigaming_app.games.drawing.values import drawing_of, text_of
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.things import ThingKind
+from pigaming_app.scenes.editor import store
+from pigaming_app.scenes.editor.checker import Verdict
+from pigaming_app.scenes.editor.gallery.drawing_page import DrawingPage
+from pigaming_app.scenes.editor.gallery.page import Gallery
+from pigaming_app.scenes.editor.naming import NamePage as ArenaName
+from pigaming_app.scenes.editor.registry import EDITORS
+from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
 from pigaming_app.scenes.events.manage.event_page import EventPage
@@ -68,6 +77,7 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.plugins.found import Plugin, found
+from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable
@@ -375,7 +385,68 @@ def new_game(arcade: Arcade, state: str) -> Scene:
     return page
 
 
+WIDEST = 9 * "W"  # the longest name of an arena
+
+
+def editor(game: str, problem: str = "", said: str = "") -> Callable[[Arcade], Scene]:
+    """The editor with the first part of an arena selected; `problem`: of this kind; `said`: a sentence."""
+
+    def opened(arcade: Arcade) -> Scene:
+        drawing = store.titled(drawing_of(load(game, shipped_arenas(game)[0]).source), WIDEST)
+        scene = Editor(arcade.context, game, WIDEST.lower(), drawing)
+        scene.bench.close()
+        scene.bench.selected = scene.tools.items(drawing)[-1]
+        found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap")] if problem else []
+        scene.bench.checker.verdict = Verdict(drawing, found, done=True)
+        if said:
+            scene.say(said, name=WIDEST)
+            scene.sentence_left = 999.0
+        return scene
+
+    return opened
+
+
+def tool_bar(arcade: Arcade) -> Scene:
+    scene = editor("pitanks")(arcade)
+    scene.handle(InputEvent(Button.Y, KEYS[0]))
+    return scene
+
+
+def drawn_arenas(arcade: Arcade, game: str, page: bool = False) -> Scene:
+    """The gallery, or the page of an arena, with its widest name."""
+    for name in (WIDEST.lower(), *(f"{WIDEST.lower()}-{i}" for i in range(4))):
+        drawing = drawing_of(load(game, shipped_arenas(game)[0]).source)
+        write_atomic(store.draft_file(game, name), text_of(store.titled(drawing, WIDEST)).encode())
+    if not page:
+        return Gallery(arcade.context, game)
+    scene = DrawingPage(arcade.context, game, WIDEST.lower())
+    scene._share(drawing)
+    return scene
+
+
+PROBLEMS = (
+    "gap",
+    "start",
+    "wall",
+    "corner",
+    "track",
+    "machine",
+    "warehouse",
+    "shared",
+    "worker",
+    "aisle",
+    "thing",
+    "x",
+)
+
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
+    **{f"editor {game}": editor(game) for game in EDITORS},
+    **{f"editor problem {kind}": editor("pitanks", kind) for kind in PROBLEMS},
+    **{f"editor says {said}": editor("race", said=f"editor.{said}") for said in ("disk", "full")},
+    "editor tool bar": tool_bar,
+    **{f"gallery {game}": partial(drawn_arenas, game=game) for game in EDITORS},
+    "page of a drawing": partial(drawn_arenas, game="pitanks", page=True),
+    "name of a drawing": lambda arcade: ArenaName(arcade.context, "race", "new-1", WIDEST, lambda name: None),
     "events": events,
     **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
     "event setup order": event_setup(Format.GRAND_PRIX, "order"),

@@ -20,6 +20,7 @@ from pigaming_app.scenes.start import run
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.effects import beam, wave
+from pigaming_app.ui import memory as heap
 from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
@@ -131,6 +132,8 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     scenes: list[weakref.ref[Leaving]] = []
     alive: list[bool] = []
+    returned: list[int] = []
+    monkeypatch.setattr(heap, "return_freed_blocks", lambda: returned.append(len(alive)))
 
     def first(context: Context) -> Leaving:
         gc.disable()
@@ -148,3 +151,4 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
         gc.enable()
         pygame.display.quit()
     assert alive == [True, True, True, False, False]
+    assert returned == ([3] if isinstance(turn, Pop) or turn == Home() else []), "on the title only"

@@ -1,8 +1,14 @@
-"""Pausing and running the garbage collector."""
+"""Pausing and running the garbage collector; return of freed memory."""
 
 import gc
+import sys
 
+import pytest
+
+from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.ui import memory as heap
+
+BLOCK, BLOCKS, KEPT = 60_000, 1600, 80  # bytes, below the threshold of a mapping of its own; one of so many is kept
 
 
 def test_nothing_is_collected_while_many_objects_are_being_made() -> None:
@@ -11,3 +17,17 @@ def test_nothing_is_collected_while_many_objects_are_being_made() -> None:
         assert not heap.collect()
     assert gc.isenabled()
     assert heap.collect()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="glibc")
+def test_memory_between_blocks_that_live_longer_is_returned() -> None:
+    blocks = [b"x" * BLOCK for _ in range(BLOCKS)]
+    kept = blocks[::KEPT]
+    heap.return_freed_blocks()
+    full = resident_mb()
+    del blocks
+    heap.return_freed_blocks()
+    left = resident_mb()
+    assert full is not None
+    assert left is not None
+    assert full - left > 0.8 * BLOCK * (BLOCKS - len(kept)) / 2**20

@@ -1,59 +1,13 @@
-"""What the inputs of each game's networks are about, for explanations: topics, and the places of perceived things."""
+"""The subjects of all games: topics of the inputs, and the places of perceived things."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from math import cos, sin
+from collections.abc import Sequence
 from typing import Any
 
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PRIZE, WAY, Percept
 from pigaming_app.ai.networks import factory, pitanks, race
-from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.pitanks_things import MINE_NEAR
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ai.networks.subject import At, Found, Subject, distance_of
 from pigaming_app.storage.plugins.parts import parts
-
-Point = tuple[float, float]
-At = Callable[[float, float, float], Point]  # distance, and direction as cosine and sine relative to the heading
-Found = Iterator[tuple[str, Percept]]  # topics and things
-
-
-@dataclass(frozen=True)
-class Subject:
-    """The inputs of a game: groups by topic, in the order of their bars; positions of the stick; things by place.
-
-    `fire`: what FIRE does. `percepts(match, inputs, at)`: where the network perceived things
-    at its last decision, with its delay and its aiming error.
-    """
-
-    topics: Mapping[str, tuple[str, ...]]
-    drives: Sequence[float]
-    turns: Sequence[float]
-    fire: str
-    percepts: Callable[[Any, Sequence[float], At], Found]
-    place: int | None = None  # first of the inputs with the own position and direction; None: the present ones serve
-
-
-def perceived(subject: Subject, match: Any, seat: int, inputs: Sequence[float]) -> Found:
-    """Topics and things in a network's inputs; positions in arena px."""
-    known, robot = [value / UNIT for value in inputs], match.robots[seat]
-    if subject.place is None:
-        x, y, ahead_x, ahead_y = robot.x, robot.y, cos(robot.heading), sin(robot.heading)
-    else:
-        right, down, ahead_x, ahead_y = known[subject.place : subject.place + 4]
-        x, y = 0.5 * (right + 1.0) * WIDTH, 0.5 * (down + 1.0) * HEIGHT
-
-    def at(distance: float, along: float, across: float) -> Point:
-        return (
-            x + distance * (along * ahead_x - across * ahead_y),
-            y + distance * (along * ahead_y + across * ahead_x),
-        )
-
-    return subject.percepts(match, known, at)
-
-
-def distance_of(nearness: float, half: float) -> float:
-    """The distance whose nearness is half / (half + distance)."""
-    return half / max(nearness, 1.0 / UNIT) - half
 
 
 def in_pitanks(match: Any, inputs: Sequence[float], at: At) -> Found:

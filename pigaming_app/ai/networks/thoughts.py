@@ -13,8 +13,9 @@ from typing import Any
 
 from pigaming_app.ai.brain.thoughts import Thoughts, behaviour_of, blend, towards
 from pigaming_app.ai.networks.encoding import Encoding
-from pigaming_app.ai.networks.percepts import SUBJECTS, Subject, perceived
+from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import LOGIT
+from pigaming_app.ai.networks.subject import Subject, perceived
 
 Explain = Callable[[Any, int, Any, Any], Thoughts]
 

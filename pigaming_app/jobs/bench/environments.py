@@ -24,14 +24,19 @@ OPPONENT = "level3"
 
 
 def measure(game: str) -> dict[str, float | None]:
-    """Decisions a second by kind; None without the extras `gym` and `train`.
+    """Decisions a second by kind; None without the extras `gym` and `train`, and for a game without environments.
 
     - `stepped`: actions for four seats, one tick a decision, no observation.
     - `observed`: the same with observations and rewards for all four.
     - `against_level3`: one seat against that brain, with observations, five ticks a decision.
     """
+    names = "stepped", "observed", "against_level3"
     if not (can_compile() and find_spec("gymnasium") and find_spec("pettingzoo")):
-        return dict.fromkeys(("stepped", "observed", "against_level3"))
+        return dict.fromkeys(names)
+    from pigaming_app.gym import ENVIRONMENTS
+
+    if game not in ENVIRONMENTS.values():
+        return dict.fromkeys(names)
     return {
         "stepped": _stepped(game),
         "observed": _environment(game, agents=ROBOTS, ticks=1, opponents=()),

@@ -17,6 +17,7 @@ from typing import Any
 
 from pigaming_app import ROOT
 from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
@@ -69,7 +70,10 @@ def measure(game: str, variant: str) -> dict[str, Any]:
     }
 
 
-def _network(game: str, variant: str) -> dict[str, float | None]:
+def _network(game: str, variant: str) -> dict[str, float | None] | None:
+    """Costs of a network's decision; None for a game without networks."""
+    if game not in ENCODINGS:
+        return None
     fast = batch(game, variant, 1, MATCHES, True) if can_compile() else None
     return networks.measure(game, batch(game, variant, 1, 1, False), fast)
 

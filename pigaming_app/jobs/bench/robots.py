@@ -1,10 +1,10 @@
 """The figures of `bench robots`: the proof of the robot loop on the emulated arena, in two processes.
 
 Robots are tracked at 0.35 m/s by a 1080p camera at 30 and at 60 frames/s with a total latency of 80 ms; every fault of
-the table occurs once; twenty minutes of all three games are played with random button mashing, one match of PiTanks by
-its best level, and 2 % of packets and frames lost; whole arcades fail or are killed (see robots_arcade); and things on
-the mat are scanned, from above and by a tilted camera of 720p. Of several runs the worst counts, except for times of
-computation, where the best counts: other programs can only add to them.
+the table occurs once; twenty minutes of all games are played with random button mashing, one match of PiTanks and of
+each plug-in by its best level, and 2 % of packets and frames lost; whole arcades fail or are killed (see
+robots_arcade); and things on the mat are scanned, from above and by a tilted camera of 720p. Of several runs the worst
+counts, except for times of computation, where the best counts: other programs can only add to them.
 """
 
 from collections.abc import Callable, Mapping
@@ -28,6 +28,7 @@ from pigaming_app.hardware.proof.testbed import Testbed, one_core
 from pigaming_app.hardware.proof.trials import ButtonMasher, FigureEight, MatchResult, TrackingResult
 from pigaming_app.jobs.bench import wifi
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.plugins.parts import plugins
 from pigaming_app.ui.i18n import english
 
 Result = TypeVar("Result")
@@ -124,15 +125,15 @@ def reached(figures: dict[str, float]) -> dict[str, bool]:
 def jobs() -> list[Job]:
     """Twenty minutes of matches: all games, many arenas, both frame rates; PiTanks by its default and party rules.
 
-    The last match of PiTanks is played by its best level, all others by random button mashing.
+    The last match of PiTanks and of each plug-in is played by its best level, all others by random button mashing.
     """
-    result = []
+    result, with_best = [], {"pitanks", *(plugin.name for plugin in plugins())}
     for i in range(MATCHES):
         game = list(games())[i % len(games())]
         places = arenas(game)
         round_ = i // len(games())
         variant = "party" if game == "pitanks" and round_ % 2 else None
-        brain = BEST if game == "pitanks" and i + len(games()) >= MATCHES else None
+        brain = BEST if game in with_best and i + len(games()) >= MATCHES else None
         result.append(Job(game, places[round_ % len(places)], RATES[i % 4 == 3], i + 1, brain=brain, variant=variant))
     return result
 

@@ -33,7 +33,7 @@ class ArcadeProcess:
             self._process = subprocess.Popen(
                 command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, env=environment, errors="replace"
             )
-        except OSError:
+        except BaseException:  # Ctrl+C as well: a process that is half started ends by its closed input
             self._free()
             raise
         self._reader = Thread(target=self._read, daemon=True)

@@ -86,6 +86,12 @@ class Supervisor:
 
     def run(self) -> int:
         """Supervise until the arcade is closed, also by Ctrl+C. Returns the exit code. Raises OSError."""
+        try:
+            return self._run()
+        except KeyboardInterrupt:
+            return 0
+
+    def _run(self) -> int:
         crashes, shown = 0, False
         while True:
             child = self._start()
@@ -99,14 +105,11 @@ class Supervisor:
                 self._try_to_report(child, ending)
             except KeyboardInterrupt:
                 child.end()
-                return 0
+                raise
             finally:
                 child.close()
             crashes = 1 if ending.seconds >= self._limits.stable else crashes + 1
-            try:
-                self._sleep(self._limits.delays[min(crashes, len(self._limits.delays)) - 1])
-            except KeyboardInterrupt:
-                return 0
+            self._sleep(self._limits.delays[min(crashes, len(self._limits.delays)) - 1])
 
     def _watch(self, child: Child) -> Ending:
         """Wait for the end of an arcade; kill it if it hangs."""

@@ -101,16 +101,18 @@ class BrainOverlay:
         doing = self.words(f"brain.{thoughts.behaviour}", **thoughts.names)
         because = self.words(f"brain.because_{thoughts.reason}", **thoughts.names) if thoughts.reason else ""
         cards.draw_words(screen, left, w, seat, doing, because)
+        screens = SCREENS[self.match.setup.game]
         if thoughts.moves:
             sure = f"{thoughts.names.get('percent', 0)} %", self.words("brain.sure")
             cards.draw_moves(screen, right, w, seat, thoughts.moves, thoughts.chosen, sure)
         elif thoughts.heads:
-            cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen, cards.heads_width(self.heads))
-            cards.draw_heads(screen, right + w, seat, self.heads, thoughts.choices)
+            aside = cards.heads_width(self.heads)
+            cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen, screens.signs, aside)
+            cards.draw_heads(screen, right + w, seat, self.heads, thoughts.choices, screens.signs)
         else:
-            cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen)
+            cards.draw_wishes(screen, right, w, seat, self.wishes, thoughts.chosen, screens.signs)
             buttons = [("turbo", state.actions[seat].turbo)]
-            if SCREENS[self.match.setup.game].fire:
+            if screens.fire:
                 buttons.insert(0, ("fire", state.actions[seat].fire))
             cards.draw_held(screen, right + w, seat, held(state.actions[seat]), buttons)
 

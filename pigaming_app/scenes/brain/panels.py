@@ -16,6 +16,7 @@ from pigaming_app.ui.draw import (
     BLACK,
     BODY,
     ICE,
+    ICONS,
     LABEL,
     LINE,
     MIST,
@@ -68,9 +69,19 @@ def draw_words(screen: pygame.Surface, x: int, w: int, seat: int, doing: str, be
 
 
 def draw_wishes(
-    screen: pygame.Surface, x: int, w: int, seat: int, wishes: Mapping[str, float], chosen: object, aside: float = 200.0
+    screen: pygame.Surface,
+    x: int,
+    w: int,
+    seat: int,
+    wishes: Mapping[str, float],
+    chosen: object,
+    signs: Mapping[str, str],
+    aside: float = 200.0,
 ) -> None:
-    """The right box of a brain with wishes: one bar each; `aside`: px kept free at its right end."""
+    """The right box of a brain with wishes: one bar each; `aside`: px kept free at its right end.
+
+    `signs`: see GameScreens.
+    """
     put_on(screen, box(seat, w, False), x, Y)
     light: Batch = []
     room = w - 24 - aside
@@ -80,7 +91,7 @@ def draw_wishes(
     for i, (name, value) in enumerate(wishes.items()):
         at = left + pitch * (i + 0.5)
         draw_bar(screen, light, at, seat, value, name == chosen, width)
-        put(light, sign(name, WHITE if name == chosen else MIST), at, Y + SIGN_Y)
+        put(light, sign(signs.get(name, name), WHITE if name == chosen else MIST), at, Y + SIGN_Y)
     screen.fblits(light, pygame.BLEND_RGB_ADD)
 
 
@@ -95,7 +106,12 @@ def draw_bar(screen: pygame.Surface, light: Batch, x: float, seat: int, value: f
 
 
 def draw_heads(
-    screen: pygame.Surface, right: float, seat: int, heads: Mapping[str, Sequence[float]], choices: Mapping[str, int]
+    screen: pygame.Surface,
+    right: float,
+    seat: int,
+    heads: Mapping[str, Sequence[float]],
+    choices: Mapping[str, int],
+    signs: Mapping[str, str],
 ) -> None:
     """Probabilities of the choices at the right end of that box, the chosen ones in white; of buttons, of a press."""
     light: Batch = []
@@ -107,7 +123,7 @@ def draw_heads(
         left = x + (w - CHOICE_PITCH * (len(shown) - 1)) / 2
         for i, chance in enumerate(shown):
             draw_bar(screen, light, left + CHOICE_PITCH * i, seat, chance, choices[name] == first + i, CHOICE_W)
-        put(light, sign(name, MIST), x + w / 2, Y + SIGN_Y)
+        put(light, sign(signs.get(name, name), MIST), x + w / 2, Y + SIGN_Y)
         x += w + HEAD_GAP
     screen.fblits(light, pygame.BLEND_RGB_ADD)
 
@@ -219,7 +235,7 @@ def divider(seat: int) -> Sprite:
 
 @cached
 def sign(name: str, color: Color) -> Sprite:
-    """The sign of a wish: an icon, or a crate's state."""
+    """The sign of a wish: an icon, or a crate's state. A circle for what is unknown: plug-ins name their own wishes."""
     ink = GlowCanvas(96, 96, 3).set_transform(48, 48)
     if name in CRATES:
         state_icon(ink, CRATES[name], 0, 0, 17, color)
@@ -230,7 +246,7 @@ def sign(name: str, color: Color) -> Sprite:
     elif name == "walls":
         ink.line(cut_box(-19, -6, 38, 12, 4), color, 4, True)
     else:
-        icon(ink, SIGNS[name], 0, 0, 18, color, 5)
+        icon(ink, SIGNS.get(name, name if name in ICONS else "circle"), 0, 0, 18, color, 5)
     return trim(ink.lit(0.4), 48, 48)
 
 

@@ -151,8 +151,8 @@ def _filled(boxes: list[Box]) -> Iterator[tuple[Box, ...]]:
 def _ways(
     before: Column, after: Column, places: dict[Box, pygame.Rect]
 ) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
-    """From each match to the next one of those who advance from it: ends of the lines, px."""
-    for box in before.boxes:
+    """From each match of a knock-out to the next one of those who advance from it: ends of the lines, px."""
+    for box in (box for box in before.boxes if box.stage):
         for other in after.boxes:
             if any(best and name in other.names for name, best in zip(box.names, box.through, strict=True)):
                 yield places[box].midright, places[other].midleft

@@ -4,7 +4,7 @@ PNG needs nothing else, PDF needs Pillow (the extra `events`).
 """
 
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from datetime import date
 from importlib.util import find_spec
 from io import BytesIO
@@ -37,7 +37,10 @@ MARGIN = 160  # px
 INK, SOFT, RULE, PAPER = (16, 22, 36), (96, 108, 130), (196, 204, 218), (255, 255, 255)
 MEDALS: tuple[Color, ...] = ((214, 158, 0), (128, 140, 158), (176, 104, 48))
 STEP = 0.006  # s of drawing in a frame
-TABLE_TOP, FOOT = 1420, H - MARGIN  # px
+TABLE_TOP, FOOT = 1480, H - MARGIN  # px
+ROW, NAME = 190.0, 110  # px, of a table with few rows: between two of them, and its type
+BRACKET_TOP, LINE, BESIDE = 660, 116.0, 0.28  # px; height of a name at most, and as a share of its column
+SPLIT = 56, 1 / 6  # px between two columns of a bracket at most, and as a share of a column
 
 log = logging.getLogger("pigaming")
 
@@ -188,8 +191,11 @@ def _table(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
     each = -(-len(rows) // columns)
     gap = 80
     wide = (W - 2 * MARGIN - gap * (columns - 1)) / columns
-    pitch = min(120.0, (FOOT - TABLE_TOP - 40) / max(1, each))
-    size = round(min(76, pitch * 0.62))
+    pitch = min(ROW, (FOOT - TABLE_TOP - 40) / max(1, each))
+    size = round(min(NAME, pitch * 0.62))
+    for column in range(columns):
+        at = MARGIN + column * (wide + gap) + wide, TABLE_TOP - 40
+        _write(page, words("events.points"), 44, at, SOFT, "r")
     for i, row in enumerate(rows):
         x, y = MARGIN + (i // each) * (wide + gap), TABLE_TOP + (i % each + 0.5) * pitch
         _write(page, str(row.place), size, (x + 1.6 * size, y), SOFT, "r")
@@ -200,44 +206,48 @@ def _table(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
 
 
 def _bracket(page: pygame.Surface, event: Event, words: Words, matches: Sequence[Fixture]) -> Iterator[None]:
-    """A column for each round of these matches, the final last."""
+    """A column for each round of these matches, the final last; lines follow those who go on to the next column."""
     rounds = [list(found) for _, found in groupby(matches, key=lambda one: (one.stage, one.round))]
-    wide = (W - 2 * MARGIN) / max(1, len(rounds))
-    top, names = 660, tuple(entrant.name for entrant in event.entrants)
+    split = round(min(SPLIT[0], SPLIT[1] * (W - 2 * MARGIN) / max(1, len(rounds))))
+    wide = (W - 2 * MARGIN + split) / max(1, len(rounds))
+    names = tuple(entrant.name for entrant in event.entrants)
+    before: list[tuple[pygame.Rect, frozenset[str]]] = []  # boxes of the column before, and who goes on
     for i, fixtures in enumerate(rounds):
         x = MARGIN + wide * i
         stage = fixtures[0].stage if fixtures[0].stage == knockout.FINAL else ""
-        _write(page, stage_name(words, stage, fixtures[0].round), 44, (x, 580), SOFT, room=wide - 20)
-        pitch = (FOOT - top) / len(fixtures)
+        _write(page, stage_name(words, stage, fixtures[0].round), 44, (x, 580), SOFT, room=wide - split)
+        pitch = (FOOT - BRACKET_TOP) / len(fixtures)
+        now: list[tuple[pygame.Rect, frozenset[str]]] = []
         for k, fixture in enumerate(fixtures):
-            _match(
-                page,
-                event,
-                fixture,
-                names,
-                pygame.Rect(round(x), round(top + pitch * k), round(wide - 24), round(pitch)),
-            )
+            outcome = event.outcomes.get(fixture.number)
+            best = knockout.through(fixture, outcome, names, event.spec.advance) if outcome else frozenset()
+            line = min(LINE, BESIDE * wide, (pitch - 14) / len(fixture.entrants))
+            high = round(line * len(fixture.entrants)) + 8
+            middle = BRACKET_TOP + pitch * (k + 0.5)
+            box = pygame.Rect(round(x), round(middle - high / 2), round(wide - split), high)
+            for other, through in before:
+                if through & {*fixture.entrants}:
+                    _link(page, other, box, split)
+            _match(page, fixture, best, box, line)
+            now.append((box, best))
             yield
+        before = now
 
 
-def _match(page: pygame.Surface, event: Event, fixture: Fixture, names: tuple[str, ...], place: pygame.Rect) -> None:
-    """A match in the middle of its place; who goes on is in dark ink, with a tick."""
-    outcome = event.outcomes.get(fixture.number)
-    best = knockout.through(fixture, outcome, names, event.spec.advance) if outcome else ()
-    line = min(64.0, (place.h - 14) / len(fixture.entrants))
-    high = line * len(fixture.entrants) + 8
-    box = pygame.Rect(place.x, round(place.centery - high / 2), place.w, round(high))
+def _link(page: pygame.Surface, one: pygame.Rect, other: pygame.Rect, split: int) -> None:
+    """A line from a match to the one that follows, `split` px between their columns."""
+    middle = other.left - split // 2
+    path = [(one.right, one.centery), (middle, one.centery), (middle, other.centery), (other.left, other.centery)]
+    pygame.draw.lines(page, RULE, False, path, 4)
+
+
+def _match(page: pygame.Surface, fixture: Fixture, best: Collection[str], box: pygame.Rect, line: float) -> None:
+    """A match, each name `line` px high; who goes on is in dark ink, with a tick."""
     pygame.draw.rect(page, RULE, box, 4, 10)
     for i, name in enumerate(fixture.entrants):
         y = box.y + 4 + line * (i + 0.5)
         if name in best:
             tick = [(box.x + 14 + line * a, y + line * b) for a, b in ((0.0, 0.05), (0.14, 0.2), (0.4, -0.2))]
             pygame.draw.lines(page, MEDALS[0], False, tick, max(3, round(line / 9)))
-        _write(
-            page,
-            name,
-            round(line * 0.7),
-            (box.x + 20 + line * 0.5, y),
-            INK if name in best else SOFT,
-            room=box.w - 34 - line * 0.5,
-        )
+        at = box.x + 24 + line * 0.5, y
+        _write(page, name, round(line * 0.7), at, INK if name in best else SOFT, room=box.right - 12 - at[0])

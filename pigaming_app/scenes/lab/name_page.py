@@ -1,124 +1,22 @@
-"""Name entry for the robot with a stick and one button: up and down change a letter, FIRE goes on, START saves."""
+"""Name entry for the robot."""
 
-import pygame
-
+from pigaming_app.scenes.flow import name_page
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
-from pigaming_app.scenes.lab.saved_robots import LENGTH, LETTERS, RobotFileError, names, proposal
-from pigaming_app.ui.draw import (
-    ALARM,
-    BODY,
-    BOLD,
-    ICE,
-    MIST,
-    Color,
-)
-from pigaming_app.ui.draw.layers import backdrop
-from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.labels import heading
-from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
-
-INPUT_LOCKOUT = 0.3  # s during which input is ignored
-W, H, GAP, MIDDLE = 176, 240, 32, 510  # px, letter boxes
-SIZE = 168  # px, letter size
+from pigaming_app.scenes.lab.saved_robots import LENGTH, RobotFileError, names, proposal
 
 
-class NamePage:
+class NamePage(name_page.NamePage):
     """Prompts for a name and saves the robot under it."""
 
     def __init__(self, lab: LabHost) -> None:
-        self.lab, self.context = lab, lab.context
-        self.picker = LetterPicker(LETTERS, (lab.name or proposal()).ljust(LENGTH))
-        self.age = 0.0
-        self.taken = False  # the name is in use; START again overwrites
-        self.prompts = self.context.prompts(
-            [(Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save")],
-        )
+        super().__init__(lab.context, "lab.name_title", lab.name or proposal(), LENGTH, IDLE)
+        self.lab = lab
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
+    def is_taken(self, name: str) -> bool:
+        return name != self.lab.name and name in names()
 
-    @property
-    def name(self) -> str:
-        """The current spelling."""
-        return self.picker.spelled.strip()
-
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Edit letters; START saves; BACK goes back one letter, and from the first one to the Lab."""
-        event = self.prompts.as_button(event)
-        if self.age < INPUT_LOCKOUT:
-            return None
-        if event.button is not Button.START:
-            self.taken = self.taken and event.button is Button.POINT
-        match event.button:
-            case Button.UP | Button.DOWN:
-                self._play(self.picker.turn(-1 if event.button is Button.UP else 1))
-            case Button.RIGHT | Button.FIRE:
-                self._play(self.picker.move(1))
-            case Button.LEFT:
-                self._play(self.picker.move(-1))
-            case Button.BACK if self.picker.slot == 0:
-                self.context.sounds.play("back")
-                return Pop()
-            case Button.BACK:
-                self._play(self.picker.move(-1))
-            case Button.START:
-                return self._save()
-            case Button.CLICK if event.at:
-                self._click(event.at)
-            case _:
-                pass
-        return None
-
-    def update(self, seconds: float) -> StackOperation:
-        self.age += seconds
-        self.picker.update(seconds)
-        return Pop() if self.context.idle > IDLE else None
-
-    def draw(self, screen: pygame.Surface) -> None:
-        screen.blit(backdrop(), (0, 0))
-        words = self.context.words
-        heading(words("lab.name_title")).draw(screen)
-        xs = [middle(i) for i in range(LENGTH)]
-        for x in xs:
-            letter_box(W, H).draw(screen, x, MIDDLE)
-        draw_letters(screen, self.picker, xs, MIDDLE, SIZE, 50, ICE)
-        cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
-        line, color = self._hint()
-        text(line, BODY, color).draw(screen, 960, MIDDLE + 290)
-        self.prompts.draw(screen)
-
-    # ---- inside
-
-    def _hint(self) -> tuple[str, Color]:
-        words = self.context.words
-        if self.taken:
-            return words("lab.taken", name=self.name), ALARM
-        return words("lab.name_how"), MIST
-
-    def _play(self, sound: str | None) -> None:
-        if sound:
-            self.context.sounds.play(sound)
-
-    def _click(self, at: tuple[float, float]) -> None:
-        """The upper half of a letter's column selects the previous letter, the lower half the next."""
-        for i in range(LENGTH):
-            if abs(at[0] - middle(i)) <= W / 2 and abs(at[1] - MIDDLE) <= H / 2 + 90:
-                self.picker.slot = i
-                if abs(at[1] - MIDDLE) > H / 2:
-                    self._play(self.picker.turn(-1 if at[1] < MIDDLE else 1))
-
-    def _save(self) -> StackOperation:
-        """Save, unless the name is in use and not yet confirmed."""
-        name = self.name
-        if not name:
-            self.context.sounds.play("refused")
-            return None
-        if name != self.lab.name and name in names() and not self.taken:
-            self.taken = True
-            self.context.sounds.play("refused")
-            return None
+    def save(self, name: str) -> StackOperation:
         words = self.context.words
         try:
             self.lab.trainer.save(name)
@@ -127,8 +25,3 @@ class NamePage:
         except RobotFileError as error:
             self.lab.show_message(words(str(error)), wrong=True)
         return Pop()
-
-
-def middle(slot: int) -> float:
-    """Centre of a letter, x in px."""
-    return 960 + (slot - (LENGTH - 1) / 2) * (W + GAP)

@@ -10,10 +10,10 @@ from pigaming_app.ai.experiments.training import Training
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.files import is_network, load_network, load_table, save_network, save_table
+from pigaming_app.scenes.flow.name_page import LETTERS
 from pigaming_app.storage.settings import folders
 
 LENGTH = 6  # letters in a name
-LETTERS = " ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
 PROPOSALS = ("ROBI", "BIPO", "ZUMI", "TIKO", "LUMO", "PIXI", "VOLT", "MIKO", "NEON", "ZIGA")
 
 log = logging.getLogger("pigaming")

@@ -12,6 +12,7 @@ from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.views.registry import shown_games
+from pigaming_app.storage.plugins.parts import data_folders
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import (
     ALARM,
@@ -105,7 +106,8 @@ class Strengths:
     def _show(self, game: str) -> None:
         """Read and show the ratings of a game."""
         self.game, self.age = game, 0.0
-        self.ratings, problems = ratings_of(game, (folders().data, ASSETS / "brains"))
+        shipped = dict(data_folders("brains")).get(game, ASSETS / "brains")
+        self.ratings, problems = ratings_of(game, (folders().data, shipped))
         for sentence in problems:
             log.warning("%s", sentence)
         self.message_left = MESSAGE_SECONDS if problems else 0.0

@@ -13,6 +13,8 @@ import pygame
 from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import Rounds
+from pigaming_app.scenes.editor.gallery.page import Gallery
+from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, load_cached, playable_arenas
@@ -60,7 +62,8 @@ class MatchSetupPage:
         self.going = False  # start requested, waiting for the preloader
         self.things: tuple[ThingSpec, ...] = ()  # on the mat, for a match with real robots
         build = [(Button.Y, "things.hint_build")] if self._on_mat else []
-        hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), *build]
+        draw = [(Button.X, "setup.hint_editor")] if game in EDITORS else []
+        hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), *build, *draw]
         hints.append((Button.BACK, "setup.hint_back"))
         self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
         self.navigation = Navigation(context, self.focus, hints, IDLE, device=lambda: self.access.hint_device)
@@ -69,6 +72,7 @@ class MatchSetupPage:
         """Reset on first display and on return from the results."""
         self.clock, self.going = 0.0, False
         self.context.sounds.music(True)
+        self._find_arenas()
         if self._on_mat and self.context.session is not None:
             from pigaming_app.hardware.session.things_on_mat import things_in_play
 
@@ -90,6 +94,9 @@ class MatchSetupPage:
 
                 self.context.sounds.play("accept")
                 return Push(ArenaPage(self.context, self.seats.devices))
+            case Button.X if self.game.name in EDITORS:
+                self.context.sounds.play("accept")
+                return Push(Gallery(self.context, self.game.name))
             case Button.CLICK:
                 self.focus.handle(event)
                 return self._click(event)
@@ -124,6 +131,15 @@ class MatchSetupPage:
         self.navigation.prompts.draw(screen)
 
     # ---- inside
+
+    def _find_arenas(self) -> None:
+        """List the arenas again, as the user may have drawn or deleted some; the one saved last is chosen."""
+        self.arenas = playable_arenas(self.game.name)
+        saved = self.context.settings.choice(self.game.name).arena
+        if saved in self.arenas:
+            self.chosen.arena = saved
+        elif self.chosen.arena not in self.arenas:
+            self.chosen.arena = self.arenas[0]
 
     @property
     def _on_mat(self) -> bool:

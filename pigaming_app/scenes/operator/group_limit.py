@@ -1,9 +1,13 @@
-"""The time limit of a group: from the title to the title. A match that has begun is played to its end."""
+"""The time limit of a group: from the title to the title. A match that has begun is played to its end.
+
+An event has no limit: its entrants would have to open it again every few minutes, and half a list would be lost.
+"""
 
 import math
 from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
+from pigaming_app.scenes.events.resume import running_path
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
 
@@ -14,7 +18,9 @@ FAREWELL = 20.0  # s from the limit, or from the end of the last match, to the t
 
 @runtime_checkable
 class Untimed(Protocol):
-    """A scene during which the time of a group stands still if `untimed`: attract mode and the operator's pages."""
+    """A scene during which the time of a group stands still if `untimed`: attract mode, the operator's pages, and the
+    set-up of an event.
+    """
 
     untimed: bool
 
@@ -28,13 +34,16 @@ class InMatch(Protocol):
 
 
 class GroupLimit:
-    """`seconds`: since the group left the title; `farewell`: s to the title, None before the limit."""
+    """`seconds`: since the group left the title; `farewell`: s to the title, None before the limit.
+
+    `event`: one is being played, from the first of its pages to the title; `still`: time stands still.
+    """
 
     def __init__(self, context: Context) -> None:
         self.context = context
         self.seconds = 0.0
         self.farewell: float | None = None
-        self.in_match = False
+        self.in_match = self.event = self.still = False
 
     @property
     def left(self) -> float:
@@ -44,10 +53,12 @@ class GroupLimit:
 
     def update(self, seconds: float, scenes: Sequence[Scene]) -> StackOperation:
         """Advance by `seconds` with these scenes on the stack; returns to the title when the time is over."""
-        if len(scenes) < 2:
-            self.seconds, self.farewell = 0.0, None
+        self.event = len(scenes) > 1 and (self.event or running_path(scenes) is not None)
+        if self.event or len(scenes) < 2:
+            self.seconds, self.farewell, self.still = 0.0, None, False
             return None
-        if any(isinstance(scene, Untimed) and scene.untimed for scene in scenes):
+        self.still = any(isinstance(scene, Untimed) and scene.untimed for scene in scenes)
+        if self.still:
             return None
         self.seconds += seconds
         self.in_match = any(isinstance(scene, InMatch) for scene in scenes)
@@ -63,6 +74,8 @@ class GroupLimit:
     def sentence(self) -> str:
         """What the group is told now; empty: nothing."""
         words = self.context.words
+        if self.still:
+            return ""
         if self.farewell is not None:
             return words("operator.farewell", seconds=max(1, math.ceil(self.farewell)))
         if self.left <= 0.0:

@@ -16,11 +16,13 @@ from pigaming_app.scenes.scoreboard.event_now import event_now, next_line
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
 
 ROWS = 4
 COLUMNS = 4  # games at most, those with results first
 TOP, H, GAP, LEFT, W = 420, 600, 36, 60, 1800
+INSET = 36  # px, from a column to its texts
 FOOT: Box = (LEFT, 930, W, 110)
 Best = tuple[tuple[str, str], ...]  # initials and result
 
@@ -48,10 +50,11 @@ class StandbyPage:
         rows, h = (ROWS - 1, H - FOOT[3]) if following else (ROWS, H)
         names = sorted(shown_games(), key=lambda game: not best_today(self.context.scores, game, words)[1])[:COLUMNS]
         w = (W - GAP * (len(names) - 1)) // len(names)
+        size = min(fit_size(words(f"games.{game}"), SUB, w - 2 * INSET, "head") for game in names)
         for i, game in enumerate(names):
             content = (words(f"games.{game}"), *best_today(self.context.scores, game, words))
             best = content[2][:rows]
-            column = partial(_column, words(f"games.{game}"), content[1], best, words("best.first"))
+            column = partial(_column, words(f"games.{game}"), size, best, words("best.first"))
             parts.append(Part((LEFT + i * (w + GAP), TOP, w, h), (*content, words.language), column))
         return parts
 
@@ -90,14 +93,16 @@ def _foot(line: str, surface: pygame.Surface) -> None:
     text.write(surface, line, SUB, 0, h / 2 + 10, FOCUS, "head", "l", w)
 
 
-def _column(game: str, feat: str, rows: Best, empty: str, surface: pygame.Surface) -> None:
-    """The best results of a game."""
+def _column(game: str, size: int, rows: Best, empty: str, surface: pygame.Surface) -> None:
+    """The best results of a game, all in one size; `size`: of its name."""
     w, h = surface.get_size()
     surface.blit(text.outline(w, h, STEEL), (0, 0), special_flags=pygame.BLEND_RGB_ADD)
-    text.write(surface, game, SUB, 36, 74, ICE, "head", "l", w - 72)
+    text.write(surface, game, size, INSET, 74, ICE, "head")
     if not rows:
-        text.write(surface, empty, LABEL, w / 2, h / 2 + 40, MIST, "head", "c", w - 72)
+        text.write(surface, empty, LABEL, w / 2, h / 2 + 40, MIST, "head", "c", w - 2 * INSET)
+        return
+    row_size = min(fit_size(f"{initials}  {score}", SUB, w - 2 * INSET, "hero") for initials, score in rows)
     for i, (initials, score) in enumerate(rows):
         y, color = 196 + 104 * i, FOCUS if i == 0 else ICE
-        text.write(surface, initials, SUB, 36, y, color, "hero")
-        text.write(surface, score, SUB, w - 36, y, color, "hero", "r", w - 72 - 210)
+        text.write(surface, initials, row_size, INSET, y, color, "hero")
+        text.write(surface, score, row_size, w - INSET, y, color, "hero", "r")

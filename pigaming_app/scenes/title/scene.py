@@ -162,6 +162,10 @@ class Title:
             from pigaming_app.scenes.replays.page import ReplaysPage
 
             return ReplaysPage(self.context)
+        if name == "editor":
+            from pigaming_app.scenes.editor.gallery.page import Gallery
+
+            return Gallery(self.context, self.game)
         if name == "options":
             from pigaming_app.scenes.options.page import OptionsPage
 
@@ -200,7 +204,7 @@ class Title:
         return [*spots, FocusSpot("language", pygame.Rect(RIGHT - w, FOOT_Y - 32, w, 64))]
 
     def _menu(self) -> tuple[str, ...]:
-        items = "howto", "ladder", "events", "lab", "replays", "options"
+        items = "howto", "ladder", "events", "lab", "editor", "replays", "options"
         return items if self.context.kiosk else (*items, "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:

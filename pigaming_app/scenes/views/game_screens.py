@@ -52,6 +52,7 @@ class GameScreens:
     - `team_colors`: winners have the colour of their team, not their own.
     - `lessons`: by text key of their captions (table `howto.lessons`), in pages of four.
     - `lesson_pages`: rule set of each page, if there is more than one.
+    - `signs`: icons (keys of ICONS) that stand for wishes and topics of its AIs in F4, by name; else a circle.
     """
 
     view: Callable[[Arena, Any, list[str], ViewOptions, Words | None], MatchView]
@@ -63,6 +64,7 @@ class GameScreens:
     team_colors: bool = False
     lessons: Mapping[str, LessonPicture] = field(default_factory=dict)
     lesson_pages: tuple[str, ...] = ()
+    signs: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def page_count(self) -> int:

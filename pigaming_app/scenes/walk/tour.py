@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import partial
 
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.flow.stack import Push
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
@@ -26,6 +27,7 @@ def tour(walker: TourWalker) -> None:
         events(walker)
         lab(walker)
         home(walker)
+        editor(walker)
         replays(walker)
         walker.press("tab")
     attract(walker)
@@ -38,6 +40,33 @@ def lessons(walker: TourWalker) -> None:
     for _ in games():
         walker.wait(5.0)
         walker.press("d")
+    home(walker)
+
+
+def editor(walker: TourWalker) -> None:
+    """The gallery, and a drawing of each game: a wall or a control point, its dials, undo, a match on it."""
+    walker.set_screen("gallery")
+    choose(walker, "editor")
+    walker.wait(1.0)
+    for game in EDITORS:
+        walker.set_screen(f"{game}: editor")
+        walker.press("d", "space", pause=0.5)
+        walker.wait(3.0)
+        walker.press("s", "s", "d", "space", "d", "d", "s", "space", pause=0.2)
+        walker.wait(2.5)
+        walker.press("tab", "s", "s", "space", "d", "space", "tab", pause=0.2)
+        walker.press("x", pause=0.5)
+        walker.wait(2.5)
+        walker.press("return", pause=1.0)
+        if walker.shows("PlayTest"):
+            walker.set_screen(f"{game}: match on a drawing")
+            walker.wait(5.0)
+            walker.press("return", pause=0.5)
+        for _ in range(4):
+            if walker.shows("Editor"):
+                walker.press("escape", pause=0.3)
+        walker.set_screen("gallery")
+        walker.press("a", "tab", pause=0.5)
     home(walker)
 
 

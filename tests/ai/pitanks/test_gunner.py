@@ -188,8 +188,9 @@ def test_strengths_are_ordered():
 
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="hundreds of matches need numba")
-@pytest.mark.parametrize("variant", ["pickups", "party"])
-@pytest.mark.parametrize("arena", repeated(arenas("pitanks")))
+@pytest.mark.parametrize(
+    ("arena", "variant"), repeated((arena, variant) for variant in ("party", "pickups") for arena in arenas("pitanks"))
+)
 def test_strengths_are_far_apart_and_mirror_matches_are_decided(arena, variant):
     """Measured shares are in docs/opponents.md; the bounds leave room for 200 matches."""
     for better, worse, least in (("hand3", "hand2", 0.58), ("hand2", "hand1", 0.65), ("hand1", "random", 0.85)):

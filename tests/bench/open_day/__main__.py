@@ -10,6 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from tests.bench.open_day.plan import ONLY
 from tests.bench.open_day.run import KILLS, outcome_of_day
 
 
@@ -20,10 +21,11 @@ def main() -> int:
     parser.add_argument("--visitors", type=int, default=200)
     parser.add_argument("--kills", type=int, default=KILLS, help=f"at most {KILLS}")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", choices=ONLY, default="", help="a part of a day")
     parser.add_argument("--keep", type=Path, metavar="DIR", help="an empty folder for the files of the day")
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
-    wishes = {name: getattr(arguments, name) for name in ("hours", "visitors", "seed", "kills")}
+    wishes = {name: getattr(arguments, name) for name in ("hours", "visitors", "seed", "kills", "only")}
     with tempfile.TemporaryDirectory(prefix="pigaming-day-") as temporary:
         folder = arguments.keep or Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)

@@ -17,6 +17,7 @@ from tests.bench.open_day import clock as day_clock
 STEP = 0.08  # s of a frame: as many ticks as the arcade plays in one
 IDLE_STEP = 0.32  # s of a frame while nobody is there: attract mode then shows a quarter of its ticks
 DRAWN = 25
+SLICE = 0.2  # s of the processor
 RESTART = 15.0  # s of the day that a kill and a restart take
 PHONE_PAUSE = 0.004  # s of real time a frame with phones on the stage: they live in real time
 PORT = "PIGAMING_TEST_PHONES"  # variable of the environment
@@ -55,7 +56,7 @@ def main(folder: Path) -> int:
         if isinstance(top, MatchScene):
             if top.match.over:
                 return "ending" if top.after else "results"
-            return "event" if top.after and top.match.state.tick else "match" if top.match.state.tick else "other"
+            return "other" if not top.match.state.tick else "event" if top.after else "match"
         if isinstance(top, WinnersMoment) and isinstance(top.then, NextMatch):
             return "ending"
         return "results" if isinstance(top, Initials | Results) else "title" if isinstance(top, Title) else "other"
@@ -94,14 +95,14 @@ def main(folder: Path) -> int:
         preload(app.context.preloader)
         file = ledgers.LedgerFile(folder / "ledger")
         watch = Watch(app, day, file, seen.lives + 1)
-        stage = Stage(app, day, seen, watch, begin)
+        stage = Stage(app, day, seen, watch, begin, folder)
         Visit(stage)
         EventVisit(stage)
         crew.append((app, watch, stage))
         try:
             return app.loop()
         finally:
-            stage.handsets.close()
+            stage.close()
             file.close()
 
 
@@ -114,14 +115,33 @@ def preload(preloader: Any) -> None:
 
 
 def draw_rarely(app: Any) -> None:
-    """Draw the first frame of each scene, and then every DRAWN-th; the others count as unfinished pictures."""
+    """Draw the first frame of each scene, and then every DRAWN-th; the others count as unfinished pictures.
+
+    A first picture takes up to 3 s of the processor in one go, as time is simulated; the supervisor gets its signs of
+    life meanwhile, as from pictures in slices.
+    """
+    from pigaming_app.ui.draw.frame_budget import Unfinished, budget
+    from pigaming_app.ui.draw.frame_budget import clock as processor_time
+
     paint, last, since = app._paint, None, 0
+
+    def finished() -> bool:
+        try:
+            with budget.until(processor_time() + SLICE):
+                app.stack.top.draw(app.context.canvas.screen)
+        except Unfinished:
+            app.context.canvas.screen.set_clip(None)
+            app.pulse.beat(app.context.canvas.screen)
+            return False
+        return True
 
     def paint_rarely(cpu_start: float) -> bool:
         nonlocal last, since
         since += 1
         if app.stack.top is last and since < DRAWN:
             return False
+        while app.pulse and app.stack.top is not last and not finished():
+            pass
         last, since = app.stack.top, 0
         return bool(paint(cpu_start))
 

@@ -98,6 +98,7 @@ class Handsets:
         asyncio.run_coroutine_threadsafe(_end(self._session), self._loop).result(10.0)
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(10.0)
+        self._loop.close()
 
 
 async def _session() -> ClientSession:

@@ -14,6 +14,7 @@ from tests.bench.open_day.clock import OPENING
 SIZES, WEIGHTS = (1, 2, 3, 4), (2, 4, 3, 2)  # people of a group, and how often
 PADS = 3
 MISHAPS = ("pull", "lock", "pause", "stop", "rest")  # pad pulled, phone locked, pause, end by hand, nobody drives
+ONLY = ("events", "phones")  # parts of a day
 LONG_DAY = 2.0  # h from which a day has events, quiet hours and a time limit
 LAST_ARRIVAL = 0.93  # share of the day
 QUIET = ("12:30", "13:30")
@@ -101,19 +102,19 @@ def time_of(seconds: float) -> datetime:
     return OPENING + timedelta(seconds=seconds)
 
 
-def plan(hours: float, visitors: int, seed: int, kills: int = 5) -> Day:
-    """The day of a seed."""
+def plan(hours: float, visitors: int, seed: int, kills: int = 5, only: str = "") -> Day:
+    """The day of a seed. `only`: one of ONLY, visitors who all play in an event, or by phone."""
     rng, seconds, long = random.Random(seed), 3600.0 * hours, hours >= LONG_DAY
-    people = iter(crowd(rng, visitors))
+    people = iter(crowd(rng, visitors, only == "phones"))
     groups: list[Group] = []
     events = {}
-    if long:
+    if long or only == "events":
         late = initials_at(visitors)
         events = {0.12: (6, EventWish(Format.KNOCKOUT, 0)), 0.42: (8, EventWish(Format.SWISS, 2, late))}
     for share, (count, wish) in events.items():
         crew = tuple(next(people) for _ in range(count))
         groups.append(Group(0, share * seconds, crew, next(iter(games())), 0, event=wish))
-    left = visitors - sum(len(group.visitors) for group in groups)
+    left = 0 if only == "events" else visitors - sum(len(group.visitors) for group in groups)
     sizes: list[int] = []
     while left:
         size = min(left, rng.choices(SIZES, WEIGHTS)[0])
@@ -145,9 +146,9 @@ def a_group(rng: random.Random, i: int, at: float, crew: tuple[Visitor, ...], lo
     )
 
 
-def crowd(rng: random.Random, count: int) -> list[Visitor]:
-    """Visitors with different, harmless initials."""
-    return [Visitor(i, initials_at(i), rng.random() < 0.45) for i in range(count)]
+def crowd(rng: random.Random, count: int, phones: bool = False) -> list[Visitor]:
+    """Visitors with different, harmless initials; with `phones`, all of them have one."""
+    return [Visitor(i, initials_at(i), rng.random() < 0.45 or phones) for i in range(count)]
 
 
 def initials_at(number: int) -> str:

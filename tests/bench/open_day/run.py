@@ -28,11 +28,13 @@ sys.exit(supervise(sys.argv[1:]))
 """
 
 
-def outcome_of_day(folder: Path, hours: float, visitors: int, seed: int, kills: int = KILLS) -> dict[str, Any]:
+def outcome_of_day(
+    folder: Path, hours: float, visitors: int, seed: int, kills: int = KILLS, only: str = ""
+) -> dict[str, Any]:
     """Play a day in an empty folder. Returns its figures; `problems` lists what was wrong."""
-    day, began = plan(hours, visitors, seed, kills), time.monotonic()
+    day, began = plan(hours, visitors, seed, kills, only), time.monotonic()
     home = folder / "home"
-    wishes = {"hours": hours, "visitors": visitors, "seed": seed, "kills": kills}
+    wishes = {"hours": hours, "visitors": visitors, "seed": seed, "kills": kills, "only": only}
     (folder / "day.json").write_text(json.dumps(wishes), encoding="utf-8")
     environment = {
         **os.environ,

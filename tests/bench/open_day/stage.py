@@ -3,6 +3,7 @@
 import random
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from pigaming_app.scenes.app import App
@@ -17,12 +18,12 @@ from pigaming_app.ui.widgets.focus import Focus
 from tests.bench.open_day.hands import Hands, KeyHands, PadHands, PhoneHands
 from tests.bench.open_day.handsets import Handsets
 from tests.bench.open_day.ledger import Ledger
-from tests.bench.open_day.plan import PADS, Day, Group, Task, Visitor
+from tests.bench.open_day.plan import PADS, Day, Group, Task, Visitor, time_of
 from tests.bench.open_day.watch import Watch
 
 TEMPO = 0.35  # s between two presses of a person
-PATIENCE = 1500.0  # s after which a group gives up, and 300 s more for each match of an event
-F10_SECONDS = 5.4
+PATIENCE = 1500.0  # s without a match after which a group gives up
+FAREWELL = 1.0  # s on the title before a group that wants no more goes: memory is read then
 ARROWS = (Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT)
 
 
@@ -36,10 +37,11 @@ class Player:
 
 
 class Stage:
-    """Call it between two frames; s since the opening are handed in. `reactions`: by class of the top scene."""
+    """Call it between two frames; s since the opening are handed in. `reactions`: by class of the top scene;
+    `folder`: for pictures of screens where a group is stuck."""
 
-    def __init__(self, app: App, day: Day, seen: Ledger, watch: Watch, now: float) -> None:
-        self.app, self.day, self.watch = app, day, watch
+    def __init__(self, app: App, day: Day, seen: Ledger, watch: Watch, now: float, folder: Path) -> None:
+        self.app, self.day, self.watch, self.folder = app, day, watch, folder
         self.rng = random.Random(day.seed * 1000 + watch.life)
         self.pads: list[Hands] = [PadHands() for _ in range(PADS)]
         self.handsets = Handsets()
@@ -48,11 +50,13 @@ class Stage:
         self.done = set(seen.done)
         self.played = dict(seen.played)  # matches by group, of the runs before
         self.events = dict(seen.events)
-        self.now = self.came = self.changed = now  # s; the last two: when the group came, and the top scene changed
+        self.now = self.moved = self.changed = now  # s; the last two: progress of the group, change of the top scene
         self.top: Any = None
         self.looked = self.mishap_over = False
+        self.counted = 0  # matches at the last progress
         self.focused: tuple[Focus, str] | None = None  # at the last press that was to move it
         self.held: list[tuple[float, Hands, Button]] = []  # buttons to release, and when
+        self.released: list[Hands] = []  # in this frame: a press in the same one would be none
         self.keys = KeyHands()
         self.tasks = [task for task in day.tasks if task.at >= now]
         self.task: Task | None = None
@@ -65,10 +69,14 @@ class Stage:
         self.now = now
         top = self.app.stack.scenes[-1] if self.app.stack.scenes else None
         if top is not self.top:
+            if isinstance(self.top, MatchScene):
+                self._let_go()
             self.top, self.changed = top, now
-        for due in [held for held in self.held if held[0] <= now]:
-            self.held.remove(due)
-            due[1].release(due[2])
+        due = [held for held in self.held if held[0] <= now]
+        self.held = [held for held in self.held if held not in due]
+        for _, hands, button in due:
+            hands.release(button)
+        self.released = [hands for _, hands, _ in due]
         if self.task or self._task_due():
             self._operate()
             return
@@ -77,16 +85,23 @@ class Stage:
         for player in self.players:
             _ = player.hands.device  # a phone scans the code
         if self.group is not None:
-            if now - self.came > self.patience:
-                devices = [player.hands.device for player in self.players]
-                self.watch.trouble(f"group {self.group.number} is stuck at {type(top).__name__} with {devices}")
-                self.leave()
+            if self.matches > self.counted:
+                self.counted, self.moved = self.matches, now
+            if now - self.moved > PATIENCE:
+                self._give_up()
             elif isinstance(top, Title) and self.finished:
-                self.leave()
+                if now - self.changed >= FAREWELL:
+                    self.leave()
             else:
                 self.reactions.get(type(top), self.fallback)()
         elif not isinstance(top, Title | Attract):
             self.someone(self.pads[0], Button.BACK)
+
+    def close(self) -> None:
+        """Unplug all pads and end all phones."""
+        for hands in self.pads:
+            hands.unplug()
+        self.handsets.close()
 
     # ---- the group
 
@@ -106,10 +121,6 @@ class Stage:
         return self.matches >= group.matches
 
     @property
-    def patience(self) -> float:
-        return PATIENCE + (300.0 * 20 if self.group and self.group.event else 0.0)
-
-    @property
     def waiting(self) -> list[Group]:
         """The groups that have come and not left."""
         return [group for group in self.day.groups if group.number not in self.done and group.at <= self.now]
@@ -124,7 +135,8 @@ class Stage:
         if not waiting or not isinstance(self.top, Title | Attract):
             return
         self.group = group = waiting[0]
-        self.came, self.looked, self.mishap_over = self.now, not group.look or self.matches > 0, self.matches > 0
+        self.moved, self.counted = self.now, self.matches
+        self.looked, self.mishap_over = not group.look or self.matches > 0, self.matches > 0
         pads = list(self.pads)
         phones = 0
         for visitor in group.visitors:
@@ -153,18 +165,32 @@ class Stage:
         assert self.group is not None
         self.done.add(self.group.number)
         self.watch.ledger.note("done", group=self.group.number)
+        self._let_go()
         for player in self.players:
-            player.hands.steer(0.0, 0.0, False, False)
             if isinstance(player.hands, PhoneHands):
                 player.hands.unplug()
         self.players, self.group = [], None
         self.watch.memory(self.now)
 
+    def _let_go(self) -> None:
+        """Release sticks and buttons after a match."""
+        for player in self.players:
+            player.hands.steer(0.0, 0.0, False, False)
+
+    def _give_up(self) -> None:
+        """The group goes home without having played what it wanted; a picture shows where."""
+        assert self.group is not None
+        devices = [player.hands.device for player in self.players]
+        what = f"group {self.group.number} is stuck at {type(self.top).__name__} with {devices}"
+        self.watch.trouble(f"{time_of(self.now):%H:%M}: {what}")
+        self.app.context.canvas.screenshot(self.folder / f"stuck-{self.group.number}.png")
+        self.leave()
+
     # ---- presses
 
     def someone(self, hands: Hands, button: Button) -> None:
         """Tap a button, at the tempo of a person."""
-        if self.now - self.changed >= TEMPO and not any(held[1] is hands for held in self.held):
+        if self.now - self.changed >= TEMPO and self._free(hands):
             self.tap(hands, button)
 
     def tap(self, hands: Hands, button: Button, seconds: float = 0.1) -> None:
@@ -174,11 +200,14 @@ class Stage:
 
     def ready(self, player: Player, tempo: float = TEMPO) -> bool:
         """True if a player acts now; the next time will be later."""
-        holding = any(held[1] is player.hands for held in self.held)
-        if holding or self.now < player.due or self.now - self.changed < TEMPO:
+        if self.now < player.due or self.now - self.changed < TEMPO or not self._free(player.hands):
             return False
         player.due = self.now + tempo * self.rng.uniform(0.8, 1.6)
         return True
+
+    def _free(self, hands: Hands) -> bool:
+        """True if nothing is held, nor was until this frame."""
+        return hands not in [*(held[1] for held in self.held), *self.released]
 
     def all_press(self, button: Button, players: Sequence[Player] | None = None) -> None:
         """Each of these players taps a button, at their tempo."""
@@ -227,8 +256,7 @@ class Stage:
             return False
         self.task, self.figures_seen = due[0], False
         self.tasks.remove(self.task)
-        for player in self.players:
-            player.hands.steer(0.0, 0.0, False, False)
+        self._let_go()
         self.keys.hold_f10(True)
         return True
 

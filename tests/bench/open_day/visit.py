@@ -1,7 +1,14 @@
 """What visitors do on the screens of a game: title, lobby, set-up, match, results."""
 
+import math
+from copy import copy
+from typing import Any
+
+from pigaming_app.ai.brain.driving import FORESIGHT, TURN_GAIN
 from pigaming_app.ai.brain.kind import BrainPlayer
-from pigaming_app.ai.registry import make_brain
+from pigaming_app.ai.game_ai import HELPED_POINT, POINT
+from pigaming_app.ai.race.racer import HAND3, act
+from pigaming_app.games.race.observation import observe
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
@@ -24,12 +31,13 @@ from tests.bench.open_day.hands import PadHands, PhoneHands
 from tests.bench.open_day.stage import Player, Stage
 
 FAST = 0.1  # s between two letters
-DRIVING, RACING = 0.7, 0.15  # s between two movements of the stick
+DRIVING, RACING = 0.7, 0.1  # s between two movements of the stick
 AWAY = 4.0  # s for which a pad is pulled, or a phone locked
 LOOK = 8.0  # s on a page of the title's menu
 REST = 95.0  # s for which nobody drives
 MINUTES, GOAL = 2, 3  # of a match, at most
 MISHAP_AT = 8.0  # s of the match
+LEAST_REACH = 0.3  # deflection of a stick that turns a robot where it stands
 
 
 class Visit:
@@ -40,7 +48,7 @@ class Visit:
         self.away: tuple[float, Player] | None = None  # s when a device comes back, and whose
         self.resting = 0.0  # s until which nobody drives
         self.raced: MatchScene | None = None
-        self.drivers: dict[int, BrainPlayer] = {}  # of that race, by seat
+        self.drivers: dict[int, tuple[Any, Any]] = {}  # mind and action of each seat of that race
         self.leaves_match = False  # ends the match in the pause
         stage.fallback = self.leave_page
         stage.reactions |= {
@@ -126,7 +134,7 @@ class Visit:
 
     def match(self) -> None:
         stage, scene = self.stage, self.stage.top
-        if scene.match.over or scene.countdown.locked:
+        if scene.match.over or scene.countdown.locked or not scene.humans:  # a show of AIs: any turbo would halt it
             return
         self._mishap(scene)
         if stage.now < self.resting:
@@ -142,16 +150,22 @@ class Visit:
                 player.hands.steer(x, y, stage.rng.random() < 0.5, stage.rng.random() < 0.3)
 
     def _racing_line(self, scene: MatchScene, seat: int) -> tuple[float, float, bool, bool]:
-        """Stick and buttons that an AI would choose: without them, each race would last until its time is up.
+        """Stick and buttons of a hand-written driver: without one, each race would last until its time is up.
 
-        Its action is not played: the device's own replaces it in the next tick.
+        It decides whenever it is asked, on an action of its own: that of the match is the device's.
         """
+        state = scene.match.state
         if self.raced is not scene:
             self.raced, self.drivers = scene, {}
-        driver = self.drivers.setdefault(seat, make_brain("race", "level3", seat + 1))
-        driver.think(scene.match.state, seat)
-        action = scene.match.state.actions[seat]
-        return float(action.angular), -float(action.linear), bool(action.fire), bool(action.turbo)
+        if seat not in self.drivers:
+            self.drivers[seat] = BrainPlayer(HAND3, seat + 1).mind, copy(state.actions[seat])
+        mind, action = self.drivers[seat]
+        observe(state, seat, mind.senses, mind.obs)
+        act(mind.obs, mind, action)
+        x, y = float(action.angular), -float(action.linear)
+        if scene.style_of(scene.devices[seat]) in (POINT, HELPED_POINT):
+            x, y = where_to_go(action, state.robots[seat], state.rules.turn_rate)
+        return x, y, bool(action.fire), bool(action.turbo)
 
     def _mishap(self, scene: MatchScene) -> None:
         """The mishap of the group, once."""
@@ -230,6 +244,13 @@ class Visit:
     def leave_page(self) -> None:
         """An unexpected page is left."""
         self.stage.one_presses(Button.BACK)
+
+
+def where_to_go(action: Any, robot: Any, turn_rate: float) -> tuple[float, float]:
+    """The stick that points where an action leads; backwards it turns round. See `driving.pointed`."""
+    reach, angle = max(LEAST_REACH, abs(action.linear)), action.angular * turn_rate / TURN_GAIN
+    heading = robot.heading + (math.pi if action.linear < 0.0 else FORESIGHT * robot.angular + angle)
+    return reach * math.cos(heading), reach * math.sin(heading)
 
 
 def next_letter(picker: LetterPicker, wanted: str) -> Button:

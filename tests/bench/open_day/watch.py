@@ -2,13 +2,11 @@
 
 from collections import Counter
 from dataclasses import asdict
-from functools import partial
 
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.app import App
-from pigaming_app.scenes.events.next_page import NextMatch
-from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.operator.group_limit import FAREWELL
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.initials import Initials
@@ -97,8 +95,8 @@ class Watch:
         """Note a result, before the arcade has counted it. The fixture is an argument of the page that follows."""
         state, event = scene.match.state, {}
         visitors = [visitor.number for visitor in group.visitors[:4]] if group else []
-        if isinstance(scene.after, partial):
-            running, fixture = scene.after.args
+        if isinstance(scene.after, EventMatch):
+            running, fixture = scene.after.running, scene.after.fixture
             scores = {name: float(state.robots[seat].score) for seat, name in enumerate(fixture.entrants)}
             visitors = [one.number for one in group.visitors if one.initials in fixture.entrants] if group else []
             event = {"event": str(running.path), "fixture": fixture.number, "scores": scores}
@@ -164,8 +162,3 @@ def decides(scene: MatchScene) -> bool:
 def decided(scene: MatchScene) -> bool:
     """True for the last round of a match that is over."""
     return scene.rounds is None or scene.rounds.done
-
-
-def event_on_top(top: object) -> RunningEvent | None:
-    """The event whose next match is shown."""
-    return top.running if isinstance(top, NextMatch) else None

@@ -101,6 +101,7 @@ def test_no_corrupt_packet_is_accepted():
     assert accepted(3000) == 0
 
 
+@pytest.mark.again  # through the robots: emulator/test_protocol.py
 @pytest.mark.long
 def test_of_three_million_corrupt_packets_none_is_accepted():
     assert sum(accepted(100_000, seed) for seed in range(30)) == 0

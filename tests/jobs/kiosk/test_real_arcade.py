@@ -5,11 +5,13 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
 import pytest
 
+from pigaming_app.jobs.kiosk.process import ArcadeProcess
 from pigaming_app.jobs.kiosk.start import supervise
 from pigaming_app.jobs.kiosk.supervisor import Limits
 from pigaming_app.storage.restarts import Restart, restarts
@@ -77,6 +79,8 @@ sys.exit(run(Options(headless=True, kiosk=True, first_scene=Scene, without_title
 """
 SUPERVISOR = """
 import sys
+import tempfile
+from pigaming_app.jobs.kiosk.process import ArcadeProcess
 from pigaming_app.jobs.kiosk.start import supervise
 sys.exit(supervise(sys.argv[1:]))
 """
@@ -151,6 +155,17 @@ def test_the_arcade_ends_with_its_supervisor(tmp_path: Path, data: Path, ending:
     assert code == (-signal.SIGKILL if ending == "SIGKILL" else 0)
     assert restarts(data) == []
     assert (data.parent / "config" / "settings.toml").exists()  # it closed by itself
+
+
+def test_an_interrupted_start_leaves_no_heartbeat(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(subprocess, "Popen", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        ArcadeProcess(["an arcade"])
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_the_option_kiosk_starts_the_arcade_under_a_supervisor(tmp_path: Path, data: Path) -> None:

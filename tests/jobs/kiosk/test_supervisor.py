@@ -132,3 +132,17 @@ def test_a_report_that_fails_does_not_prevent_the_restart() -> None:
         raise OSError("the disk is full")
 
     assert Supervisor(lambda: next(arcades), full, LIMITS, clock, clock.sleep).run() == 0
+
+
+def test_an_interruption_while_it_is_started_again_is_the_operators_end() -> None:
+    clock = Clock()
+    crashed = Arcade(clock, 1, 1.0)
+    starts = iter((crashed,))
+
+    def start() -> Arcade:
+        for arcade in starts:
+            return arcade
+        raise KeyboardInterrupt
+
+    assert Supervisor(start, lambda *_: None, LIMITS, clock, clock.sleep).run() == 0
+    assert crashed.calls == ["close"]

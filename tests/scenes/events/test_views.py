@@ -58,6 +58,13 @@ def test_those_who_go_on_are_marked_and_lead_to_the_next_match(arcade: Arcade) -
     assert len([*bracket_view._ways(columns[0], columns[1], places)]) == 4
 
 
+def test_no_line_leads_from_round_to_round_where_everybody_goes_on(arcade: Arcade) -> None:
+    columns = TablePage(arcade.context, running(played(an_event(Format.SWISS, 8), 6))).overview.bracket[0]
+    assert any(any(box.through) for box in columns[0].boxes)
+    places = {box: place for i, column in enumerate(columns) for box, place in placed(column, i)}
+    assert [*bracket_view._ways(columns[0], columns[1], places)] == []
+
+
 def test_pages_turn_by_themselves(arcade: Arcade) -> None:
     page = TablePage(arcade.context, running(played(an_event(Format.SWISS, 64), 30)))
     assert page.page == 0

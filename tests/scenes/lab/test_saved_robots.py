@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.lab import saved_robots as robots
 from pigaming_app.scenes.lab.menu import LabMenu
-from pigaming_app.scenes.lab.name_page import NamePage, middle
+from pigaming_app.scenes.lab.name_page import NamePage
 from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
@@ -123,9 +123,9 @@ def test_a_mouse_spells_too(arcade: Arcade) -> None:
     menu(arcade, "save")
     page = arcade.shown(NamePage)
     spell(page, "AB")
-    arcade.click(middle(1), 510 + 160)
+    arcade.click(page.middle(1), 510 + 160)
     assert (page.picker.slot, page.name) == (1, "AC")
-    arcade.click(middle(0), 510 - 160)
+    arcade.click(page.middle(0), 510 - 160)
     assert page.name == "C", "the letter before A is a blank"
 
 

@@ -1,13 +1,20 @@
 """A group's time: from the title to the title, with a countdown, and never in the middle of a match."""
 
+from pathlib import Path
+
 import pytest
 
+from pigaming_app.scenes.events.next_page import NextMatch
+from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.setup.draft import Draft
+from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.flow.stack import Home
 from pigaming_app.scenes.operator.group_limit import FAREWELL, WARNED, GroupLimit
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.ui.input.controls import Controls
 from tests.scenes.arcade import Arcade, Floor, setup
+from tests.scenes.events.drawn import an_event
 
 
 @pytest.fixture
@@ -56,6 +63,23 @@ def test_attract_mode_takes_no_time(arcade: Arcade) -> None:
     limit = GroupLimit(arcade.context)
     assert limit.update(900.0, [Floor(), Attract(arcade.context)]) is None
     assert limit.seconds == 0.0
+
+
+def test_an_event_has_no_limit(arcade: Arcade) -> None:
+    limit, match = GroupLimit(arcade.context), MatchScene(arcade.context, setup("easy easy off off"))
+    limit.update(299.0, [Floor(), Floor()])
+    drafting = [Floor(), Floor(), SetupPage(arcade.context, Draft(), lambda draft: ""), Floor()]
+    assert limit.update(900.0, drafting) is None
+    assert limit.sentence == ""
+    assert limit.left == 1.0, "a group that goes back has the rest of its time"
+    following = NextMatch(arcade.context, RunningEvent(Path("cup.json"), an_event()))
+    for scene in (following, match, Floor(), following):
+        for _ in range(3):
+            assert limit.update(200.0, [Floor(), scene]) is None
+            assert limit.sentence == ""
+    limit.update(1.0, [Floor()])
+    assert limit.update(301.0, [Floor(), Floor()]) is None
+    assert limit.farewell == FAREWELL, "the next group has one again"
 
 
 def test_no_limit_is_the_default(arcade: Arcade) -> None:

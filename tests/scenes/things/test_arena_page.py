@@ -210,7 +210,7 @@ def test_things_pushed_against_a_robot_explain_that_it_does_not_follow_its_comma
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("game", ["pitanks", "race"])
+@pytest.mark.parametrize("game", repeated(["pitanks", "race"]))
 def test_a_block_that_is_moved_by_hand_is_a_wall_where_it_is_and_in_the_replay(
     arcade: Arcade, cleared: EmulatedSession, game: str
 ) -> None:

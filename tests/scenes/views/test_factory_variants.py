@@ -33,6 +33,7 @@ from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw.surface_cache import BUDGET, surfaces
 from pigaming_app.ui.i18n import LANGUAGES, Words
+from tests.cases import repeated
 
 HUMANS = ("human",) * 4
 INPUT_A, OUTPUT_A = MACHINE_SLOTS, MACHINE_SLOTS + 1
@@ -404,7 +405,7 @@ def test_allies_have_warehouses_of_one_colour(screen, variant):
 
 @pytest.mark.long
 @pytest.mark.usefixtures("_cache_as_in_the_arcade")
-@pytest.mark.parametrize("variant", games()["factory"].variants)
+@pytest.mark.parametrize("variant", repeated(sorted(games()["factory"].variants, key="party".__ne__)))
 def test_a_match_fits_the_cache_and_is_left_alone(screen, variant):
     scene = BusyFactory(variant)
     players = ["human", "human", "easy", "hard"]

@@ -35,7 +35,7 @@ from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.factory.next_step import next_slot
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
-from tests.cases import one_in
+from tests.cases import repeated
 
 HUMANS = ["human"] * 4
 INPUT_A, OUTPUT_A = MACHINE_SLOTS, MACHINE_SLOTS + 1
@@ -77,8 +77,7 @@ def feed(state, p, s, kind=IN_SLOT):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("floor", one_in(3, arenas("factory")))
-@pytest.mark.parametrize("goal", one_in(2, [8, 2]))
+@pytest.mark.parametrize(("goal", "floor"), repeated((goal, floor) for goal in (8, 2) for floor in arenas("factory")))
 def test_a_match_among_drivers_draws_and_is_left_alone(screen, floor, goal):
     match = begun(floor, goal, ("hard",) * 4)
     view = seen(match, ["hard"] * 4)

@@ -40,7 +40,7 @@ def python(code: str) -> subprocess.CompletedProcess[str]:
 
 
 def play() -> subprocess.CompletedProcess[str]:
-    return program("play", "tag", "--headless", "--minutes", "0.1", "--seats", "hard,easy", "--json")
+    return program("play", "tag", "--headless", "--speed", "max", "--minutes", "0.1", "--seats", "hard,easy", "--json")
 
 
 def test_a_new_game_plays_at_once(tag: Path) -> None:

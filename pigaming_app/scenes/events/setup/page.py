@@ -27,6 +27,8 @@ ARENA, NEXT = "arena", "entrants"  # rows that open a page
 class SetupPage:
     """The page of a draft. `begin`: makes the event of it, and returns the sentence why not, or what follows."""
 
+    untimed = True  # for the limit of a group: the draft would be lost
+
     def __init__(self, context: Context, draft: Draft, begin: Begin) -> None:
         self.context, self.draft, self.begin = context, draft, begin
         hints = [

@@ -1,10 +1,11 @@
 """Background of Robot Factory: warehouses in team colours, machines, the aisle; rendered once per floor."""
 
 import math
+from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.games.factory.layout import BODY, Floor, SlotSpec
+from pigaming_app.games.factory.layout import BODY, Floor, MachineSpec, SlotSpec
 from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_SLOTS, RAW, SHARED_SLOTS, SHELVES, A
 from pigaming_app.games.factory.state import ICE as FIRST_TEAM
 from pigaming_app.scenes.views.background import LEFT, TOP
@@ -55,33 +56,35 @@ def bare(floor: Floor, allies: bool = False, party: bool = False) -> Steps[pygam
 
 def draw_floor(canvases: Inks, floor: Floor, allies: bool = False, party: bool = False) -> Steps[None]:
     """Draw aisle, warehouses, machines and shared slots in arena px."""
-    _aisle(canvases, floor.aisle, walkers=not party)
+    draw_aisle(canvases, floor.aisle, walkers=not party)
     for slot in floor.slots[SHARED_SLOTS:] if party else ():
-        _shared_slot(canvases[1], slot.x, slot.y)
+        draw_shared_slot(canvases[1], slot.x, slot.y)
     yield
     for first in range(0, MACHINE_SLOTS, SHELVES):
         slots = floor.slots[first : first + SHELVES]
-        _warehouse(canvases, slots, _color(slots, allies))
+        draw_warehouse(canvases, slots, _color(slots, allies))
         yield
     for wall in floor.walls:
         ends = [(wall.ax, wall.ay), (wall.bx, wall.by)]
         canvases[0].line(ends, WALL, 2 * wall.half).line(ends, dim(WALL, 0.8), 2 * wall.half - 4)
     for m, machine in enumerate(floor.machines):
-        _machine(canvases, floor, m, machine.kind, machine.x, machine.y)
+        draw_work_place(canvases, floor.slots[MACHINE_SLOTS + 2 * m :][:2], machine)
         yield
 
 
-def _aisle(canvases: Inks, aisle: tuple[float, float, float, float], walkers: bool) -> None:
+def draw_aisle(canvases: Inks, aisle: tuple[float, float, float, float], walkers: bool) -> None:
+    """Draw the area where people walk."""
     x, y, w, h = aisle
     _, crisp = canvases
     crisp.dashes(cut_box(x, y, w, h, 20), dim(WALKWAY, 0.9), 5, 24, 18)
     tall = h > w
     for share in (0.18, 0.82) if walkers else ():  # shared slots may lie there
         px, py = (x + w / 2, y + h * share) if tall else (x + w * share, y + h / 2)
-        _walker(crisp, px, py, dim(WALKWAY, 0.8))
+        draw_walker(crisp, px, py, dim(WALKWAY, 0.8))
 
 
-def _walker(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
+def draw_walker(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
+    """Draw a person, 84 px high."""
     ink.disc(x + 3, y - 38, 9, color)
     limbs = ([(0, -22), (-2, 4)], [(-2, 4), (14, 18), (16, 38)], [(-2, 4), (-8, 22), (-20, 36)])
     for limb in (*limbs, [(0, -20), (16, -8), (26, -4)], [(0, -20), (-14, -8), (-16, 6)]):
@@ -92,7 +95,8 @@ def _color(slots: tuple[SlotSpec, ...], allies: bool) -> Color:
     return TEAMS[FIRST_TEAM if allies else slots[0].team]
 
 
-def _warehouse(canvases: Inks, slots: tuple[SlotSpec, ...], color: Color) -> None:
+def draw_warehouse(canvases: Inks, slots: Sequence[SlotSpec], color: Color) -> None:
+    """Draw a warehouse around its slots."""
     glow, crisp = canvases
     x = slots[0].x
     top, bottom = slots[0].y, slots[-1].y
@@ -112,7 +116,7 @@ def draw_slot(ink: GlowCanvas, x: float, y: float, color: Color) -> None:
             )
 
 
-def _shared_slot(ink: GlowCanvas, x: float, y: float) -> None:
+def draw_shared_slot(ink: GlowCanvas, x: float, y: float) -> None:
     """Draw the corners of a slot for both teams."""
     for sx, color in ((-1, TEAMS[FIRST_TEAM]), (1, TEAMS[1 - FIRST_TEAM])):
         for sy in (-1, 1):
@@ -129,11 +133,13 @@ def draw_machine(canvases: Inks, kind: int, x: float, y: float) -> None:
     crisp.text("A" if kind == A else "B", 62, x, y, ICE, "hero", "c")
 
 
-def _machine(canvases: Inks, floor: Floor, m: int, kind: int, x: float, y: float) -> None:
+def draw_work_place(canvases: Inks, slots: Sequence[SlotSpec], machine: MachineSpec) -> None:
+    """Draw a machine with its two slots."""
     _, crisp = canvases
+    kind, x, y = machine.kind, machine.x, machine.y
     draw_machine(canvases, kind, x, y)
     takes, gives = (RAW, HALF) if kind == A else (HALF, DONE)
-    for slot in floor.slots[MACHINE_SLOTS + 2 * m : MACHINE_SLOTS + 2 * m + 2]:
+    for slot in slots:
         into = slot.kind == INPUT
         draw_slot(crisp, slot.x, slot.y, WALL)
         state_icon(crisp, takes if into else gives, slot.x, slot.y, 13, dim(STATES[takes if into else gives], 0.55))

@@ -1,0 +1,1 @@
+"""What can be drawn in each game."""

@@ -1,0 +1,43 @@
+"""PiTanks: walls, rocks, mud, and a start for each robot."""
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+from pigaming_app.scenes.editor.model.routes import legs
+from pigaming_app.scenes.editor.model.shapes import Routes, Shape, Tools
+from pigaming_app.scenes.editor.parts.mud import MUD, Mud
+from pigaming_app.scenes.editor.parts.starts import Start
+from pigaming_app.scenes.editor.parts.walls import ROCK_TOOL, WALL, Wall
+from pigaming_app.sim.arena import Arena
+
+EMPTY = """\
+[[start]]
+at = [100, 100]
+heading = 45
+
+[[start]]
+at = [1500, 800]
+heading = 225
+
+[[start]]
+at = [100, 800]
+heading = 315
+
+[[start]]
+at = [1500, 100]
+heading = 135
+"""
+
+
+class PiTanksTools(Tools):
+    """The editor of PiTanks."""
+
+    game = "pitanks"
+    shapes: ClassVar[Mapping[str, Shape]] = {"thing": Mud(), "wall": Wall(), "start": Start()}
+    palette = (WALL, ROCK_TOOL, MUD)
+    empty = EMPTY
+
+    def routes(self, arena: Arena) -> Routes:
+        """From each start to the next one."""
+        spots = [(start.x, start.y) for start in arena.starts]
+        return legs(arena, list(zip(spots, (*spots[1:], spots[0]), strict=True)))

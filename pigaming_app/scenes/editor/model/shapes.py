@@ -1,0 +1,223 @@
+"""The contract of an editor of a game: kinds of parts, how they are drawn, dragged and changed, and the tools.
+
+Coordinates are px of the arena. Parts are tables of its file; a game may show further ones that are entries of a table,
+such as the lines of a track.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot, isfinite
+from typing import ClassVar, NamedTuple
+
+import pygame
+
+from pigaming_app.games.drawing.values import Drawing, Part, Value
+from pigaming_app.scenes.editor.model.symmetry import Image
+from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.ui.draw import GlowCanvas, Point
+from pigaming_app.ui.draw.frame_budget import Steps
+
+MOST = 60  # parts of a kind that are shown; no arena that can be played has more
+FAR = 400.0  # px
+Outline = Sequence[Point]
+Routes = Sequence[Sequence[Point]]
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A canvas that shows a part of the arena: (left, top) px is its corner (0, 0), `scale` px a px."""
+
+    ink: GlowCanvas
+    left: float
+    top: float
+    scale: float
+
+    def flat(self) -> GlowCanvas:
+        """The canvas, to be drawn on in px of the arena."""
+        return self.ink.set_transform(self.left, self.top, 0.0, self.scale)
+
+    def turned(self, x: float, y: float, angle: float) -> GlowCanvas:
+        """The canvas, to be drawn on about (x, y), turned by `angle` rad."""
+        return self.ink.set_transform(*self.at(x, y), angle, self.scale)
+
+    def at(self, x: float, y: float) -> Point:
+        """A point of the arena on the canvas, px."""
+        return self.left + self.scale * x, self.top + self.scale * y
+
+
+class Item(NamedTuple):
+    """A part of a drawing: the k-th of its kind, from 0."""
+
+    kind: str
+    k: int
+
+
+@dataclass(frozen=True)
+class Dial:
+    """A property that a press changes to its next value. `read`: the value to show, as a text or a picture's name."""
+
+    icon: str
+    read: Callable[[Part], str]
+    turned: Callable[[Part], Part]
+
+
+class Shape:
+    """A kind of part. `fixed`: all arenas have the same number of it."""
+
+    fixed = True
+    has_ends = False  # its first grip is an end, not its middle
+    is_handle = False  # it is not in pictures of the arena
+    hollow = False  # it is pointed at by its outline only
+
+    def grips(self, part: Part) -> tuple[Point, ...]:
+        """Points that can be dragged; the first is that by which the part is moved."""
+        return (point_of(part, "at"),)
+
+    def outlines(self, part: Part, k: int) -> Sequence[Outline]:
+        """Closed outlines, for pointing at it and while it is dragged."""
+        raise NotImplementedError
+
+    def draw(self, paper: Paper, part: Part, k: int) -> None:
+        """Draw the k-th of its kind."""
+        raise NotImplementedError
+
+    def moved(self, part: Part, dx: float, dy: float) -> Part:
+        """The part elsewhere, but within the arena."""
+        return _at(part, "at", dx, dy)
+
+    def pulled(self, part: Part, grip: int, x: float, y: float) -> Part:
+        """The part with one of its grips at (x, y)."""
+        ax, ay = self.grips(part)[grip]
+        return self.moved(part, x - ax, y - ay)
+
+    def image(self, part: Part, image: Image) -> Part:
+        """The reflected part."""
+        return part.changed("at", whole(*image.point(*point_of(part, "at"))))
+
+    def same(self, part: Part, other: Part) -> bool:
+        """True if both are the same to look at, so that one can be the image of the other."""
+        return part == other
+
+    def kept(self, part: Part, other: Part) -> Part:
+        """`part` with what belongs to the place of `other` in the file, such as its team."""
+        return part
+
+    def dials(self, part: Part) -> Sequence[Dial]:
+        """Its properties, at most four."""
+        return ()
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A kind of part to add. `part(a, b)`: drawn from a to b; `most`: in an arena; `tap`: a tap is enough."""
+
+    name: str
+    kind: str
+    part: Callable[[Point, Point], Part]
+    most: int
+    tap: bool = True
+
+
+class Tools:
+    """The editor of one game."""
+
+    game = ""
+    shapes: ClassVar[Mapping[str, Shape]] = {}  # by kind, those below others first
+    palette: Sequence[Tool] = ()
+    empty = ""  # text of the arena file to begin with; empty: that of `template`
+    template = ""  # the name of an arena that comes with the game
+
+    def items(self, drawing: Drawing) -> list[Item]:
+        """All parts that can be pointed at, those below others first."""
+        return [Item(kind, k) for kind in self.shapes for k in range(min(MOST, len(drawing.of(kind))))]
+
+    def part(self, drawing: Drawing, item: Item) -> Part:
+        return drawing.of(item.kind)[item.k]
+
+    def with_part(self, drawing: Drawing, item: Item, part: Part) -> Drawing:
+        """The drawing with another part in place of one."""
+        return drawing.changed(item.kind, item.k, part)
+
+    def added(self, drawing: Drawing, part: Part) -> tuple[Drawing, Item]:
+        """With another part, and which one that is."""
+        return drawing.added(part), Item(part.kind, len(drawing.of(part.kind)))
+
+    def without(self, drawing: Drawing, item: Item) -> Drawing:
+        """Without a part."""
+        return drawing.changed(item.kind, item.k, None)
+
+    def removable(self, drawing: Drawing, item: Item) -> bool:
+        """True if an arena can do without this part."""
+        return not self.shapes[item.kind].fixed
+
+    def draw_ground(self, paper: Paper, drawing: Drawing) -> Steps[None]:
+        """Draw what lies below all parts."""
+        yield from ()
+
+    def ground_of(self, drawing: Drawing) -> Drawing | None:
+        """What the ground depends on; None if there is none."""
+        return None
+
+    def sketch_ground(self, screen: pygame.Surface, drawing: Drawing, at: Point, scale: float, share: float) -> None:
+        """Draw the ground quickly, at a place of the canvas; `share` (0..1): the first part of it."""
+
+    def settled(self, before: Drawing, after: Drawing) -> Drawing:
+        """The drawing after a change, with what follows from it."""
+        return after
+
+    def routes(self, arena: Arena) -> Routes:
+        """How AIs will drive, as lines. It may take a second and runs in a thread. Raises FieldError."""
+        return ()
+
+
+def part_of(kind: str, /, **entries: Value) -> Part:
+    """A part of several of its kind."""
+    return Part(kind, tuple((key.rstrip("_"), value) for key, value in entries.items()))
+
+
+def point_of(part: Part, key: str) -> Point:
+    """A point of a part, px, not far from the arena; its middle if the part has none."""
+    return point(part.get(key)) or (WIDTH / 2, HEIGHT / 2)
+
+
+def point(value: Value) -> Point | None:
+    """A value as a point, px, not far from the arena; None if it is none."""
+    match value:
+        case (int() | float() as x, int() | float() as y) if isfinite(x) and isfinite(y):
+            return min(max(float(x), -FAR), WIDTH + FAR), min(max(float(y), -FAR), HEIGHT + FAR)
+    return None
+
+
+def number_of(part: Part, key: str, default: float, least: float = -1e4, most: float = 1e4) -> float:
+    """A number of a part, from `least` to `most`."""
+    value = part.get(key, default)
+    return min(max(float(value), least), most) if isinstance(value, int | float) and isfinite(value) else default
+
+
+def whole(x: float, y: float) -> tuple[int, int]:
+    """A point in whole px within the arena."""
+    return round(min(max(x, 0.0), WIDTH)), round(min(max(y, 0.0), HEIGHT))
+
+
+def inside(points: Sequence[Point], dx: float, dy: float, margin: float = 0.0) -> Point:
+    """The displacement nearest to (dx, dy) that leaves all points within the arena."""
+    xs, ys = [x for x, _ in points], [y for _, y in points]
+    dx = min(max(dx, margin - min(xs)), WIDTH - margin - max(xs))
+    dy = min(max(dy, margin - min(ys)), HEIGHT - margin - max(ys))
+    return dx, dy
+
+
+def following(values: Sequence[float], value: float) -> float:
+    """The next larger of some values, after the largest the smallest."""
+    return next((other for other in values if other > value + 1e-6), values[0])
+
+
+def apart(a: Point, b: Point) -> float:
+    return hypot(a[0] - b[0], a[1] - b[1])
+
+
+def _at(part: Part, key: str, dx: float, dy: float) -> Part:
+    x, y = point_of(part, key)
+    dx, dy = inside([(x, y)], dx, dy)
+    return part.changed(key, whole(x + dx, y + dy))

@@ -1,0 +1,31 @@
+"""Name entry for an arena: its title, and in small letters the name of its file."""
+
+from collections.abc import Callable
+
+from pigaming_app.games.arenas import is_own_name
+from pigaming_app.scenes.editor.store import NEW, file_name, own_names
+from pigaming_app.scenes.flow import name_page
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
+
+LENGTH, IDLE = 9, 120.0  # letters, s
+
+
+class NamePage(name_page.NamePage):
+    """Prompts for the name of an arena that is called `before`. `enter(title)` saves it."""
+
+    def __init__(self, context: Context, game: str, before: str, title: str, enter: Callable[[str], None]) -> None:
+        proposal = title.upper() if all(letter in name_page.LETTERS for letter in title.upper()) else ""
+        super().__init__(context, "editor.name", proposal, LENGTH, IDLE)
+        self.game, self.before, self.enter = game, before, enter
+
+    def is_taken(self, name: str) -> bool:
+        return file_name(name) != self.before and file_name(name) in own_names(self.game)
+
+    def is_possible(self, name: str) -> bool:
+        made = file_name(name)
+        return is_own_name(self.game, made) and not NEW.fullmatch(made)
+
+    def save(self, name: str) -> StackOperation:
+        self.enter(name)
+        return Pop()

@@ -1,0 +1,1 @@
+"""Kinds of parts that several games have in their arenas."""

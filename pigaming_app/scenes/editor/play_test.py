@@ -1,0 +1,48 @@
+"""A match on a drawing: one person against AIs, without results; START or the end leads back to the drawing."""
+
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.play.scene import MatchScene, new_seed
+from pigaming_app.sim.arena import Arena
+from pigaming_app.ui.draw import ICE
+from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets.caption import caption
+
+RIVAL = "level2"
+NOTICE = 6.0  # s for which the way back is shown
+
+
+class PlayTest(MatchScene):
+    """The match. It is in no table, log or list of replays."""
+
+    def __init__(self, context: Context, game: str, arena: Arena, device: Device) -> None:
+        super().__init__(context, setup_of(game, arena.name), [device], arena=arena)
+        self.noted = True
+        self.restart_allowed = False
+        label = context.words.key_name(context.controls.label(device, Button.START))
+        self.notice, self.notice_left = caption(f"{label}: {context.words('editor.hint_draw')}", ICE), NOTICE
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """START and Escape lead back."""
+        if event.button is Button.START or (event.button is Button.BACK and self._escapes(event.device)):
+            self.context.sounds.play("back")
+            return Pop()
+        return super().handle(event)
+
+    def update(self, seconds: float) -> StackOperation:
+        if self.stop_requested:
+            return Pop()
+        if self.match.over:
+            return Pop() if self.ending.hold(seconds) else None
+        return super().update(seconds)
+
+
+def setup_of(game: str, arena: str) -> Setup:
+    """A match by the default rules, with a person on the first seat."""
+    rules = games()[game].default
+    one, two, three, four = (Seat(RIVAL if i else "human", team) for i, team in enumerate(rules.teams))
+    return Setup(
+        game, arena, (one, two, three, four), rules.default_minutes, new_seed(), rules.name, rules.default_goal
+    )

@@ -1,0 +1,142 @@
+"""Name entry with a stick and one button: up and down change a letter, FIRE goes on, START saves."""
+
+import pygame
+
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.ui.draw import (
+    ALARM,
+    BODY,
+    BOLD,
+    ICE,
+    MIST,
+    Color,
+)
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
+from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.labels import heading
+from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
+
+INPUT_LOCKOUT = 0.3  # s during which input is ignored
+LETTERS = " ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+W, H, GAP, MIDDLE = 176, 240, 32, 510  # px, letter boxes
+SIZE = 168  # px, letter size
+
+
+class NamePage:
+    """A page that asks for a name of at most `length` letters; `title`: key of its heading."""
+
+    def __init__(self, context: Context, title: str, name: str, length: int, idle: float) -> None:
+        self.context, self.title, self.idle = context, title, idle
+        self.picker = LetterPicker(LETTERS, name[:length].ljust(length))
+        self.pitch = min(W + GAP, (RIGHT - LEFT) // length)
+        self.age = 0.0
+        self.taken = False  # the name is in use; START again overwrites
+        self.prompts = self.context.prompts(
+            [(Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save")],
+        )
+
+    # ---- of the page
+
+    def is_taken(self, name: str) -> bool:
+        """True if something else has this name, so that START is to be pressed twice."""
+        raise NotImplementedError
+
+    def is_possible(self, name: str) -> bool:
+        """True for a valid name."""
+        return bool(name)
+
+    def save(self, name: str) -> StackOperation:
+        """Save under a name, and leave."""
+        raise NotImplementedError
+
+    # ---- scene
+
+    def on_enter(self) -> None:
+        """Nothing to do."""
+
+    @property
+    def name(self) -> str:
+        """The current spelling."""
+        return self.picker.spelled.strip()
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """Edit letters; START saves; BACK goes back one letter, and leaves from the first one."""
+        event = self.prompts.as_button(event)
+        if self.age < INPUT_LOCKOUT:
+            return None
+        if event.button is not Button.START:
+            self.taken = self.taken and event.button is Button.POINT
+        match event.button:
+            case Button.UP | Button.DOWN:
+                self._play(self.picker.turn(-1 if event.button is Button.UP else 1))
+            case Button.RIGHT | Button.FIRE:
+                self._play(self.picker.move(1))
+            case Button.LEFT:
+                self._play(self.picker.move(-1))
+            case Button.BACK if self.picker.slot == 0:
+                self.context.sounds.play("back")
+                return Pop()
+            case Button.BACK:
+                self._play(self.picker.move(-1))
+            case Button.START:
+                return self._save()
+            case Button.CLICK if event.at:
+                self._click(event.at)
+            case _:
+                pass
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        self.age += seconds
+        self.picker.update(seconds)
+        return Pop() if self.context.idle > self.idle else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        screen.blit(backdrop(), (0, 0))
+        heading(self.context.words(self.title)).draw(screen)
+        xs = [self.middle(i) for i in range(len(self.picker.letters))]
+        w = self.pitch - GAP
+        for x in xs:
+            letter_box(w, H).draw(screen, x, MIDDLE)
+        draw_letters(screen, self.picker, xs, MIDDLE, SIZE * w // W, 50, ICE)
+        cursor(w, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
+        line, color = self._hint()
+        text(line, BODY, color).draw(screen, 960, MIDDLE + 290)
+        self.prompts.draw(screen)
+
+    def middle(self, slot: int) -> float:
+        """Centre of a letter, x in px."""
+        return 960 + (slot - (len(self.picker.letters) - 1) / 2) * self.pitch
+
+    # ---- inside
+
+    def _hint(self) -> tuple[str, Color]:
+        words = self.context.words
+        if self.taken:
+            return words("lab.taken", name=self.name), ALARM
+        return words("lab.name_how"), MIST
+
+    def _play(self, sound: str | None) -> None:
+        if sound:
+            self.context.sounds.play(sound)
+
+    def _click(self, at: tuple[float, float]) -> None:
+        """The upper half of a letter's column selects the previous letter, the lower half the next."""
+        for i in range(len(self.picker.letters)):
+            if abs(at[0] - self.middle(i)) <= (self.pitch - GAP) / 2 and abs(at[1] - MIDDLE) <= H / 2 + 90:
+                self.picker.slot = i
+                if abs(at[1] - MIDDLE) > H / 2:
+                    self._play(self.picker.turn(-1 if at[1] < MIDDLE else 1))
+
+    def _save(self) -> StackOperation:
+        """Save, unless the name is impossible, or in use and not yet confirmed."""
+        if not self.is_possible(self.name):
+            self.context.sounds.play("refused")
+            return None
+        if self.is_taken(self.name) and not self.taken:
+            self.taken = True
+            self.context.sounds.play("refused")
+            return None
+        return self.save(self.name)

@@ -1,0 +1,32 @@
+"""A match of real robots, emulated: the ball is light on the mat, and nothing but the rules moves it."""
+
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.hardware.proof import testbed, trials
+from pigaming_app.jobs.bench.robots import TARGETS, Job, on_mat
+from tests.football.pitch import overlap
+from tests.football.test_ball import SLOP
+
+
+@pytest.mark.long
+def test_real_robots_play_the_projected_ball_and_keep_out_of_the_walls(monkeypatch):
+    """By level 5, in the arena with walls, with packets and frames lost. Poses are seen, late and with noise."""
+    seen = {"deepest": -1e9, "shots": 0, "touched": set()}
+
+    def noted(state, x, y, depth=trials.entered):
+        if not state.ball.out:
+            seen["deepest"] = max(seen["deepest"], overlap(state))
+            seen["touched"].add(state.ball.touched)
+        seen["shots"] = sum(player.shots for player in state.players)
+        return depth(state, x, y)
+
+    monkeypatch.setattr(trials, "entered", noted)
+    match = Job("football", "bumpers", 30.0, 7, 0.25, brain="level5", carried=True)
+    run = on_mat(match, testbed.Testbed(5, 30.0).ground)
+    assert run.deepest_mm < TARGETS["wall_entry_mm"]
+    assert 15.0 <= run.seconds - run.paused < 16.0
+    assert seen["deepest"] <= SLOP, "the ball overlaps nothing where robots were seen"
+    assert seen["shots"] >= 1
+    assert len(seen["touched"] - {0}) >= 2

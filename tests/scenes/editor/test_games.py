@@ -1,0 +1,185 @@
+"""What can be drawn in each game, by each device, and what is said about it."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+
+import pytest
+
+from pigaming_app.games.arenas import load, shipped_arenas
+from pigaming_app.games.drawing.values import drawing_of
+from pigaming_app.games.race.circuit import read_course
+from pigaming_app.scenes.editor.model.symmetry import Symmetry
+from pigaming_app.scenes.editor.registry import EDITORS
+from pigaming_app.scenes.editor.scene import Editor
+from pigaming_app.scenes.editor.store import titled
+from pigaming_app.sim.toml_table import TomlTable
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button
+from tests.scenes.arcade import Arcade
+from tests.scenes.editor.artist import Artist, Gamer, Mouse, Typist, checked, wait_for
+from tests.ui.input.virtual_pad import VirtualPad
+
+pytestmark = pytest.mark.usefixtures("home")
+
+
+@pytest.fixture(params=["keys", "mouse", "pad"])
+def artist(request: pytest.FixtureRequest, controls: Controls) -> Iterator[Artist]:
+    arcade = Arcade(controls)
+    with ExitStack() as stack:
+        if request.param == "pad":
+            pad = stack.enter_context(VirtualPad())
+            arcade.frame()
+            yield Gamer(arcade, pad)
+        else:
+            yield Typist(arcade) if request.param == "keys" else Mouse(arcade)
+
+
+@pytest.fixture
+def mouse(controls: Controls) -> Mouse:
+    return Mouse(Arcade(controls))
+
+
+def opened(artist: Artist, game: str, arena: str = "") -> Editor:
+    """The editor with an arena of ours, or an empty one."""
+    drawing = drawing_of(load(game, arena).source if arena else EDITORS[game].empty)
+    artist.arcade.open(Editor(artist.arcade.context, game, "new-1", titled(drawing, "NEW")))
+    return artist.editor
+
+
+def test_pitanks(artist: Artist) -> None:
+    """Walls are drawn by two taps too, and have dials."""
+    editor = opened(artist, "pitanks")
+    bench = editor.bench
+    artist.choose("mirror")
+    artist.choose("mirror")
+    assert bench.symmetry is Symmetry.TURN
+    artist.click((500, 300))
+    artist.click((500, 450))
+    assert [wall.get("to") for wall in bench.history.now.of("wall")] == [(500, 450), (1100, 450)]
+    for tile, key, value in (("dial 1", "thick", 40), ("dial 2", "health", 4), ("dial 0", "to", (481, 447))):
+        artist.choose(tile)
+        assert bench.history.now.of("wall")[0].get(key) == value
+    one, other = bench.history.now.of("wall")
+    assert other.get("to") == (1119, 453)
+    assert (other.get("thick"), other.get("health")) == (40, 4)
+    artist.choose("copy")
+    assert len(bench.history.now.of("wall")) == 4
+    artist.choose("delete")
+    assert bench.history.now.of("wall") == (one, other)
+    artist.choose("tool 1")
+    artist.click((800, 200))
+    artist.choose("tool 2")
+    artist.click((800, 100))
+    assert [part.get("solid") for part in bench.history.now.of("wall")[2:]] == [True, True]
+    assert len(bench.history.now.of("thing")) == 2
+    assert not checked(artist).bench.verdict.blocked
+
+
+def test_factory(artist: Artist) -> None:
+    """A machine is moved and turned, and its image with it."""
+    editor = opened(artist, "factory", "hall")
+    bench = editor.bench
+    artist.choose("mirror")
+    artist.drag((525, 225), (525, 300))
+    machines = bench.history.now.of("machine")
+    assert [machine.get("at") for machine in machines] == [(525, 300), (1075, 300), (520, 684), (1080, 684)]
+    artist.choose("dial 0")
+    machines = bench.history.now.of("machine")
+    assert [(one.get("flow"), one.get("worker")) for one in machines[:2]] == [("left", "down"), ("right", "down")]
+    artist.choose("undo")
+    artist.choose("undo")
+    assert bench.history.now.of("machine") == drawing_of(load("factory", "hall").source).of("machine")
+    artist.drag((75, 200), (150, 200))
+    assert [one.get("at") for one in bench.history.now.of("warehouse")[::2]] == [(150, 100), (1450, 100)]
+    artist.choose("undo")
+    verdict = checked(artist).bench.verdict
+    assert not verdict.problems
+    assert len(verdict.routes) == 6
+
+
+def test_race(artist: Artist) -> None:
+    """Control points are added, dragged and deleted; arcs are as wide as they can be; lines stay on the road."""
+    editor = opened(artist, "race")
+    bench = editor.bench
+    artist.click((900, 150))
+    assert [one.get("at") for one in bench.history.now.of("corner")][1] == (900, 150)
+    artist.drag((900, 150), (900, 300))
+    corners = bench.history.now.of("corner")
+    assert corners[1].get("at") == (900, 300)
+    assert all(one.get("radius") >= 90 for one in corners)
+    read_course(TomlTable(bench.history.now.document()))
+    artist.tap("x") if not isinstance(artist, Mouse) else artist.choose("delete")
+    assert len(bench.history.now.of("corner")) == 4
+    artist.choose("tool 1")
+    artist.click((900, 150))
+    assert [one.get("use") for one in bench.history.now.of("thing")] == ["mud"]
+    verdict = checked(artist).bench.verdict
+    assert not verdict.problems
+    assert len(verdict.routes[0]) > 300
+
+
+def test_a_line_follows_the_pointer_along_the_road(mouse: Mouse) -> None:
+    bench = opened(mouse, "race").bench
+    tools = EDITORS["race"]
+    line = next(item for item in tools.items(bench.history.now) if item.kind == "line")
+    at = tools.part(bench.history.now, line).get("at")
+    mouse.drag(at, (900, 60))
+    x, y = tools.part(bench.history.now, line).get("at")
+    assert (abs(x - 900) < 12, abs(y - 150) < 2) == (True, True)
+
+
+def test_problems_are_shown_where_they_are_and_block_the_match(mouse: Mouse) -> None:
+    editor = opened(mouse, "pitanks")
+    mouse.drag((100, 50), (200, 150))
+    verdict = checked(mouse).bench.verdict
+    worst = verdict.problems[0]
+    assert (worst.key, worst.x, worst.y, worst.blocks) == ("start[1]", 100, 100, True)
+    assert editor.line[0] == editor.context.words("editor.problem_start")
+    assert not editor.tiles["play"].live
+    mouse.choose("play")
+    assert mouse.arcade.stack.top is editor
+    mouse.choose("undo")
+    mouse.drag((500, 300), (700, 300))
+    mouse.drag((500, 375), (700, 375))
+    verdict = checked(mouse).bench.verdict
+    assert [(one.key, one.blocks) for one in verdict.problems] == [("wall[2]", False)]
+    assert verdict.arena
+
+
+def test_problems_are_found_while_a_part_is_in_hand(mouse: Mouse) -> None:
+    bench = opened(mouse, "race").bench
+    checked(mouse)
+    mouse.go((150, 150))
+    mouse.press("fire")
+    mouse.arcade.frame()
+    mouse.go((25, 25))
+    wait_for(mouse.arcade, lambda: bool(bench.verdict and bench.verdict.blocked))
+    assert bench.hand
+    mouse.arcade.press(Button.BACK)
+    assert not checked(mouse).bench.verdict.blocked
+
+
+def test_a_course_over_itself_is_marked_at_the_crossing(mouse: Mouse) -> None:
+    opened(mouse, "race")
+    mouse.click((900, 150))
+    mouse.drag((900, 150), (900, 750))
+    problems = checked(mouse).bench.verdict.problems
+    assert problems
+    assert all(one.key == "corner" and 300 < one.y < 900 and one.blocks for one in problems)
+
+
+@pytest.mark.parametrize("game", EDITORS)
+def test_our_arenas_can_be_opened_and_are_as_they_were(game: str) -> None:
+    """Every part of them is an item that can be pointed at, and its own image's image."""
+    tools = EDITORS[game]
+    for name in shipped_arenas(game):
+        drawing = drawing_of(load(game, name).source)
+        items = tools.items(drawing)
+        kinds = {part.kind for part in drawing.parts} - {"title", "track"}
+        assert kinds <= {item.kind for item in items}
+        assert tools.settled(drawing, drawing) == drawing
+        for item in items:
+            shape, part = tools.shapes[item.kind], tools.part(drawing, item)
+            for symmetry in Symmetry:
+                for image in symmetry.images:
+                    assert shape.same(shape.image(shape.image(part, image), image), part)

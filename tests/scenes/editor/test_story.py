@@ -1,0 +1,94 @@
+"""From the lobby and from the title to an arena of one's own, and back."""
+
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.games.arenas import load, own_arenas
+from pigaming_app.scenes.editor import store
+from pigaming_app.scenes.editor.gallery.page import Gallery
+from pigaming_app.scenes.editor.naming import NamePage
+from pigaming_app.scenes.editor.play_test import PlayTest
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
+from pigaming_app.scenes.title.scene import Title
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button
+from tests.scenes.arcade import Arcade
+from tests.scenes.editor.artist import Artist, Gamer, Mouse, Typist, checked
+from tests.scenes.screens import seats
+from tests.ui.input.virtual_pad import VirtualPad
+
+pytestmark = pytest.mark.usefixtures("home")
+
+
+@pytest.fixture
+def arcade(controls: Controls) -> Arcade:
+    return Arcade(controls)
+
+
+def begin(arcade: Arcade) -> None:
+    """From the setup of a match to an empty arena."""
+    arcade.open(MatchSetupPage(arcade.context, "pitanks", seats("pitanks")))
+    arcade.press(Button.X)
+    arcade.shown(Gallery)
+    arcade.press(Button.FIRE)
+
+
+def story(artist: Artist) -> None:
+    """Draw a wall, undo and redo it, play, save, go back to the lobby."""
+    arcade = artist.arcade
+    begin(arcade)
+    editor = artist.editor
+    artist.drag((600, 300), (900, 300))
+    (wall,) = editor.bench.history.now.of("wall")
+    assert {wall.get("from"), wall.get("to")} == {(600, 300), (900, 300)}
+    artist.choose("undo")
+    assert not editor.bench.history.now.of("wall")
+    artist.choose("redo")
+    assert editor.bench.history.now.of("wall") == (wall,)
+    checked(artist)
+    artist.choose("play")
+    assert len(arcade.shown(PlayTest).match.state.walls) >= 1
+    assert arcade.shown(PlayTest).match.state.wall_count == 1
+    arcade.press(Button.START)
+    assert artist.editor is editor
+    checked(artist)
+    artist.choose("save")
+    page = arcade.shown(NamePage)
+    arcade.wait(0.5)
+    arcade.press(Button.UP)
+    arcade.press(Button.START)
+    assert artist.editor is editor
+    assert own_arenas("pitanks") == [store.file_name(page.name)]
+    assert len(load("pitanks", store.file_name(page.name)).walls) == 1
+    assert not list(store.drafts_folder("pitanks").glob("*"))
+    for _ in range(3):
+        arcade.press(Button.BACK)
+        if isinstance(arcade.stack.top, MatchSetupPage):
+            break
+    setup = arcade.shown(MatchSetupPage)
+    assert setup.chosen.arena == store.file_name(page.name)
+
+
+def test_by_keyboard(arcade: Arcade) -> None:
+    story(Typist(arcade))
+
+
+def test_by_mouse(arcade: Arcade) -> None:
+    story(Mouse(arcade))
+
+
+def test_by_pad(arcade: Arcade) -> None:
+    with VirtualPad() as pad:
+        arcade.frame()
+        story(Gamer(arcade, pad))
+
+
+def test_from_the_title(arcade: Arcade, home: Path) -> None:
+    title = Title(arcade.context)
+    arcade.open(title)
+    title.focus.move_to("editor")
+    arcade.press(Button.FIRE)
+    assert arcade.shown(Gallery).game == "pitanks"
+    arcade.press(Button.BACK)
+    assert arcade.stack.top is title
