@@ -237,10 +237,15 @@ def test_an_arena_is_played_renamed_shared_and_deleted(mouse: Mouse, home: Path)
     assert len(arcade.shown(Gallery).cards) == 2 + len(shipped_arenas("race"))
 
 
-def test_in_a_kiosk_nothing_is_deleted(mouse: Mouse) -> None:
+def test_in_a_kiosk_nothing_is_deleted_or_replaced(mouse: Mouse) -> None:
     mouse.arcade.context.kiosk = True
     store.save("race", "mine", store.titled(drawing_of(load("race", "classic").source), "MINE"), "new-1")
     assert DrawingPage(mouse.arcade.context, "race", "mine").rows == ["edit", "play"]
+    naming = NamePage(mouse.arcade.context, "race", "new-1", "MINE", lambda name: None)
+    assert not naming.is_possible("MINE")
+    assert naming.is_possible("OURS")
+    mouse.arcade.context.kiosk = False
+    assert naming.is_possible("MINE"), "a second press replaces it"
 
 
 def test_a_new_name_never_mixes_two_drawings(mouse: Mouse) -> None:

@@ -5,10 +5,12 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.games.arenas import load, own_arenas
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.gallery.page import Gallery
 from pigaming_app.scenes.editor.naming import NamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
+from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
@@ -92,3 +94,13 @@ def test_from_the_title(arcade: Arcade, home: Path) -> None:
     assert arcade.shown(Gallery).game == "pitanks"
     arcade.press(Button.BACK)
     assert arcade.stack.top is title
+
+
+def test_a_game_without_tools_has_no_editor(arcade: Arcade) -> None:
+    """Such as a plug-in."""
+    (game,) = set(games()) - set(EDITORS)
+    page = MatchSetupPage(arcade.context, game, seats(game))
+    arcade.open(page)
+    assert Button.X not in page.navigation.prompts.buttons
+    arcade.press(Button.X)
+    assert arcade.stack.top is page
