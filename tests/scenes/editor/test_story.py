@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.events.day_log import DayLog
 from pigaming_app.games.arenas import load, own_arenas
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
@@ -84,6 +85,21 @@ def test_by_pad(arcade: Arcade) -> None:
     with VirtualPad() as pad:
         arcade.frame()
         story(Gamer(arcade, pad))
+
+
+def test_a_match_that_ends_leads_back_to_the_drawing_and_into_no_log(arcade: Arcade, home: Path) -> None:
+    arcade.context.day_log = DayLog(home / "data")
+    begin(arcade)
+    mouse = Mouse(arcade)
+    editor = checked(mouse)
+    arcade.press(Button.START)
+    test = arcade.shown(PlayTest)
+    arcade.wait(6.0)
+    assert test.match.state.tick > 0
+    test.match.state.rules.ticks = test.match.state.tick + 2
+    arcade.until(lambda: arcade.stack.top is editor, 10.0)
+    arcade.press(Button.BACK)
+    assert not [*home.rglob("*.replay"), *home.rglob("*.jsonl"), *home.rglob("*.log")]
 
 
 def test_from_the_title(arcade: Arcade, home: Path) -> None:
