@@ -8,6 +8,7 @@ import pygame
 
 from pigaming_app.games.drawing.values import Drawing, Part
 from pigaming_app.scenes.editor.model.shapes import Item, Paper, Shape, Tools
+from pigaming_app.scenes.editor.model.symmetry import Symmetry
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BLACK, FOCUS, ICE, THIN, WALL, GlowCanvas, Point, cut_box, dim
 from pigaming_app.ui.draw.frame_budget import Steps, Unfinished, budget, clock, resumable
@@ -87,6 +88,11 @@ def draw_parts(
     screen.set_clip(None)
 
 
+def draw_axes(screen: pygame.Surface, symmetry: Symmetry) -> None:
+    """Draw the axes of a symmetry, or the middle of half a turn."""
+    axes(symmetry).draw(screen)
+
+
 def draw_outline(screen: pygame.Surface, tools: Tools, drawing: Drawing, item: Item, width: int = 4) -> None:
     """Draw the outline of a part that is in hand or selected."""
     for outline in tools.shapes[item.kind].outlines(tools.part(drawing, item), item.k):
@@ -132,10 +138,24 @@ def frame() -> Steps[LitImage]:
     crisp = layer.canvas.crisp
     for x in range(50, int(WIDTH), 50):
         for y in range(50, int(HEIGHT), 50):
-            crisp.disc(*on_canvas(x, y), 1.6, (26, 37, 54))
+            crisp.disc(*on_canvas(x, y), 1.6, (36, 51, 74))
     yield
     layer.glow.line(OUTLINE, dim(WALL, 0.7), THIN, True)
     return (yield from layer.render_steps())
+
+
+@cached
+def axes(symmetry: Symmetry) -> LitImage:
+    """The axes of a symmetry."""
+    layer, (x, y), color = Layer(BOARD.x, BOARD.y, BOARD.w, BOARD.h), BOARD.center, dim(FOCUS, 0.4)
+    for image in symmetry.images:
+        if image.across and image.down:
+            layer.canvas.crisp.ring(x, y, 18, color, 3)
+        elif image.across:
+            layer.canvas.crisp.dashes([(x, BOARD.top + 8), (x, BOARD.bottom - 8)], color, 3, 14, 14, False)
+        else:
+            layer.canvas.crisp.dashes([(BOARD.left + 8, y), (BOARD.right - 8, y)], color, 3, 14, 14, False)
+    return layer.render()
 
 
 @cached

@@ -23,8 +23,10 @@ class NamePage(name_page.NamePage):
         return file_name(name) != self.before and file_name(name) in own_names(self.game)
 
     def is_possible(self, name: str) -> bool:
+        """In a kiosk nobody replaces the arena of somebody else."""
         made = file_name(name)
-        return is_own_name(self.game, made) and not NEW.fullmatch(made)
+        free = not (self.context.kiosk and self.is_taken(name))
+        return free and is_own_name(self.game, made) and not NEW.fullmatch(made)
 
     def save(self, name: str) -> StackOperation:
         self.enter(name)

@@ -14,6 +14,7 @@ from pigaming_app.scenes.editor.board import (
     BOARD,
     Ground,
     clear,
+    draw_axes,
     draw_grips,
     draw_outline,
     draw_parts,
@@ -120,6 +121,8 @@ class Editor:
         share = 1.0 - max(0.0, self.reveal) / REVEAL
         clear(screen)
         self.ground.draw(screen, drawing, share)
+        if bench.symmetry is not Symmetry.OFF:
+            draw_axes(screen, bench.symmetry)
         if verdict and not bench.hand and share >= 1.0:
             draw_routes(screen, verdict.routes, self.clock)
         draw_parts(screen, self.tools, drawing, in_hand, share)

@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import pygame
 
+from pigaming_app.games.arenas import own_arenas, score_name
 from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import Rounds
@@ -55,6 +56,7 @@ class MatchSetupPage:
     def __init__(self, context: Context, game: str, seats: Seats, game_choice: SceneFactory | None = None) -> None:
         self.context, self.game, self.seats, self.game_choice = context, games()[game], seats, game_choice
         self.arenas = playable_arenas(game)
+        self.versions: dict[str, str] = {}  # of the user's own arenas
         self.chosen = last_choice(context, game)
         self.rows = rows(self.game, self.variant)
         self.clock, self.slide, self.direction = 0.0, SLIDE_SECONDS, 1
@@ -135,6 +137,8 @@ class MatchSetupPage:
     def _find_arenas(self) -> None:
         """List the arenas again, as the user may have drawn or deleted some; the one saved last is chosen."""
         self.arenas = playable_arenas(self.game.name)
+        self.versions = {name: score_name(self.game.name, name) for name in own_arenas(self.game.name)}
+        start_positions.cache_clear()
         saved = self.context.settings.choice(self.game.name).arena
         if saved in self.arenas:
             self.chosen.arena = saved
@@ -293,8 +297,8 @@ class MatchSetupPage:
         left = (1.0 - self.slide / SLIDE_SECONDS) ** 2
         dx = round(self.direction * 160 * left)
         screen.set_clip(FRAME.inflate(-12, -12))
-        allies = self.variant.team_mode == ALLIES
-        picture(self.game.name, self.chosen.arena, allies).draw(screen, dx)
+        allies, arena = self.variant.team_mode == ALLIES, self.chosen.arena
+        picture(self.game.name, arena, allies, self.versions.get(arena, "")).draw(screen, dx)
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
         choice.draw_things(screen, self.things, (x0 + dx, y0), k)
@@ -315,8 +319,11 @@ class MatchSetupPage:
 
 @cached
 @resumable
-def picture(game: str, name: str, allies: bool) -> Steps[LitImage]:
-    """Large preview of an arena, positioned for the page. `allies`: all robots are in one team."""
+def picture(game: str, name: str, allies: bool, version: str) -> Steps[LitImage]:
+    """Large preview of an arena, positioned for the page. `allies`: all robots are in one team.
+
+    `version`: of its file, which the user may have changed.
+    """
     image = yield from SCREENS[game].preview(load_cached(game, name), *PICTURE.size, allies)
     return LitImage(image, PICTURE.topleft)
 

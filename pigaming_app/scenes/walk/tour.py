@@ -17,7 +17,7 @@ BRAINS = 5  # presses of F4 to cycle through all AIs of a match
 
 
 def tour(walker: TourWalker) -> None:
-    """The whole tour, in all languages; every arena of each game only in the first."""
+    """The whole tour, in all languages; every arena of each game, and drawing, only in the first."""
     for language in LANGUAGES:
         lessons(walker)
         options(walker)
@@ -27,7 +27,8 @@ def tour(walker: TourWalker) -> None:
         events(walker)
         lab(walker)
         home(walker)
-        editor(walker)
+        if language == LANGUAGES[0]:
+            editor(walker)
         replays(walker)
         walker.press("tab")
     attract(walker)

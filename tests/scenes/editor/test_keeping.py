@@ -7,6 +7,7 @@ import time
 from pathlib import Path
 from random import Random
 
+import pygame
 import pytest
 
 from pigaming_app.games.arenas import load, own_arenas, shipped_arenas
@@ -23,12 +24,14 @@ from pigaming_app.scenes.editor.naming import NamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
+from pigaming_app.scenes.lobby.match_setup import PICTURE, MatchSetupPage, start_positions
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.cases import one_in
 from tests.disks import room_for
 from tests.scenes.arcade import Arcade
 from tests.scenes.editor.artist import Mouse, checked, wait_for
+from tests.scenes.screens import seats
 
 pytestmark = pytest.mark.usefixtures("home")
 
@@ -237,10 +240,15 @@ def test_an_arena_is_played_renamed_shared_and_deleted(mouse: Mouse, home: Path)
     assert len(arcade.shown(Gallery).cards) == 2 + len(shipped_arenas("race"))
 
 
-def test_in_a_kiosk_nothing_is_deleted(mouse: Mouse) -> None:
+def test_in_a_kiosk_nothing_is_deleted_or_replaced(mouse: Mouse) -> None:
     mouse.arcade.context.kiosk = True
     store.save("race", "mine", store.titled(drawing_of(load("race", "classic").source), "MINE"), "new-1")
     assert DrawingPage(mouse.arcade.context, "race", "mine").rows == ["edit", "play"]
+    naming = NamePage(mouse.arcade.context, "race", "new-1", "MINE", lambda name: None)
+    assert not naming.is_possible("MINE")
+    assert naming.is_possible("OURS")
+    mouse.arcade.context.kiosk = False
+    assert naming.is_possible("MINE"), "a second press replaces it"
 
 
 def test_a_new_name_never_mixes_two_drawings(mouse: Mouse) -> None:
@@ -266,3 +274,19 @@ def test_plans_of_ais_take_less_than_two_seconds_and_a_frame_never_waits(game: s
     checker.check(drawing)
     assert time.thread_time() - begin < 0.01
     checker.end()
+
+
+def test_the_lobby_shows_an_arena_as_it_was_saved_last(mouse: Mouse) -> None:
+    store.save("pitanks", "mine", store.titled(empty("pitanks"), "MINE"), "new-1")
+    mouse.arcade.context.settings.choice("pitanks").arena = "mine"
+    page, screen = MatchSetupPage(mouse.arcade.context, "pitanks", seats("pitanks")), mouse.arcade.screen
+    pictures, starts = [], []
+    for name in ("islands", "labyrinth"):
+        store.save("pitanks", "mine", store.titled(drawing_of(load("pitanks", name).source), "MINE"), "mine")
+        mouse.arcade.stack.scenes.append(page)
+        page.on_enter()
+        page.draw(screen)
+        pictures.append(pygame.image.tobytes(screen.subsurface(PICTURE), "RGB"))
+        starts.append(start_positions(page._setup()))
+    assert pictures[0] != pictures[1]
+    assert starts[0] != starts[1]

@@ -4,11 +4,14 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.events.day_log import DayLog
 from pigaming_app.games.arenas import load, own_arenas
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.gallery.page import Gallery
 from pigaming_app.scenes.editor.naming import NamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
+from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
@@ -84,6 +87,21 @@ def test_by_pad(arcade: Arcade) -> None:
         story(Gamer(arcade, pad))
 
 
+def test_a_match_that_ends_leads_back_to_the_drawing_and_into_no_log(arcade: Arcade, home: Path) -> None:
+    arcade.context.day_log = DayLog(home / "data")
+    begin(arcade)
+    mouse = Mouse(arcade)
+    editor = checked(mouse)
+    arcade.press(Button.START)
+    test = arcade.shown(PlayTest)
+    arcade.wait(6.0)
+    assert test.match.state.tick > 0
+    test.match.state.rules.ticks = test.match.state.tick + 2
+    arcade.until(lambda: arcade.stack.top is editor, 10.0)
+    arcade.press(Button.BACK)
+    assert not [*home.rglob("*.replay"), *home.rglob("*.jsonl"), *home.rglob("*.log")]
+
+
 def test_from_the_title(arcade: Arcade, home: Path) -> None:
     title = Title(arcade.context)
     arcade.open(title)
@@ -92,3 +110,13 @@ def test_from_the_title(arcade: Arcade, home: Path) -> None:
     assert arcade.shown(Gallery).game == "pitanks"
     arcade.press(Button.BACK)
     assert arcade.stack.top is title
+
+
+def test_a_game_without_tools_has_no_editor(arcade: Arcade) -> None:
+    """Such as a plug-in."""
+    (game,) = set(games()) - set(EDITORS)
+    page = MatchSetupPage(arcade.context, game, seats(game))
+    arcade.open(page)
+    assert Button.X not in page.navigation.prompts.buttons
+    arcade.press(Button.X)
+    assert arcade.stack.top is page

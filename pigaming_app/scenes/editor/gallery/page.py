@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.games.arenas import shipped_arenas
+from pigaming_app.games.arenas import MOST_OWN, shipped_arenas
 from pigaming_app.games.drawing.values import Drawing, drawing_of
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
@@ -137,7 +137,7 @@ class Gallery:
         ]
         if games()[self.game].surprise:
             self.cards.append(Card(words("editor.surprise"), self._surprise, sign="dice"))
-        for name in store.own_names(self.game):
+        for name in store.own_names(self.game)[:MOST_OWN]:
             self.cards += self._own_card(name)
         for name in shipped_arenas(self.game):
             self.cards += self._template_card(name)

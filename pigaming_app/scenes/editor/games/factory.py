@@ -45,6 +45,7 @@ from pigaming_app.scenes.editor.model.shapes import (
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.editor.parts.starts import Start
+from pigaming_app.scenes.editor.parts.things import MUD, Thing
 from pigaming_app.scenes.editor.parts.walls import SOLID_WALL, Wall
 from pigaming_app.scenes.views.factory.background import (
     draw_aisle,
@@ -54,6 +55,7 @@ from pigaming_app.scenes.views.factory.background import (
     draw_work_place,
 )
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
+from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import FOCUS, LINE, Point, cut_box
@@ -196,6 +198,7 @@ class FactoryTools(Tools):
     game = "factory"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "aisle": Aisle(),
+        "thing": Thing(WORKSHOP),
         "warehouse": Warehouse(),
         "shared": Shared(),
         "machine": Machine(),
@@ -203,7 +206,7 @@ class FactoryTools(Tools):
         "worker": Worker(),
         "start": Start(),
     }
-    palette = (SOLID_WALL, Tool("shared", "shared", lambda a, b: part_of("shared", at=whole(*a)), MAX_SHARED))
+    palette = (SOLID_WALL, Tool("shared", "shared", lambda a, b: part_of("shared", at=whole(*a)), MAX_SHARED), MUD)
     template = "hall"
 
     def routes(self, arena: Arena) -> Routes:

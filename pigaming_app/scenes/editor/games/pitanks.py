@@ -5,9 +5,10 @@ from typing import ClassVar
 
 from pigaming_app.scenes.editor.model.routes import legs
 from pigaming_app.scenes.editor.model.shapes import Routes, Shape, Tools
-from pigaming_app.scenes.editor.parts.mud import MUD, Mud
 from pigaming_app.scenes.editor.parts.starts import Start
+from pigaming_app.scenes.editor.parts.things import MUD, Thing
 from pigaming_app.scenes.editor.parts.walls import ROCK_TOOL, WALL, Wall
+from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.sim.arena import Arena
 
 EMPTY = """\
@@ -33,7 +34,7 @@ class PiTanksTools(Tools):
     """The editor of PiTanks."""
 
     game = "pitanks"
-    shapes: ClassVar[Mapping[str, Shape]] = {"thing": Mud(), "wall": Wall(), "start": Start()}
+    shapes: ClassVar[Mapping[str, Shape]] = {"thing": Thing(NEON), "wall": Wall(), "start": Start()}
     palette = (WALL, ROCK_TOOL, MUD)
     empty = EMPTY
 

@@ -30,10 +30,11 @@ from pigaming_app.scenes.editor.model.shapes import (
     whole,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
-from pigaming_app.scenes.editor.parts.mud import MUD, Mud
+from pigaming_app.scenes.editor.parts.things import MUD, Thing
 from pigaming_app.scenes.views.race.lines import LineFrame, draw_line, frame
 from pigaming_app.scenes.views.race.track import EDGE, MARKS, draw_kerbs, edges, ribs
 from pigaming_app.scenes.views.things.styles import MUD as BROWN
+from pigaming_app.scenes.views.things.styles import ROAD
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -120,7 +121,7 @@ class RaceTools(Tools):
     """The editor of Robot Race."""
 
     game = "race"
-    shapes: ClassVar[Mapping[str, Shape]] = {"thing": Mud(), "line": StartLine(), "corner": ControlPoint()}
+    shapes: ClassVar[Mapping[str, Shape]] = {"thing": Thing(ROAD), "line": StartLine(), "corner": ControlPoint()}
     palette = (Tool("corner", "corner", lambda a, b: _corner(a), MOST), MUD)
     empty = EMPTY
 

@@ -1,4 +1,4 @@
-"""Mud: a round patch that slows robots down, as a thing of the arena."""
+"""Things of an arena: mud, a round patch that slows robots down; others can be moved and deleted."""
 
 from collections.abc import Sequence
 from math import cos, hypot, sin, tau
@@ -13,11 +13,14 @@ from pigaming_app.scenes.editor.model.shapes import (
     apart,
     following,
     inside,
+    number_of,
     part_of,
     point,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
-from pigaming_app.scenes.views.things.styles import mud
+from pigaming_app.scenes.views.things.on_mat import draw
+from pigaming_app.scenes.views.things.styles import Style
+from pigaming_app.sim.things.spec import MAX_MARGIN, Use
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import Point
 
@@ -26,10 +29,13 @@ CORNERS = 20  # of a patch; round ones need a single capsule each
 MOST = 6  # in an arena
 
 
-class Mud(Shape):
-    """A patch of mud."""
+class Thing(Shape):
+    """A thing, in the style of a game."""
 
     fixed = False
+
+    def __init__(self, style: Style) -> None:
+        self.style = style
 
     def grips(self, part: Part) -> tuple[Point, ...]:
         x, y, radius = _round(part)
@@ -39,7 +45,8 @@ class Mud(Shape):
         return (_corners(part),)
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
-        mud(paper.flat(), _corners(part))
+        use = next((use for use in Use if use == part.get("use")), Use.MUD)
+        draw(paper.flat(), self.style, use, _corners(part), number_of(part, "margin", 0.0, 0.0, MAX_MARGIN))
 
     def moved(self, part: Part, dx: float, dy: float) -> Part:
         x, y, _ = _round(part)
