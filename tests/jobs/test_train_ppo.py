@@ -105,7 +105,7 @@ def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, caps
         (["--against", "nobody"], "no brain 'nobody'"),
         (["--out", "nowhere/a.npz"], "no such folder"),
         (["nonsense"], "no game 'nonsense'"),
-        (["factory"], "learns pitanks, race only"),
+        (["factory"], "learns pitanks, race, football only"),
         (["--resume"], "a.checkpoint.npz: cannot be read"),
         ([*SET, "--resume", "--out", "foreign.npz"], "foreign.checkpoint.npz: not a checkpoint"),
     ],
