@@ -57,6 +57,7 @@ def _one_process_for_many_arcades() -> Iterator[None]:
         patch.setattr(memory, "return_large_blocks", lambda: None)
         patch.setattr(surfaces, "budget", 512 << 20)
         patch.setattr(surfaces, "release_matches", lambda: None)
+        patch.setattr(surfaces, "release_pages", lambda: None)
         yield
 
 
@@ -69,6 +70,7 @@ def _cache_as_in_the_arcade() -> Iterator[None]:
     with empty_cache(), pytest.MonkeyPatch.context() as patch:
         patch.setattr(surfaces, "budget", BUDGET)
         patch.setattr(surfaces, "release_matches", lambda: SurfaceCache.release_matches(surfaces))
+        patch.setattr(surfaces, "release_pages", lambda: SurfaceCache.release_pages(surfaces))
         yield
 
 

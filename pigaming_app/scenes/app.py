@@ -218,8 +218,7 @@ class App:
             gc.freeze()
 
     def _free_scenes(self) -> bool:
-        """Free the scenes removed from the stack, if any; back on the title, also the heap. Returns true if garbage was
-        collected.
+        """Free the scenes removed from the stack, if any. Returns true if garbage was collected.
 
         Most are in reference cycles, and their canvases of 8 MB each would pile up: Python triggers the collection of
         cycles by the number of objects.
@@ -229,8 +228,6 @@ class App:
         if not self.to_free or not heap.collect():
             return False
         self.to_free = False
-        if len(self.stack.scenes) == 1 and not self.options.without_title:
-            heap.return_freed_blocks()
         return True
 
     def _scene_ids(self) -> frozenset[int]:

@@ -17,10 +17,10 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import run
+from pigaming_app.scenes.title import scene as title_page
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.effects import beam, wave
-from pigaming_app.ui import memory as heap
 from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
@@ -73,6 +73,29 @@ def test_the_sprites_of_a_match_go_on_return_to_the_title(arcade: Arcade) -> Non
     assert [image for image in images if image()] == []
     arcade.wait(0.1, draw=True)
     assert surfaces.bytes < title + (24 << 20), "what is left are the pages of the match"
+
+
+def test_after_a_second_the_title_releases_what_other_pages_have_painted(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Once after each return, and none of its own pictures."""
+    returned: list[int] = []
+    monkeypatch.setattr(title_page, "return_freed_blocks", lambda: returned.append(surfaces.bytes))
+    page = surfaces.cached(lambda number: pygame.Surface((1920, 1080), depth=32))
+    for number in range(12):
+        page(number)
+    arcade.wait(0.5, draw=True)
+    assert surfaces.bytes > surface_cache.RESTING
+    assert returned == []
+    arcade.wait(1.0, draw=True)
+    assert returned[0] <= surface_cache.RESTING
+    assert surfaces.bytes < returned[0] + (2 << 20), "nothing large had to be painted again"
+    arcade.wait(2.0, draw=True)
+    assert len(returned) == 1
+    arcade.stack.apply(Push(Floor()))
+    arcade.stack.apply(Pop())
+    arcade.wait(1.5, draw=True)
+    assert len(returned) == 2
 
 
 @pytest.mark.parametrize("game", one_in(3, games()))
@@ -132,8 +155,6 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     scenes: list[weakref.ref[Leaving]] = []
     alive: list[bool] = []
-    returned: list[int] = []
-    monkeypatch.setattr(heap, "return_freed_blocks", lambda: returned.append(len(alive)))
 
     def first(context: Context) -> Leaving:
         gc.disable()
@@ -151,4 +172,3 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
         gc.enable()
         pygame.display.quit()
     assert alive == [True, True, True, False, False]
-    assert returned == ([3] if isinstance(turn, Pop) or turn == Home() else []), "on the title only"

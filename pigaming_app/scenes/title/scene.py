@@ -27,6 +27,7 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import NAMES
 from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.memory import return_freed_blocks
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import (
     blit_sprite,
@@ -42,6 +43,7 @@ from pigaming_app.ui.widgets.labels import (
 PROMPT_Y, FOOT_Y = 906, 990
 MENU_GAP, LANGUAGES_W = 16, 240  # px: between two chips; of the language and the button that changes it
 LOGO = (LEFT + 16, 84, 30)
+REST = 1.0  # s on the title until memory is released: by then its own pictures are those used last
 
 
 class Title:
@@ -56,11 +58,13 @@ class Title:
         self.focus = Focus(self._spots())
         self.lab: Scene | None = None
         self.music = True  # off in the quiet hours
+        self.since = 0.0  # s since the last return
         self.asked: set[str] = set()  # new plug-ins that were asked about
 
     def on_enter(self) -> None:
         """Release the sprites of matches and start the music; in a kiosk, offer its rules and driving styles again."""
         surfaces.release_matches()
+        self.since = 0.0
         if self.context.kiosk:
             reset_rules(self.context.settings)
             self.context.driving.forget_one_button()
@@ -87,6 +91,7 @@ class Title:
         self.focus.update(seconds)
         self.tiles.update(seconds)
         self._keep_quiet()
+        self._rest(seconds)
         if self.kiosk_unlock.unlocked(seconds):
             from pigaming_app.scenes.options.page import OptionsPage
 
@@ -129,6 +134,13 @@ class Title:
         if self.music == self.context.quiet:
             self.music = not self.music
             self.context.sounds.music(self.music)
+
+    def _rest(self, seconds: float) -> None:
+        """Once after each return, release the memory of the pages before: it stays flat over a day."""
+        before, self.since = self.since, self.since + seconds
+        if before < REST <= self.since:
+            surfaces.release_pages()
+            return_freed_blocks()
 
     def _open(self, name: str) -> StackOperation:
         if name == "language":

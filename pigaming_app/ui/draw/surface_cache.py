@@ -17,6 +17,7 @@ import pygame
 from pigaming_app.ui.draw.frame_budget import budget
 
 BUDGET = 150 << 20  # bytes; a match needs 140 MB, and sprites used only at its start are evicted first
+RESTING = 72 << 20  # bytes that stay on the title, while nobody plays; title and a lobby have 67 MB
 
 Args = ParamSpec("Args")
 Result = TypeVar("Result")
@@ -90,6 +91,10 @@ class SurfaceCache:
         for entry in [entry for entry in self._order if entry.game is not None]:
             self._drop(entry)
 
+    def release_pages(self) -> None:
+        """Evict what was not used for longest, until at most RESTING bytes are left."""
+        self._shrink(RESTING)
+
     def clear(self) -> None:
         """Evict everything."""
         for entry in list(self._order):
@@ -108,7 +113,10 @@ class SurfaceCache:
             holders = self._holders.get(id(surface), 0)
             self._holders[id(surface)] = holders + 1
             self.bytes += 0 if holders else pixel_bytes(surface)
-        while self.bytes > self.budget:
+        self._shrink(self.budget)
+
+    def _shrink(self, size: int) -> None:
+        while self.bytes > size:
             self._drop(next(iter(self._order)))
 
     def _drop(self, entry: Entry) -> None:

@@ -23,7 +23,7 @@ from tests.bench.open_day.watch import Watch
 
 TEMPO = 0.35  # s between two presses of a person
 PATIENCE = 1500.0  # s without a match after which a group gives up
-FAREWELL = 1.0  # s on the title before a group that wants no more goes: memory is read then
+FAREWELL = 1.5  # s on the title before a group that wants no more goes: memory is read then
 ARROWS = (Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT)
 
 
