@@ -22,6 +22,7 @@ class EventVisit:
     def __init__(self, stage: Stage) -> None:
         self.stage = stage
         self.decided: tuple[int, float] = 0, 0.0  # match, and the draw that decides its oddity
+        self.late = ""  # initials that are being entered
         stage.reactions |= {
             EventsPage: self.events,
             SetupPage: self.setup,
@@ -99,9 +100,12 @@ class EventVisit:
             return
         late = self.wish.late
         if late and late not in {one.name for one in page.running.event.entrants} and page.running.accepts_late:
-            stage.watch.count("late entrants")
+            self.late = late
             stage.one_presses(Button.DOWN)
             return
+        if self.late:
+            stage.watch.count("late entrants")
+            self.late = ""
         if self.decided[0] != fixture.number:
             self.decided = fixture.number, stage.rng.random()
         odd = self.decided[1]
