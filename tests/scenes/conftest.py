@@ -1,0 +1,14 @@
+"""Fixtures of tests with screens."""
+
+from collections.abc import Iterator
+
+import pytest
+
+from pigaming_app.ui.draw import read_large
+
+
+@pytest.fixture(autouse=True)
+def _usual_text() -> Iterator[None]:
+    """Texts of the usual size again, after tests that press their way through the options."""
+    yield
+    read_large(False)
