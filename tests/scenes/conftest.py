@@ -9,6 +9,7 @@ from pigaming_app.ui.draw import read_large
 
 @pytest.fixture(autouse=True)
 def _usual_text() -> Iterator[None]:
-    """Texts of the usual size again, after tests that press their way through the options."""
+    """Texts of the usual size, also after tests that press their way through the options."""
+    read_large(False)
     yield
     read_large(False)
