@@ -4,11 +4,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import dist, pi
 
+import numpy as np
 import pytest
 
 from pigaming_app.hardware.emulator.robots import RADIUS
 from pigaming_app.hardware.emulator.things.prism import TAPE, Prism, box
-from pigaming_app.hardware.scan.things import Layout, Thing, ThingKind
+from pigaming_app.hardware.proof.things import distances
+from pigaming_app.hardware.scan.things import Layout, Outline, Thing, ThingKind
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout, things_in_play
 from pigaming_app.scenes.flow.stack import Scene
@@ -159,9 +161,14 @@ def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_p
     arcade.press(Button.FIRE)
     frames(arcade, mat, lambda top: isinstance(top, RealMatch), 60.0)
     frames(arcade, mat, lambda _: bool(match.match.state.shifts), 10.0)
-    there = mat.arena.outline(replace(moved, outline=corners)).mean(axis=0).tolist()
-    assert any(dist(one.middle, there) < 10.0 for one in match.plant.shown_things or ())
-    assert any(dist(one.middle, there) < 10.0 for one in load_layout(mat).things)
+    there = mat.arena.outline(replace(moved, outline=corners))
+    assert any(same(np.array(one.outline), there) for one in match.plant.shown_things or ())
+    assert any(same(one.points, there) for one in load_layout(mat).things)
+
+
+def same(one: Outline, other: Outline) -> bool:
+    """True if no point of either outline is farther than 10 px from the other."""
+    return max(distances(one, other, 1.0).max(), distances(other, one, 1.0).max()) < 10.0
 
 
 def cage(x: float, y: float) -> list[Prism]:
