@@ -7,12 +7,16 @@ import pytest
 
 from pigaming_app.games.arenas import load, shipped_arenas
 from pigaming_app.games.drawing.values import drawing_of
+from pigaming_app.games.factory.layout import PALLET
 from pigaming_app.games.race.circuit import read_course
+from pigaming_app.scenes.editor.games.factory import _slots
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
+from pigaming_app.scenes.editor.parts.things import RADII
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.editor.store import titled
 from pigaming_app.sim.toml_table import TomlTable
+from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
@@ -169,6 +173,41 @@ def test_a_course_over_itself_is_marked_at_the_crossing(mouse: Mouse) -> None:
 
 
 @pytest.mark.parametrize("game", EDITORS)
+def test_whole_parts_stay_in_the_arena(game: str) -> None:
+    """Slots, people and robots too, wherever a part is moved, when it is turned there, and as an image."""
+    tools = EDITORS[game]
+    drawing = drawing_of(tools.empty or load(game, tools.template).source)
+    for item in tools.items(drawing):
+        shape, part = tools.shapes[item.kind], tools.part(drawing, item)
+        for dx, dy in ((-WIDTH, -HEIGHT), (WIDTH, -HEIGHT), (-WIDTH, HEIGHT), (WIDTH, HEIGHT)):
+            moved = shape.moved(part, dx, dy)
+            for turned in (moved, *(dial.turned(moved) for dial in shape.dials(moved))):
+                for one in (turned, *(shape.image(turned, image) for image in Symmetry.FOUR.images)):
+                    assert all(0 <= x <= WIDTH and 0 <= y <= HEIGHT for x, y in shape.reach(one))
+
+
+def test_a_machine_in_a_corner_can_be_played(mouse: Mouse) -> None:
+    """Its slots are then not at the rim, neither after a turn."""
+    bench = opened(mouse, "factory", "yard").bench
+    at = bench.history.now.of("machine")[0].get("at")
+    assert isinstance(at, tuple)
+    mouse.drag(at, (at[0], 0))
+    for _ in range(4):
+        mouse.choose("dial 0")
+        slots = _slots(bench.history.now.of("machine")[0])
+        assert all(PALLET <= slot.x <= WIDTH - PALLET and PALLET <= slot.y <= HEIGHT - PALLET for slot in slots)
+    assert not checked(mouse).bench.verdict.blocked
+
+
+def test_mud_has_a_largest_size(mouse: Mouse) -> None:
+    bench = opened(mouse, "race").bench
+    mouse.choose("tool 1")
+    mouse.drag((800, 450), (1400, 450))
+    (patch,) = bench.history.now.of("thing")
+    assert max(x for x, _ in patch.get("outline")) == 800 + RADII[-1]
+
+
+@pytest.mark.parametrize("game", EDITORS)
 def test_our_arenas_can_be_opened_and_are_as_they_were(game: str) -> None:
     """Every part of them is an item that can be pointed at, and its own image's image."""
     tools = EDITORS[game]
@@ -180,6 +219,7 @@ def test_our_arenas_can_be_opened_and_are_as_they_were(game: str) -> None:
         assert tools.settled(drawing, drawing) == drawing
         for item in items:
             shape, part = tools.shapes[item.kind], tools.part(drawing, item)
+            assert item.kind == "line" or shape.moved(part, 0.0, 0.0) == part
             for symmetry in Symmetry:
                 for image in symmetry.images:
                     assert shape.same(shape.image(shape.image(part, image), image), part)

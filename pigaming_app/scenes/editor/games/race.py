@@ -95,7 +95,7 @@ class ControlPoint(Shape):
         return apart(point_of(part, "at"), point_of(other, "at")) < 2.0
 
     def dials(self, part: Part) -> Sequence[Dial]:
-        return (Dial("thick", lambda part: str(round(number_of(part, "width", WIDE) - 120)), _wider),)
+        return (Dial("thick", _wider, lambda part: str(round(number_of(part, "width", WIDE) - 120))),)
 
 
 class StartLine(Shape):
