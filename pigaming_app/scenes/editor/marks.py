@@ -26,7 +26,7 @@ def draw_problems(screen: pygame.Surface, problems: Sequence[Problem], seconds: 
         extent = SCALE * problem.extent
         radius = next((size for size in SIZES if size >= extent + 16), SIZES[-1])
         x, y = min(max(problem.x, 0.0), WIDTH), min(max(problem.y, 0.0), HEIGHT)
-        mark(radius, problem.blocks, pulse(seconds, 4)).draw(screen, *on_canvas(x, y))
+        mark(radius, problem.blocks, pulse(seconds, 6)).draw(screen, *on_canvas(x, y))
 
 
 def draw_routes(screen: pygame.Surface, routes: Routes, seconds: float) -> None:

@@ -129,7 +129,7 @@ class Editor:
         for item in in_hand:
             draw_outline(screen, self.tools, drawing, item)
         if bench.selected and not in_hand:
-            draw_outline(screen, self.tools, drawing, bench.selected, 2)
+            draw_outline(screen, self.tools, drawing, bench.selected)
             draw_grips(screen, self.tools, drawing, bench.selected)
         if verdict:
             draw_problems(screen, verdict.problems, self.clock)
