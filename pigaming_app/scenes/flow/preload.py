@@ -4,12 +4,9 @@ No frame waits for it. The compiler of the Lab is started afterwards.
 """
 
 import logging
-import sys
 import threading
 from collections.abc import Callable, Sequence
 from importlib import import_module
-
-SWITCH_INTERVAL = 0.001  # s, interpreter switch interval while the thread runs
 
 log = logging.getLogger("pigaming")
 
@@ -51,14 +48,10 @@ class Preloader:
         return (game, arena) in self._ready or not self.busy
 
     def _work(self) -> None:
-        old_interval = sys.getswitchinterval()
-        sys.setswitchinterval(SWITCH_INTERVAL)
         try:
             self._do()
         except Exception:
             log.exception("preloading failed")
-        finally:
-            sys.setswitchinterval(old_interval)
 
     def _do(self) -> None:
         """All steps, in the order in which they are likely to be needed."""
