@@ -168,6 +168,25 @@ def test_a_list_is_pasted_or_dropped_and_a_bad_one_is_refused(arcade: Arcade, tm
     assert page.draft.entrants[0].name == "Bea"
 
 
+@pytest.mark.parametrize(
+    ("text", "key", "words"),
+    [
+        ("Ana\nMaria da Conceição\n", "bad_name", {"line": 2, "text": "Maria da Conceição"}),
+        ("Ana\nAna\n", "taken", {"name": "Ana"}),
+        ("Ana\nBea,level1,Red,x\n", "bad_line", {"line": 2, "text": "Bea,level1,Red,x"}),
+        ("\n".join(f"N{i}" for i in range(500)), "full", {"most": 64}),
+        ("Ana\nBea=level9\n", "bad_ai", {}),
+    ],
+)
+def test_a_list_is_refused_as_a_whole_with_the_line_and_the_reason(
+    arcade: Arcade, text: str, key: str, words: dict[str, object]
+) -> None:
+    page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
+    page.add_list(text)
+    assert page.draft.entrants == []
+    assert page.navigation.sentence == arcade.context.words(f"events.{key}", **words)
+
+
 def test_the_clipboard_may_be_empty(arcade: Arcade) -> None:
     page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
     arcade.open(page)
