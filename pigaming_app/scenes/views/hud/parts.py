@@ -24,17 +24,16 @@ class HudParts:
         self.background = background
         self.shown: dict[Hashable, object] = {}
 
-    def changed(self, part: Hashable, content: object) -> bool:
-        """True if a part's content differs from the last call."""
-        if self.shown.get(part) == content:
-            return False
-        self.shown[part] = content
-        return True
+    def update(self, part: Hashable, content: object, bake: Callable[[], object]) -> None:
+        """Call `bake` if a part's content changed, and again in the next frame if it raised Unfinished."""
+        if self.shown.get(part) != content:
+            bake()
+            self.shown[part] = content
 
     def show(self, part: Hashable, content: object, x: int, w: int, bits: Callable[[], Iterable[Bit]]) -> None:
         """Bake a part's pieces over the full HUD height, from `x`, `w` px wide, if its content changed."""
-        if self.changed(part, content):
-            self.background.bake(pygame.Rect(x, 0, w, HUD_HEIGHT), [*bits()])
+        box = pygame.Rect(x, 0, w, HUD_HEIGHT)
+        self.update(part, content, lambda: self.background.bake(box, [*bits()]))
 
     def countdown(self, state: Any, y: float) -> None:
         """Show the remaining time of a match; vertical centre of the digits at `y` px."""

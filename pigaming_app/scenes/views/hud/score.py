@@ -99,7 +99,6 @@ class ScoreHud:
         totals = {panel.team: sum(points[slot.seat] for slot in panel.mates) for panel in self.sums}
         ahead = sole_leader(totals or points)
         changed = [slot for slot in self.slots if self.points.get(slot.seat, points[slot.seat]) != points[slot.seat]]
-        self.points = points
         for slot in self.slots:
             leads = self.leads(state, slot.seat, slot.seat == ahead) and not self.sums
             turbo = round(64 * state.robots[slot.seat].turbo) if self.has_turbo else None
@@ -107,9 +106,9 @@ class ScoreHud:
             self.parts.show(slot, content, slot.x - 4, slot.w + 8, partial(self._panel_bits, slot, *content))
         for panel in self.sums:
             total = totals[panel.team], self.leads(state, panel.mates[0].seat, panel.team == ahead)
-            if self.parts.changed(panel, total):
-                self._bake_sum(panel, *total)
+            self.parts.update(panel, total, partial(self._bake_sum, panel, *total))
         self.show_clock(state)
+        self.points = points
         return changed
 
     def jobs(self) -> Iterator[Callable[[], object]]:
