@@ -13,7 +13,7 @@ pytest.importorskip("cv2")
 
 
 def eventually(true: Callable[[], bool]) -> bool:
-    end = time.monotonic() + 10.0
+    end = time.monotonic() + 60.0
     while not true() and time.monotonic() < end:
         time.sleep(0.01)
     return true()
