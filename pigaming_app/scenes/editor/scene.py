@@ -72,6 +72,11 @@ class Editor:
         """Draw, drag, choose tiles; X deletes, Y opens the tool bar, START plays, BACK lets go or leaves."""
         event, bench = self.prompts.as_button(event), self.bench
         self.reveal = 0.0 if event.button not in (Button.POINT, Button.FOUND, Button.LOST) else self.reveal
+        if self.waiting and event.button in (Button.FIRE, Button.CLICK, Button.X, Button.BACK):
+            self.waiting = None  # drawn on instead
+            if event.button is Button.BACK:
+                self._play("back")
+                return None
         match event.button:
             case Button.POINT if event.at:
                 bench.pointer.place(event.at)
@@ -167,7 +172,8 @@ class Editor:
         tiles["undo"] = Tile("undo", live=bench.history.can_undo)
         tiles["redo"] = Tile("redo", live=bench.history.can_redo)
         playable = bench.verdict is None or not bench.verdict.blocked
-        tiles["play"], tiles["save"] = Tile("play", live=playable), Tile("save", live=playable)
+        for name in ("play", "save"):
+            tiles[name] = Tile(name, on=bool(self.waiting) and self.saving == (name == "save"), live=playable)
         return tiles
 
     @property

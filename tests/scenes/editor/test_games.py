@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import ExitStack
+from dataclasses import replace
 
 import pytest
 
@@ -9,9 +10,11 @@ from pigaming_app.games.arenas import load, shipped_arenas
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.factory.layout import PALLET
 from pigaming_app.games.race.circuit import read_course
+from pigaming_app.scenes.editor.checker import Verdict
 from pigaming_app.scenes.editor.games.factory import _slots
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
 from pigaming_app.scenes.editor.parts.things import RADII
+from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.editor.store import titled
@@ -161,6 +164,26 @@ def test_problems_are_found_while_a_part_is_in_hand(mouse: Mouse) -> None:
     assert bench.hand
     mouse.arcade.press(Button.BACK)
     assert not checked(mouse).bench.verdict.blocked
+
+
+@pytest.mark.parametrize("button", [Button.BACK, Button.FIRE])
+def test_a_match_that_is_awaited_is_shown_and_can_be_called_off(mouse: Mouse, button: Button) -> None:
+    """The plan of a track takes a second."""
+    editor = opened(mouse, "race")
+    editor.bench.checker.end()
+    checks = Verdict(editor.bench.history.now, (), load("race", "classic"))
+    editor.bench.checker.verdict = checks
+    mouse.arcade.press(Button.START)
+    mouse.arcade.frame()
+    assert (editor.tiles["play"].on, editor.tiles["save"].on) == (True, False)
+    mouse.arcade.press(button)
+    assert not editor.tiles["play"].on
+    editor.bench.checker.verdict = replace(checks, done=True)
+    mouse.arcade.frame()
+    assert mouse.arcade.stack.top is editor
+    if button is Button.BACK:
+        mouse.arcade.press(Button.START)
+        assert isinstance(mouse.arcade.stack.top, PlayTest)
 
 
 def test_a_course_over_itself_is_marked_at_the_crossing(mouse: Mouse) -> None:
