@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -125,6 +126,8 @@ def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, o
             '"{n} wins."',
             "text/en.toml: rules.tag_standard: no value has the name n",
         ),
+        ("text/en.toml", '= "Tag"', '= "Ta\\u0000g"', "text/en.toml: games.tag: more than 500 letters, or a control"),
+        ("text/en.toml", '= "Tag"', f'= "{"Tag" * 200}"', "text/en.toml: games.tag: more than 500 letters"),
         ("text/en.toml", "[howto]", "[howto]\npress = 5", ""),
     ],
 )
@@ -149,6 +152,15 @@ def test_a_translation_has_the_values_of_the_english_text(tag: Path) -> None:
     assert ended.stderr == LEFT_OUT.format(folder=tag, reason=f"{reason}.")
 
 
+def test_of_two_texts_with_one_key_the_first_counts(tag: Path) -> None:
+    write(user_folder() / "zap", "zap")
+    switch("zap", True)
+    other = user_folder() / "zap" / "text" / "en.toml"
+    other.write_text(other.read_text().replace("[games]", '[games]\ntag = "Zapped"'))
+    code = "from pigaming_app.ui.i18n import Words; w = Words('en'); print(w('games.tag'), w('games.zap'))"
+    assert python(code).stdout == "Tag Zap\n"
+
+
 @pytest.mark.parametrize("file", ["__init__.py", "ai.py"])
 def test_an_import_that_does_not_end_is_ended(tag: Path, file: str) -> None:
     source = tag / file
@@ -163,6 +175,23 @@ def test_an_import_that_does_not_end_is_ended(tag: Path, file: str) -> None:
     assert f"The game tag in {tag} is left out: {file}, line " in ended.stderr
     assert "TimeoutError: not done after 0.3 s." in ended.stderr
     assert ended.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "reason"),
+    [
+        ("robot.score += 1", "robot.score += 0.5", r"Tag\.robots\[\d\]\.score is \d+\.\d, no whole number\."),
+        ("steer(match, k, 1.0)", "steer(match, k, 1e999 * 0)", r"Tag\.robots\[\d\]\.x is nan, no number\."),
+        ("match.tick += 1", "raise SystemExit(0)", r"rules\.py, line \d+: SystemExit: 0\."),
+    ],
+)
+def test_wrong_numbers_are_named_and_an_exit_is_a_failure(tag: Path, before: str, after: str, reason: str) -> None:
+    rules = tag / "rules.py"
+    assert before in rules.read_text()
+    rules.write_text(rules.read_text().replace(before, after))
+    ended = program("play", "tag", "--headless", "--speed", "max", "--minutes", "0.5", "--seats", "hard,hard")
+    assert ended.returncode == 1
+    assert re.fullmatch(rf"PiGaming: The game tag in \S+ is left out: {reason}\n", ended.stderr)
 
 
 @pytest.mark.parametrize(
