@@ -48,6 +48,15 @@ def test_nothing_is_replaced_unasked(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert all(line.startswith("PiGaming: ") for line in capsys.readouterr().err.splitlines())
 
 
+@pytest.mark.parametrize("folder", ["arenas/race", "drafts/race", "shared"])
+def test_what_a_killed_program_left_there_is_deleted_by_the_next_one(folder: str, tmp_path: Path) -> None:
+    left = tmp_path / "home" / "data" / folder / ".pigaming-0a1b2c3d.tmp"
+    left.parent.mkdir(parents=True)
+    left.write_bytes(b"[title]\n")
+    assert main(["arena", "check", str(ASSETS / "arenas" / "pitanks" / "classic.toml")]) == 0
+    assert not left.exists()
+
+
 def test_no_more_come_in_than_the_lobby_lists(capsys: pytest.CaptureFixture[str]) -> None:
     file = ASSETS / "arenas" / "pitanks" / "classic.toml"
     own_folder("pitanks").mkdir(parents=True)

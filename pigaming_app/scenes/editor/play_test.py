@@ -26,8 +26,8 @@ class PlayTest(MatchScene):
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START, Escape and a click lead back."""
-        escape = event.button is Button.BACK and self._escapes(event.device)
-        if escape or event.button in (Button.START, Button.CLICK):
+        escapes = event.button is Button.BACK and self._escapes(event.device)
+        if escapes or event.button in (Button.START, Button.CLICK):
             self.context.sounds.play("back")
             return Pop()
         return super().handle(event)

@@ -158,7 +158,10 @@ class Editor:
     def tiles(self) -> Mapping[str, Tile]:
         """The tiles of the tool bar."""
         bench, now = self.bench, self.bench.history.now
-        tiles = {f"tool {i}": Tile(tool.name, on=i == bench.tool) for i, tool in enumerate(self.tools.palette)}
+        tiles = {
+            f"tool {i}": Tile(tool.name, on=i == bench.tool, live=len(now.of(tool.kind)) < tool.most)
+            for i, tool in enumerate(self.tools.palette)
+        }
         removable = copied = False
         if bench.selected:
             part = self.tools.part(now, bench.selected)

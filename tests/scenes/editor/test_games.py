@@ -222,6 +222,22 @@ def test_a_machine_in_a_corner_can_be_played(mouse: Mouse) -> None:
     assert not checked(mouse).bench.verdict.blocked
 
 
+def test_a_tool_without_room_for_more_is_dim(mouse: Mouse) -> None:
+    editor = opened(mouse, "factory", "hall")
+    shared = editor.bench.history.now.of("shared")
+    assert not editor.tiles["tool 1"].live
+    mouse.choose("tool 1")
+    assert editor.bench.tool == 0
+    at = shared[0].get("at")
+    assert isinstance(at, tuple)
+    mouse.click(at)
+    mouse.choose("delete")
+    mouse.choose("tool 1")
+    mouse.click((300, 450))
+    assert editor.bench.history.now.of("shared") == (*shared[1:], shared[0].changed("at", (300, 450)))
+    assert not editor.tiles["tool 1"].live
+
+
 def test_mud_has_a_largest_size(mouse: Mouse) -> None:
     bench = opened(mouse, "race").bench
     mouse.choose("tool 1")
