@@ -335,6 +335,21 @@ def test_damaged_decisions_switch_nothing_on(home: Path, text: str) -> None:
     assert is_on(Plugin("football", "pigaming_football", home, own=True)) is True
 
 
+def test_a_new_game_may_have_a_name_that_its_files_use(home: Path) -> None:
+    names = ["any", "game", "mind", "new_game_2", "none", "rules", "setup", "world"]
+    for name in names:
+        write(user_folder() / name, name)
+        switch(name, True)
+    ended = python(
+        "from pigaming_app.ai.registry import AIS\nfrom pigaming_app.scenes.views.registry import shown_games\n"
+        "from pigaming_app.games.registry import games\nfrom pigaming_app.games.game import Seat, Setup\n"
+        "from pigaming_app.ai.registry import new_match\nseats = tuple(Seat('hard', k) for k in range(4))\n"
+        f"for name in {names}: new_match(Setup(name, 'classic', seats, 1.0, 1, 'standard')).tick()\n"
+        "print(*shown_games())"
+    )
+    assert (ended.stdout.split()[-len(names) :], ended.stderr) == (names, "")
+
+
 @pytest.mark.parametrize("name", ["Tag", "2", "a-b", "x" * 25, "", "../x", "pitanks"])
 def test_a_new_game_needs_a_new_name(home: Path, name: str) -> None:
     ended = program("new-game", name)
