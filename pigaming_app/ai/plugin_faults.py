@@ -21,7 +21,7 @@ def blame(error: BaseException) -> Plugin | None:
         reason = next(wrong_numbers(state), "")
         for plugin in parts.plugins() if reason else ():
             if type(state).__module__.startswith(f"{plugin.module}."):
-                return parts.stop(plugin, f"{type(state).__name__}.{reason}")
+                return parts.stop(plugin, reason)
     return None
 
 
@@ -30,9 +30,9 @@ def wrong_numbers(state: Any) -> Iterator[str]:
     for field in fields_of(type(state)):
         several = field.count is not None
         for i, value in enumerate(field.elements(state)):
-            name = f"{field.name}[{i}]" if several else field.name
+            name = f"{type(state).__name__}.{field.name}" + (f"[{i}]" if several else "")
             if not field.code:
-                yield from (f"{name}.{wrong}" for wrong in wrong_numbers(value))
+                yield from (f"{name}.{wrong.partition('.')[2]}" for wrong in wrong_numbers(value))
             elif field.kind is int and not hasattr(value, "__index__"):
                 yield f"{name} is {value!r}, no whole number"
             elif not hasattr(value, "__float__") or not isfinite(value):

@@ -4,7 +4,7 @@ Read-only. Brains are queried after a tick, never within one, so the match is ne
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import pygame
@@ -19,6 +19,7 @@ from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PLAYERS
+from pigaming_app.ui.i18n import Words
 
 QUERY_PERIOD = 5  # ticks between two queries
 EASE = 10.0  # 1/s, smoothing rate of bars and petals
@@ -29,7 +30,7 @@ TILTED = 0.35  # deflection above which a stick counts as held
 class BrainOverlay:
     """Shows the brain of one AI seat of a match, or none."""
 
-    def __init__(self, match: Match, view: MatchView, words: Callable[..., str]) -> None:
+    def __init__(self, match: Match, view: MatchView, words: Words) -> None:
         self.match, self.view, self.words = match, view, words
         self.seat: int | None = None
         self.thoughts = Thoughts("starts")
@@ -98,8 +99,8 @@ class BrainOverlay:
         left, right, w = LEFT, clock.right + 8, clock.left - 8 - LEFT
         cards.blank(screen, LEFT - 12, clock.left + GLOW)
         cards.blank(screen, clock.right - GLOW, LEFT + int(WIDTH) + 12)
-        doing = self.words(f"brain.{thoughts.behaviour}", **thoughts.names)
-        because = self.words(f"brain.because_{thoughts.reason}", **thoughts.names) if thoughts.reason else ""
+        doing = self._word("brain.", thoughts.behaviour)
+        because = self._word("brain.because_", thoughts.reason) if thoughts.reason else ""
         cards.draw_words(screen, left, w, seat, doing, because)
         screens = SCREENS[self.match.setup.game]
         if thoughts.moves:
@@ -115,6 +116,11 @@ class BrainOverlay:
             if screens.fire:
                 buttons.insert(0, ("fire", state.actions[seat].fire))
             cards.draw_held(screen, right + w, seat, held(state.actions[seat]), buttons)
+
+    def _word(self, prefix: str, name: str) -> str:
+        """The text for a behaviour or reason; its name, where a plug-in has no text."""
+        key = f"{prefix}{name}"
+        return self.words(key, **self.thoughts.names) if key in self.words else name.replace("_", " ")
 
 
 def held(action: Any) -> MoveKey:

@@ -27,7 +27,7 @@ from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
-from pigaming_app.scenes.flow.match_words import match_length
+from pigaming_app.scenes.flow.match_words import game_title, match_length
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import AfterMatch
@@ -324,7 +324,7 @@ class NextMatch:
         """Game, length and arena in one line."""
         words, setup = self.context.words, self.running.setup(fixture)
         if setup is None:
-            return words(f"games.{fixture.game}")
+            return game_title(words, fixture.game)
         arena = arena_title(load_cached(setup.game, setup.arena), words.language)
         length = match_length(words, games()[setup.game], setup.minutes, setup.goal)
         return "  ·  ".join((words(f"games.{setup.game}"), length, arena))

@@ -1,5 +1,6 @@
 """Events on the screen: set-up by pad and list, seats, results on disk, absent and late people, corrections, podium."""
 
+from dataclasses import replace
 from pathlib import Path
 from time import sleep
 
@@ -7,6 +8,7 @@ import pytest
 
 from pigaming_app.ai.registry import new_match
 from pigaming_app.events import event_files
+from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Corrected
 from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, Format
@@ -18,6 +20,7 @@ from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.poster import drawn
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
@@ -535,6 +538,19 @@ def test_every_page_survives_every_press(arcade: Arcade) -> None:
                 at = (960.0, 240.0) if device.kind == "mouse" else None
                 scene.handle(InputEvent(button, device, at=at))
                 scene.update(0.1)
+
+
+def test_an_event_of_a_game_that_was_removed_is_shown_and_plays_nothing(arcade: Arcade) -> None:
+    event = Event(replace(an_event(brains="fsm").spec, games=("gone_game",)))
+    page = at_next(arcade, running(event))
+    assert page.fixture
+    assert page._what(page.fixture) == "Gone Game"
+    page.draw(arcade.screen)
+    assert drawn(event, arcade.context.words)
+    for button in (Button.FIRE, Button.START, Button.Y):
+        arcade.press(button)
+        arcade.wait(0.5, draw=True)
+    assert not running(event).event.outcomes
 
 
 @pytest.mark.long

@@ -107,6 +107,37 @@ def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, o
 
 
 @pytest.mark.parametrize(
+    ("brains", "reason"),
+    [
+        ("{}", "kinds: level1, level2, level3, level4, level5 missing"),
+        ('KINDS | {"net": think}', "kinds: net is no BrainKind"),
+        ('KINDS, rivals=("level1", "net")', "rivals: not all of level1, net are in kinds"),
+        ('KINDS, driving={"fly": 1}', "driving: no set of styles: fly"),
+    ],
+)
+def test_brains_that_the_lobby_could_not_offer(tag: Path, brains: str, reason: str) -> None:
+    file = tag / "ai.py"
+    before, _, _ = file.read_text().partition("AI = ")
+    kinds = 'every_level(BrainKind("collector", Mind, think, reset))'
+    file.write_text(f"{before}AI = GameAI({brains.replace('KINDS', kinds)})\n")
+    ended = python("from pigaming_app.ai.registry import AIS; print(*AIS['tag'].kinds)")
+    assert ended.stdout.split() == ["level1", "level2", "level3", "level4", "level5"], "random ones"
+    assert f"is left out: ai.py, line 34: ValueError: {reason}" in ended.stderr
+    assert ended.stderr.count("\n") == 1
+
+
+def test_a_brain_that_the_lobby_offers_has_a_name(tag: Path) -> None:
+    file = tag / "ai.py"
+    kinds = 'every_level(BrainKind("collector", Mind, think, reset))'
+    file.write_text(
+        file.read_text().replace(kinds, f'{kinds} | {{"ace": BrainKind("ace", Mind, think, reset)}}, ("ace",)')
+    )
+    ended = python("from pigaming_app.scenes.views.registry import shown_games; print(*shown_games())")
+    assert "tag" not in ended.stdout.split()
+    assert "is left out: text/en.toml lacks lobby.ace, match.ace." in ended.stderr
+
+
+@pytest.mark.parametrize(
     ("file", "old", "new", "reason"),
     [
         ("screens.py", "SCREENS = ", "SCREENS = 1 or ", "SCREENS is no GameScreens"),
@@ -281,6 +312,20 @@ def test_only_a_plug_ins_own_replays_depend_on_its_rules(tag: Path) -> None:
     assert after[1] != before[1]
 
 
+def test_a_replay_names_a_game_that_is_not_here_and_rules_that_are_others(tag: Path, tmp_path: Path) -> None:
+    words = ["play", "tag", "--headless", "--speed", "max", "--minutes", "0.1", "--seats", "hard,easy"]
+    assert program(*words, "--record", str(tmp_path / "one.replay")).returncode == 0
+    replay = program("replay", str(tmp_path / "one.replay"), "--verify")
+    assert (replay.returncode, replay.stderr) == (0, "")
+    rules = tag / "rules.py"
+    rules.write_text(rules.read_text().replace("REACH = 60.0", "REACH = 90.0"))
+    assert "another version of the engine" in program("replay", str(tmp_path / "one.replay"), "--verify").stderr
+    assert program("games", "off", "tag").returncode == 0
+    replay = program("replay", str(tmp_path / "one.replay"), "--verify")
+    reason = f"one.replay: the game tag in {tag} is switched off: main.py games on tag"
+    assert (replay.returncode, replay.stderr) == (2, f"PiGaming: {reason}\n")
+
+
 @pytest.mark.parametrize("text", ["", "[]", "{", '{"tag": 1}', '{"../tag": true}', "\x00"])
 def test_damaged_decisions_switch_nothing_on(home: Path, text: str) -> None:
     file = home / "config" / consent.FILE
@@ -288,6 +333,21 @@ def test_damaged_decisions_switch_nothing_on(home: Path, text: str) -> None:
     file.write_text(text)
     assert is_on(Plugin("tag", "tag", home)) is None
     assert is_on(Plugin("football", "pigaming_football", home, own=True)) is True
+
+
+def test_a_new_game_may_have_a_name_that_its_files_use(home: Path) -> None:
+    names = ["any", "game", "mind", "new_game_2", "none", "rules", "setup", "world"]
+    for name in names:
+        write(user_folder() / name, name)
+        switch(name, True)
+    ended = python(
+        "from pigaming_app.ai.registry import AIS\nfrom pigaming_app.scenes.views.registry import shown_games\n"
+        "from pigaming_app.games.registry import games\nfrom pigaming_app.games.game import Seat, Setup\n"
+        "from pigaming_app.ai.registry import new_match\nseats = tuple(Seat('hard', k) for k in range(4))\n"
+        f"for name in {names}: new_match(Setup(name, 'classic', seats, 1.0, 1, 'standard')).tick()\n"
+        "print(*shown_games())"
+    )
+    assert (ended.stdout.split()[-len(names) :], ended.stderr) == (names, "")
 
 
 @pytest.mark.parametrize("name", ["Tag", "2", "a-b", "x" * 25, "", "../x", "pitanks"])
