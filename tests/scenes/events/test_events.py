@@ -355,6 +355,27 @@ def test_absent_people_are_skipped_or_replaced_and_may_come_back(arcade: Arcade)
     assert saved(run).entrants == run.event.spec.entrants
 
 
+@pytest.mark.parametrize("late", [False, True])
+def test_whoever_is_back_takes_a_seat_even_if_ais_have_all_of_them(arcade: Arcade, late: bool) -> None:
+    """Of people who are in the list from the beginning, and of late ones."""
+    event = an_event(Format.ROUND_ROBIN, brains="level1" if late else "")
+    event = event.add(Entrant("EVA")).add(Entrant("IDA")) if late else event
+    while late and {*event.open[0].entrants} != {"EVA", "IDA"}:
+        event = event.postpone(event.open[0].number)
+    run = running(event)
+    page = at_next(arcade, run)
+    arcade.press(Button.Y)
+    fixture = page.fixture
+    assert fixture
+    assert run.without_people(fixture)
+    arcade.shown(NextMatch)
+    arcade.press(Button.FIRE, KEYS[2])
+    assert page.seats.claims == {0: KEYS[2]}
+    assert (run.brain(fixture.entrants[0]), run.brain(fixture.entrants[1])) == ("", "level3")
+    assert saved(run) == run.event
+    arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
+
+
 def test_a_late_entrant_joins_before_round_two_only(arcade: Arcade) -> None:
     run = running(an_event())
     at_next(arcade, run)
@@ -484,6 +505,11 @@ def test_two_processes_on_one_event_lose_and_double_nothing(arcade: Arcade) -> N
     assert sorted(saved(run).outcomes) == [1, second.number]
     arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
     arcade.wait(INPUT_LOCKOUT + 0.1)
+    third = run.event.open[0]
+    assert other.change(lambda event: event.record(result_of(third)))
+    arcade.press(Button.FIRE)
+    assert arcade.shown(NextMatch).message == "events.elsewhere"
+    assert run.event == other.event, "nobody plays a match that has a result"
     arcade.press(Button.FIRE)
     third = run.event.open[0]
     assert other.change(lambda event: event.record(result_of(third)))
