@@ -72,9 +72,7 @@ class Browser:
         page = Page(self, attached["sessionId"], size)
         for domain in ("Page", "Runtime", "Log"):
             await page.ask(f"{domain}.enable")
-        await page.ask(
-            "Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1, mobile=True
-        )
+        await page.resize(*size)
         await page.ask("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         await page.ask("Emulation.setFocusEmulationEnabled", enabled=True)
         source = WATCH_VIBRATION if vibrates else "navigator.vibrate = undefined;"
@@ -92,6 +90,12 @@ class Page:
 
     async def ask(self, method: str, **parameters: Any) -> Any:
         return await self.browser.ask(method, self.session, **parameters)
+
+    async def resize(self, width: int, height: int) -> None:
+        """Set the size of the screen, px."""
+        await self.ask(
+            "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=True
+        )
 
     async def value(self, expression: str) -> Any:
         """The value of an expression in the page."""

@@ -38,6 +38,15 @@ WATCH_FLASH = """
 new MutationObserver(([change]) => { window.flashed ||= change.target.classList.contains("lit"); })
     .observe(document.getElementById("flash"), { attributes: true }); 1
 """
+ROOM_LEFT = """
+(() => {
+    const box = (id) => document.getElementById(id).getBoundingClientRect();
+    document.body.classList.add("playing");
+    document.getElementById("score").textContent = "20/20";
+    document.getElementById("clock").textContent = "59:59";
+    return box("start").left - box("clock").right;
+})()
+"""
 SHORTEST, LONGEST = 12.0, 300.0  # s, a match: it ends when all is tested
 T = TypeVar("T")
 
@@ -275,5 +284,8 @@ def test_touches_become_stick_and_buttons(day: OpenDay) -> None:
             await day.drives(device, lambda state: state.turbo and not state.fire)
             await page.lift(1)
             await day.drives(device, lambda state: not state.turbo)
+        for width, height in ((320, 568), (568, 320)):
+            await page.resize(width, height)
+            assert await page.value(ROOM_LEFT) >= 0, "a lap and a long time"
 
     day.run(story)
