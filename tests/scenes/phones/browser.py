@@ -22,6 +22,7 @@ OPTIONS = (
 )  # fmt: skip
 LONG = 60.0  # s, for whatever must come: the machine may be busy
 LANDSCAPE, PORTRAIT = (844, 390), (390, 844)
+AS_AN_IPHONE = "navigator.vibrate = Element.prototype.requestFullscreen = undefined;"
 WATCH_VIBRATION = "window.shaken = []; navigator.vibrate = (ms) => { window.shaken.push(ms); return true; };"
 
 
@@ -75,7 +76,7 @@ class Browser:
         await page.resize(*size)
         await page.ask("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         await page.ask("Emulation.setFocusEmulationEnabled", enabled=True)
-        source = WATCH_VIBRATION if vibrates else "navigator.vibrate = undefined;"
+        source = WATCH_VIBRATION if vibrates else AS_AN_IPHONE
         await page.ask("Page.addScriptToEvaluateOnNewDocument", source=source)
         await page.ask("Page.navigate", url=url)
         return page

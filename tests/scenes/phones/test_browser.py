@@ -206,6 +206,8 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
             await day.between_frames(lambda hit=devices[target]: controls.rumble(hit, 0.9, 0.6, 0.28))
         await pages[0].until("window.shaken.includes(280)")
         await pages[2].until("window.flashed")
+        can_fill = [await page.value("document.getElementById('full').offsetWidth > 0") for page in pages]
+        assert can_fill == [True, True, False, True]
         await pages[1].lock(True)
         await day.top(Reconnect)
         await pages[1].lock(False)
