@@ -22,6 +22,7 @@ OPTIONS = (
 )  # fmt: skip
 LONG = 60.0  # s, for whatever must come: the machine may be busy
 LANDSCAPE, PORTRAIT = (844, 390), (390, 844)
+AS_AN_IPHONE = "navigator.vibrate = Element.prototype.requestFullscreen = undefined;"
 WATCH_VIBRATION = "window.shaken = []; navigator.vibrate = (ms) => { window.shaken.push(ms); return true; };"
 
 
@@ -72,12 +73,10 @@ class Browser:
         page = Page(self, attached["sessionId"], size)
         for domain in ("Page", "Runtime", "Log"):
             await page.ask(f"{domain}.enable")
-        await page.ask(
-            "Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1, mobile=True
-        )
+        await page.resize(*size)
         await page.ask("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         await page.ask("Emulation.setFocusEmulationEnabled", enabled=True)
-        source = WATCH_VIBRATION if vibrates else "navigator.vibrate = undefined;"
+        source = WATCH_VIBRATION if vibrates else AS_AN_IPHONE
         await page.ask("Page.addScriptToEvaluateOnNewDocument", source=source)
         await page.ask("Page.navigate", url=url)
         return page
@@ -92,6 +91,12 @@ class Page:
 
     async def ask(self, method: str, **parameters: Any) -> Any:
         return await self.browser.ask(method, self.session, **parameters)
+
+    async def resize(self, width: int, height: int) -> None:
+        """Set the size of the screen, px."""
+        await self.ask(
+            "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=True
+        )
 
     async def value(self, expression: str) -> Any:
         """The value of an expression in the page."""

@@ -38,6 +38,15 @@ WATCH_FLASH = """
 new MutationObserver(([change]) => { window.flashed ||= change.target.classList.contains("lit"); })
     .observe(document.getElementById("flash"), { attributes: true }); 1
 """
+ROOM_LEFT = """
+(() => {
+    const box = (id) => document.getElementById(id).getBoundingClientRect();
+    document.body.classList.add("playing");
+    document.getElementById("score").textContent = "20/20";
+    document.getElementById("clock").textContent = "59:59";
+    return box("start").left - box("clock").right;
+})()
+"""
 SHORTEST, LONGEST = 12.0, 300.0  # s, a match: it ends when all is tested
 T = TypeVar("T")
 
@@ -197,6 +206,8 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
             await day.between_frames(lambda hit=devices[target]: controls.rumble(hit, 0.9, 0.6, 0.28))
         await pages[0].until("window.shaken.includes(280)")
         await pages[2].until("window.flashed")
+        can_fill = [await page.value("document.getElementById('full').offsetWidth > 0") for page in pages]
+        assert can_fill == [True, True, False, True]
         await pages[1].lock(True)
         await day.top(Reconnect)
         await pages[1].lock(False)
@@ -275,5 +286,8 @@ def test_touches_become_stick_and_buttons(day: OpenDay) -> None:
             await day.drives(device, lambda state: state.turbo and not state.fire)
             await page.lift(1)
             await day.drives(device, lambda state: not state.turbo)
+        for width, height in ((320, 568), (568, 320)):
+            await page.resize(width, height)
+            assert await page.value(ROOM_LEFT) >= 0, "a lap and a long time"
 
     day.run(story)
