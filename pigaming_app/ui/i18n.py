@@ -42,6 +42,11 @@ class Words:
         """The text of a key, `table.name`, with values filled in. Raises KeyError for an unknown key."""
         return self._texts[key].format(**{name: self._localised(value) for name, value in values.items()})
 
+    def counted(self, key: str, number: object, **values: object) -> str:
+        """The text of a key; for the number 1 that of `key_one` if there is such a text. Raises KeyError."""
+        one = f"{key}_one"
+        return self(one if number == 1 and one in self else key, **values)
+
     def __contains__(self, key: str) -> bool:
         """True if there is such a text."""
         return key in self._texts

@@ -99,7 +99,8 @@ class BrainOverlay:
         cards.blank(screen, LEFT - 12, clock.left + GLOW)
         cards.blank(screen, clock.right - GLOW, LEFT + int(WIDTH) + 12)
         doing = self.words(f"brain.{thoughts.behaviour}", **thoughts.names)
-        because = self.words(f"brain.because_{thoughts.reason}", **thoughts.names) if thoughts.reason else ""
+        because, count = f"brain.because_{thoughts.reason}", thoughts.names.get("count")
+        because = self.words.counted(because, count, **thoughts.names) if thoughts.reason else ""
         cards.draw_words(screen, left, w, seat, doing, because)
         screens = SCREENS[self.match.setup.game]
         if thoughts.moves:

@@ -7,7 +7,6 @@ from pigaming_app.scenes.views.background import Background
 from pigaming_app.scenes.views.benchmark.pitanks import BusyPiTanks
 from pigaming_app.scenes.views.hud.score import ScoreHud
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget
-from pigaming_app.ui.i18n import Words
 from tests.scenes.cache import empty_cache
 
 PLAYERS = ["human", "level3", "level3", "human"]
