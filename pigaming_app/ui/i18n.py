@@ -68,10 +68,13 @@ class Words:
         """A day in this language's notation: 2026-03-01 is 01.03.2026 in German."""
         return f"{day:{self._texts['numbers.date']}}"
 
+    def day_of_year(self, day: date) -> str:
+        """A day of this year in this language's notation."""
+        return f"{day:{self._texts['numbers.date'].removesuffix('%Y').rstrip('/')}}"
+
     def moment(self, at: datetime) -> str:
         """A day of this year and its time in this language's notation."""
-        day = self._texts["numbers.date"].removesuffix("%Y").rstrip("/")
-        return f"{at:{day} %H:%M}"
+        return f"{self.day_of_year(at)} {at:%H:%M}"
 
     def switch(self, language: str) -> None:
         """Change the language."""
