@@ -44,6 +44,11 @@ class Words:
         """The text of a key, `table.name`, with values filled in. Raises KeyError for an unknown key."""
         return self._texts[key].format(**{name: self._localised(value) for name, value in values.items()})
 
+    def counted(self, key: str, number: object, **values: object) -> str:
+        """The text of a key; for the number 1 that of `key_one` if there is such a text. Raises KeyError."""
+        one = f"{key}_one"
+        return self(one if number == 1 and one in self else key, **values)
+
     def __contains__(self, key: str) -> bool:
         """True if there is such a text."""
         return key in self._texts
@@ -65,10 +70,13 @@ class Words:
         """A day in this language's notation: 2026-03-01 is 01.03.2026 in German."""
         return f"{day:{self._texts['numbers.date']}}"
 
+    def day_of_year(self, day: date) -> str:
+        """A day of this year in this language's notation."""
+        return f"{day:{self._texts['numbers.date'].removesuffix('%Y').rstrip('/')}}"
+
     def moment(self, at: datetime) -> str:
         """A day of this year and its time in this language's notation."""
-        day = self._texts["numbers.date"].removesuffix("%Y").rstrip("/")
-        return f"{at:{day} %H:%M}"
+        return f"{self.day_of_year(at)} {at:%H:%M}"
 
     def switch(self, language: str) -> None:
         """Change the language."""

@@ -145,6 +145,14 @@ ENDINGS = {
 }
 
 
+def sheet_written(arcade: Arcade) -> Scene:
+    page = RobotsMenu(arcade.context)
+    page.focus.move_to("sheet")
+    path = "/home/a.rather.long.name/.local/share/pigaming/of-the-school/markers.pdf"
+    page.navigation.show_message(arcade.context.words("robots.written", path=path))
+    return page
+
+
 def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         scene = Lobby(arcade.context, game)
@@ -504,6 +512,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     },
     "remap": lambda arcade: RemapPage(arcade.context),
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
+    "marker sheet written": sheet_written,
     "added games": added_games,
     "added games that failed": partial(added_games, first=6),
     **{f"new game, {state}": partial(new_game, state=state) for state in ("question", "plays", "stays_off", "unsaved")},

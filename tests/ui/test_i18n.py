@@ -82,6 +82,19 @@ def test_values_are_put_in_and_the_language_can_change() -> None:
     assert words.following == "en"
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_one_is_singular(language: str) -> None:
+    """Each text for the number 1 differs from the one for several, whose only value is that number."""
+    words = Words(language)
+    ones = [key.removesuffix("_one") for key in texts(language) if key.endswith("_one")]
+    several = [key for key in ones if key in words and _holes(texts(language)[key])]
+    assert {"games.race_line", "results.best_race", "brain.because_tried"} <= set(several)
+    for key in several:
+        (name,) = _holes(texts(language)[key])
+        assert words.counted(key, 2, **{str(name): 2}) == words(key, **{str(name): 2})
+        assert words.counted(key, 1, **{str(name): 1}) == words(f"{key}_one") != words(key, **{str(name): 1})
+
+
 def test_numbers_have_the_decimal_sign_of_the_language() -> None:
     english, portuguese = Words("en"), Words("pt")
     assert english.decimal("1:02.34") == "1:02.34"
@@ -128,7 +141,7 @@ def bare_decimals(module: ast.AST, formatters: set[str], localised: bool = False
             yield node.lineno
         if called(node) in formatters and not localised:
             yield node.lineno
-        inside = called(node) in ("decimal", "words") or name in FORMATTERS
+        inside = called(node) in ("counted", "decimal", "words") or name in FORMATTERS
         yield from bare_decimals(node, formatters, localised or inside)
 
 

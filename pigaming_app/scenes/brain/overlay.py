@@ -120,7 +120,8 @@ class BrainOverlay:
     def _word(self, prefix: str, name: str) -> str:
         """The text for a behaviour or reason; its name, where a plug-in has no text."""
         key = f"{prefix}{name}"
-        return self.words(key, **self.thoughts.names) if key in self.words else name.replace("_", " ")
+        names = self.thoughts.names
+        return self.words.counted(key, names.get("count"), **names) if key in self.words else name.replace("_", " ")
 
 
 def held(action: Any) -> MoveKey:

@@ -133,11 +133,6 @@ def _save(pen: Pen) -> None:
     pen.line((-0.4, -0.9), (-0.4, -0.4), (0.3, -0.4), (0.3, -0.9))
 
 
-def _pencil(pen: Pen) -> None:
-    pen.line((-0.9, 0.9), (-0.72, 0.26), (0.5, -0.96), (0.96, -0.5), (-0.26, 0.72), closed=True)
-    pen.line((0.2, -0.66), (0.66, -0.2))
-
-
 def _dice(pen: Pen) -> None:
     pen.line(*cut_box(-0.85, -0.85, 1.7, 1.7, 0.2), closed=True)
     for x, y in ((-0.4, -0.4), (0.4, -0.4), (0, 0), (-0.4, 0.4), (0.4, 0.4)):
@@ -192,7 +187,6 @@ PICTURES: dict[str, Callable[[Pen], None]] = {
     "undo": _undo,
     "redo": _redo,
     "save": _save,
-    "pencil": _pencil,
     "dice": _dice,
     "rename": _rename,
     "share": _share,

@@ -4,7 +4,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.scenes.play.scene import MatchScene, new_seed
+from pigaming_app.scenes.play.scene import NOTICE_AT, MatchScene, new_seed
 from pigaming_app.sim.arena import Arena
 from pigaming_app.ui.draw import ICE
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -12,6 +12,8 @@ from pigaming_app.ui.widgets.caption import caption
 
 RIVAL = "level2"
 NOTICE = 6.0  # s for which the way back is shown
+PLACES = [(x, y) for y in (NOTICE_AT[1], 974) for x in (NOTICE_AT[0], 560, 1360)]  # for it, on the canvas, best first
+APART = 24  # px between it and a robot, on both sides together
 
 
 class PlayTest(MatchScene):
@@ -23,6 +25,9 @@ class PlayTest(MatchScene):
         self.restart_allowed = False
         label = context.words.key_name(context.controls.label(device, Button.START))
         self.notice, self.notice_left = caption(f"{label}: {context.words('editor.hint_draw')}", ICE), NOTICE
+        covered = [box.inflate(APART, APART) for box in self.runner.occupied(self.devices)]
+        places = [place for place in PLACES if self.notice.box(place).collidelist(covered) < 0]
+        self.notice_at = (places or PLACES)[0]
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START, Escape and a click lead back."""

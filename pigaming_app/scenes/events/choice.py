@@ -104,7 +104,7 @@ class EventsPage:
     def begin(self, draft: Draft) -> StackOperation | str:
         """Make and save a new event; returns the page of its first match, or the sentence why there is none."""
         words, folder = self.context.words, folders().data / event_files.FOLDER
-        title = words(f"events.{draft.format.value}") + f" {date.today():%d.%m.}"
+        title = f"{words(f'events.{draft.format.value}')} {words.day_of_year(date.today())}"
         event = Event(draft.spec(title, secrets.randbelow(SEEDS) + 1))
         try:
             _ = event.progress

@@ -20,8 +20,7 @@ def game_title(words: Words, game: str) -> str:
 
 def tagline(words: Words, game: str, goal: int) -> str:
     """The line under a game's name; it may contain the goal, such as the number of laps."""
-    one = f"games.{game}_line_one"
-    return words(one if goal == 1 and one in words else f"games.{game}_line", n=goal)
+    return words.counted(f"games.{game}_line", goal, n=goal)
 
 
 def last_goal(settings: Settings, game: str) -> int:

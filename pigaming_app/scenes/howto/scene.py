@@ -19,6 +19,7 @@ from pigaming_app.ui.draw import (
     MIST,
     STEEL,
     THIN,
+    TITLE,
     button,
     button_width,
     panel,
@@ -35,15 +36,19 @@ from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_w
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without input until the title
+GAP = 24  # px on either side of the arrows between heading and names
 DOT = 32  # px from dot to dot of the pages
 LEAVE = (Button.FIRE, Button.BACK, Button.START, Button.CLICK)
 
 
 class HowTo:
-    """The pages of all games; left and right turn them, a click on a name opens its game, most other buttons leave."""
+    """The pages of all games; left and right turn them, a click on a name opens its game, most other buttons leave.
+
+    A game without lessons has no page: the first that has some is shown.
+    """
 
     def __init__(self, context: Context, game: str = "pitanks") -> None:
-        self.context, self.game, self.page = context, game, 0
+        self.context, self.game, self.page = context, game if game in taught() else taught()[0], 0
         self.clock = 0.0
 
     def on_enter(self) -> None:
@@ -74,7 +79,7 @@ class HowTo:
         heading(words("title.howto")).draw(screen)
         for game, box in self._names():
             chip(words(f"games.{game}"), box.w, "on" if game == self.game else "off").draw(screen, *box.topleft)
-        button_label("<>").draw(screen, self._names()[0][1].left - 24 - button_width("<>"), 112)
+        button_label("<>").draw(screen, self._names()[0][1].left - GAP - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
         black_out(screen, *boxes)
         for i, (box, (name, picture)) in enumerate(zip(boxes, self.lessons(), strict=False)):
@@ -126,12 +131,18 @@ class HowTo:
         return names[self.page] if names else last_variant(self.context.settings, self.game).name
 
     def _names(self) -> list[tuple[str, pygame.Rect]]:
-        """The games and the rectangles of their names, at the right end of the heading."""
+        """The games and the rectangles of their names, at the right end of the heading: as many as have room, with
+        the shown game among them.
+        """
+        words, games = self.context.words, taught()
+        room = RIGHT - LEFT - text_width(words("title.howto"), TITLE) - 2 * GAP - button_width("<>")
+        widths = {game: chip_width(words(f"games.{game}")) for game in games}
+        while sum(widths[game] + 16 for game in games) - 16 > room and len(games) > 1:
+            games.pop(0 if games.index(self.game) > len(games) // 2 else -1)
         boxes, right = [], RIGHT
-        for game in reversed(taught()):
-            w = chip_width(self.context.words(f"games.{game}"))
-            boxes.append((game, pygame.Rect(right - w, 80, w, 64)))
-            right -= w + 16
+        for game in reversed(games):
+            boxes.append((game, pygame.Rect(right - widths[game], 80, widths[game], 64)))
+            right -= widths[game] + 16
         return boxes[::-1]
 
     def _keys(self) -> tuple[tuple[str, str], ...]:

@@ -13,6 +13,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, heading
@@ -69,7 +70,8 @@ class OpenPage:
                 if spot.name not in self.networks:
                     self.networks[spot.name] = is_network(file_of(spot.name))
                 hot = spot.name == self.focus.name
-                card(spot.name, saved(spot.name), self.networks[spot.name], hot).draw(screen, *spot.rect.topleft)
+                when = saved(words, spot.name)
+                card(spot.name, when, self.networks[spot.name], hot).draw(screen, *spot.rect.topleft)
             self.focus.draw(screen)
         else:
             text(words("lab.none"), LABEL, MIST, "head").draw(screen, 960, 520)
@@ -109,10 +111,10 @@ def place(i: int) -> pygame.Rect:
     return pygame.Rect(x, TOP + PITCH * (i // COLUMNS), w, HIGH)
 
 
-def saved(name: str) -> str:
+def saved(words: Words, name: str) -> str:
     """Local time at which a robot was saved, or "" if its file no longer exists."""
     try:
-        return f"{datetime.fromtimestamp(file_of(name).stat().st_mtime):%d.%m.  %H:%M}"
+        return words.moment(datetime.fromtimestamp(file_of(name).stat().st_mtime))
     except OSError:
         return ""
 

@@ -8,7 +8,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of, resumable_climbs
-from pigaming_app.scenes.ladder.climbers import Climbers
+from pigaming_app.scenes.ladder.climbers import Climbers, game_name
 from pigaming_app.scenes.ladder.rungs import LadderPage
 from pigaming_app.scenes.ladder.strengths import Strengths
 from pigaming_app.scenes.ladder.summit import Summit
@@ -82,7 +82,7 @@ class LadderChoice:
         heading(words("ladder.title"), words("ladder.invitation")).draw(screen)
         self.tiles.draw(screen, self._tile)
         black_out(screen, ALL_BOX)
-        wide_tile(words("ladder.all"), self._line(ALL), self.focus.name == ALL).draw(screen, *ALL_BOX.topleft)
+        wide_tile(game_name(words, ALL), self._line(ALL), self.focus.name == ALL).draw(screen, *ALL_BOX.topleft)
         self.focus.draw(screen)
         text(words("ladder.rules"), BODY, MIST).draw(screen, 960, RULES_Y)
         if self.navigation.sentence:

@@ -12,6 +12,7 @@ from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.ui.draw import ICE, LABEL, text_width
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import Arrows, as_direction, draw_arrows
 from pigaming_app.ui.widgets.labels import heading
@@ -81,11 +82,16 @@ class Climbers:
             board.draw(screen, *span(column, 6), self.turned)
 
     def _title(self) -> str:
-        return self.context.words(f"ladder.{ALL}" if self.game == ALL else f"games.{self.game}")
+        return game_name(self.context.words, self.game)
 
     def _row(self, row: Score) -> BoardRow:
         level, lost = stars_and_losses(row.score)
         return BoardRow(row.initials, str(lost), row in self.fresh, LIT * level)
+
+
+def game_name(words: Words, game: str) -> str:
+    """The name of a game, or of all."""
+    return words("ladder.all", count=len(climbed_games())) if game == ALL else words(f"games.{game}")
 
 
 def format_climb(score: int, table: ScoreTable) -> str:

@@ -9,13 +9,14 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.events.ladder import ALL, LEVELS, Climb
+from pigaming_app.events.ladder import LEVELS, Climb
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
 from pigaming_app.scenes.ladder import rungs_view as view
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of
+from pigaming_app.scenes.ladder.climbers import game_name
 from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.play.scene import MatchScene, new_seed
 from pigaming_app.scenes.results.winner import AfterMatch
@@ -211,8 +212,3 @@ def after_match(climber: Climber, scene: MatchScene) -> AfterMatch:
     if climb.at_top:
         return Summit(scene.context, climber)
     return LadderPage(scene.context, climber, said, saved)
-
-
-def game_name(words: Callable[..., str], game: str) -> str:
-    """The name of a game, or of all."""
-    return words("ladder.all") if game == ALL else words(f"games.{game}")

@@ -4,7 +4,22 @@ from collections.abc import Sequence
 from itertools import cycle
 
 from pigaming_app.events.day_report import DayReport
-from pigaming_app.ui.draw import BODY, FOCUS, HAIR, ICE, LABEL, MIST, ORANGE, STEEL, Color, cut_box, dim, text_width
+from pigaming_app.ui.draw import (
+    BODY,
+    FOCUS,
+    GREEN,
+    HAIR,
+    ICE,
+    LABEL,
+    MIST,
+    ORANGE,
+    PURPLE,
+    STEEL,
+    Color,
+    cut_box,
+    dim,
+    text_width,
+)
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -12,7 +27,8 @@ from pigaming_app.ui.draw.text import SMALLEST
 
 X, Y, W, H = 170, 270, 1010, 500  # px: the plot without its labels
 FEWEST_HOURS = 8
-COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176), ORANGE)
+COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176), ORANGE, GREEN, PURPLE)
+DIMMER = 0.5  # brightness of the colours when they come round again
 LEGEND_Y = 868
 Bars = tuple[tuple[int, tuple[int, ...]], ...]  # hour, and its matches by game
 
@@ -33,6 +49,11 @@ def bars_of(report: DayReport, games: Sequence[str]) -> Bars:
             counts[names.index(game) if game in names else -1] += count
         out.append((hour, tuple(counts)))
     return tuple(out)
+
+
+def color_of(game: int) -> Color:
+    """The colour of the game with this index."""
+    return dim(COLORS[game % len(COLORS)], DIMMER ** (game // len(COLORS)))
 
 
 def step_of(most: int) -> int:
@@ -63,7 +84,7 @@ def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
             if count:
                 high = H * count / top
                 box = cut_box(x + 0.16 * pitch, Y + H - H * below / top - high + 2, 0.68 * pitch, max(4, high - 4), 3)
-                layer.glow.fill(box, COLORS[game % len(COLORS)])
+                layer.glow.fill(box, color_of(game))
                 below += count
         if len(bars) <= 12 or i % 2 == 0:
             layer.canvas.body(str(hour), x + pitch / 2, Y + H + 36, MIST, "c", 36)
@@ -72,7 +93,7 @@ def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
     while size > SMALLEST and sum(48 + text_width(name, size, "body") + LABEL for name in names) - LABEL > W:
         size -= 1
     for game, name in enumerate(names):
-        layer.glow.fill(cut_box(x, LEGEND_Y - 16, 32, 32, 6), COLORS[game % len(COLORS)])
+        layer.glow.fill(cut_box(x, LEGEND_Y - 16, 32, 32, 6), color_of(game))
         layer.canvas.body(name, x + 48, LEGEND_Y, ICE, "l", size)
         x += 48 + round(text_width(name, size, "body")) + LABEL
     yield

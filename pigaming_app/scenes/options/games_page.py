@@ -22,7 +22,7 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = 6  # plug-ins on a page
 MORE, NONE = "more", "none"  # names of rows
-PLACE_Y, REASON_Y = dials.PANEL.bottom - 36, 922  # px: where it is, why it failed
+PLACE_Y, REASON_Y = dials.PANEL.bottom - 26, 922  # px: where it is, why it failed
 SCALE = 0.8  # of the picture of a tile
 
 

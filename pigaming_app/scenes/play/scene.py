@@ -50,6 +50,7 @@ LEAD_SECONDS = 0.8  # seconds before the countdown, to look round
 RESUME_STEP = 0.5  # seconds per number after an interruption
 HALT_AFTER = 60.0  # seconds without any input until the match is halted
 NOTICE_SECONDS = 3.0  # seconds for which a notice is shown
+NOTICE_AT = (960, 206)  # its centre on the canvas
 SUBSTITUTE_BRAIN = "level3"  # the brain that takes over for a person
 
 
@@ -88,6 +89,7 @@ class MatchScene:
         self.begun = self.prewarmed = self.stop_requested = self.restart_requested = False
         self.idle = self.notice_left = 0.0
         self.notice: Caption | None = None
+        self.notice_at = NOTICE_AT
         self.ending = Ending(context, self.runner, rounds, self._next)
         self.access = Access(context, lambda: self.devices)
         self.joining = HoldTimers(context.controls, TAKE_SECONDS)
@@ -208,12 +210,14 @@ class MatchScene:
 
     def _draw_notice(self, screen: pygame.Surface) -> None:
         if self.notice and self.notice_left > 0.0:
-            self.notice.draw(screen, 960, 206)
+            self.notice.draw(screen, *self.notice_at)
 
     def _draw_rules(self, screen: pygame.Surface) -> None:
         """Show the rule card where it hides no robot."""
         if self.rule_card is None:
             occupied = self.runner.occupied(self.devices)
+            if self.notice and self.notice_left > 0.0:
+                occupied.append(self.notice.box(self.notice_at))
             self.rule_card = rule_card(self.context.words, self.setup, occupied, self.countdown_at)
         card, centre = self.rule_card
         card.draw(screen, *centre)

@@ -137,7 +137,7 @@ class HighScores:
             BoardRow(row.initials, words.decimal(format_score(row.score, board.table)), row in self.fresh)
             for row in self.context.scores.best(board.table, board.days)
         ]
-        title = words(board.heading, goal=f"{board.table.length:g}")
+        title = words.counted(board.heading, board.table.length, goal=f"{board.table.length:g}")
         Board(title, rows, words("best.first")).draw(screen, x, w, self.turned)
 
 

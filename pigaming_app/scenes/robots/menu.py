@@ -70,9 +70,11 @@ class RobotsMenu:
         sketch(name).draw(screen, *dials.CENTRE)
         dials.describe(screen, words(f"robots.{name}"), words(f"robots.{name}_line"))
         if self.navigation.sentence:
-            for i, line in enumerate(paragraph(self.navigation.sentence, 1600, 2, FOCUS, "c")):
-                line.draw(screen, 960, 900 + 44 * i)
-        self.navigation.prompts.draw(screen)
+            lines = paragraph(self.navigation.sentence, 1600, 2, FOCUS, "c")
+            for i, line in enumerate(lines):
+                line.draw(screen, 960, self.navigation.prompts.y + 44 * i - 22 * (len(lines) - 1))
+        else:
+            self.navigation.prompts.draw(screen)
 
     @property
     def _blocks(self) -> SettingValue:

@@ -108,9 +108,12 @@ class Attract:
     def _match(self, game: str) -> Scene:
         return DemoMatch(self.context, game)
 
-    def _howto(self, game: str) -> Scene:
-        from pigaming_app.scenes.howto.scene import HowTo
+    def _howto(self, game: str) -> Scene | None:
+        """The lessons of the game; None if it has none."""
+        from pigaming_app.scenes.howto.scene import HowTo, taught
 
+        if game not in taught():
+            return None
         page = HowTo(self.context, game)
         return TimedPage(page, page.draw)
 

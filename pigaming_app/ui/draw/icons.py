@@ -256,6 +256,11 @@ def _button(pen: Pen) -> None:
     pen.dot(0, 0, 0.56)
 
 
+def _pencil(pen: Pen) -> None:
+    pen.line((-0.9, 0.9), (-0.72, 0.26), (0.5, -0.96), (0.96, -0.5), (-0.26, 0.72), closed=True)
+    pen.line((0.2, -0.66), (0.66, -0.2))
+
+
 ICONS: dict[str, Callable[[Pen], None]] = {
     "shield": _shield,
     "speed": _speed,
@@ -294,4 +299,5 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "wheel": _wheel,
     "point": _point,
     "button": _button,
+    "pencil": _pencil,
 }

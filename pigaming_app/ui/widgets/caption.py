@@ -32,6 +32,12 @@ class Caption:
     width: int
     height: int
 
+    def box(self, at: tuple[int, int]) -> pygame.Rect:
+        """Its box without the glow, centred at a position."""
+        box = pygame.Rect(0, 0, self.width, self.height)
+        box.center = at
+        return box
+
     def draw(self, screen: pygame.Surface, x: float, y: float) -> None:
         """Draw it centred at (x, y)."""
         corner = round(x - self.image.get_width() / 2), round(y - self.image.get_height() / 2)

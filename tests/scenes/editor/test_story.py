@@ -16,7 +16,7 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.editor.artist import Artist, Gamer, Mouse, Typist, checked
 from tests.scenes.screens import seats
 from tests.ui.input.virtual_pad import VirtualPad
@@ -120,3 +120,17 @@ def test_a_game_without_tools_has_no_editor(arcade: Arcade) -> None:
     assert Button.X not in page.navigation.prompts.buttons
     arcade.press(Button.X)
     assert arcade.stack.top is page
+
+
+@pytest.mark.parametrize(("game", "name"), [("pitanks", "islands"), ("factory", "hall"), ("race", "classic")])
+def test_the_way_back_from_a_match_hides_no_robot_and_no_rules(arcade: Arcade, game: str, name: str) -> None:
+    """On the islands robots start in the middle of each side."""
+    test = PlayTest(arcade.context, game, load(game, name), KEYS[0])
+    arcade.open(test)
+    arcade.frame(draw=True)
+    assert test.notice
+    assert test.rule_card
+    box = test.notice.box(test.notice_at)
+    assert box.collidelist(test.runner.occupied(test.devices)) < 0
+    card, centre = test.rule_card
+    assert not box.colliderect(card.box(centre))

@@ -112,7 +112,7 @@ def test_games_and_arenas_take_turns_in_the_order_that_is_chosen(arcade: Arcade)
     assert page.focus.name == "order"
     while page.draft.order[:3] != ("race", "pitanks", "factory"):
         arcade.press(Button.RIGHT)
-    page.draft.choose("rounds", 6)
+    page.draft.choose("rounds", 8)
     arcade.press(Button.DOWN)
     arcade.press(Button.FIRE)
     arenas = arcade.shown(ArenasPage)

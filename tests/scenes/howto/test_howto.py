@@ -1,14 +1,19 @@
 """How to play: the pages of every game, and the lessons on them."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pygame
 import pytest
 
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.howto import scene as howto
 from pigaming_app.scenes.howto.scene import HowTo, taught
+from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.storage.settings import Choice
+from pigaming_app.ui.draw import TITLE, button_width, text_width
+from pigaming_app.ui.draw.layers import LEFT
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
 from tests.cases import one_in
@@ -32,6 +37,35 @@ def test_left_and_right_turn_all_pages_of_all_games(arcade: Arcade) -> None:
     assert shown == [name for game in taught() for name in SCREENS[game].lessons]
     scene.handle(InputEvent(Button.LEFT, KEYS[0]))
     assert (scene.game, scene.page) == seen[0][:2]
+
+
+def test_a_game_without_lessons_has_no_page(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(SCREENS, "football", replace(SCREENS["football"], lessons={}))
+    scene = HowTo(arcade.context, "football")
+    assert scene.game == "pitanks"
+    scene.draw(arcade.screen)
+    scene.handle(InputEvent(Button.LEFT, KEYS[0]))
+    assert scene.game == "race"
+    show = Attract(arcade.context)
+    assert show._howto("football") is None
+    assert show._howto("race")
+
+
+@pytest.mark.parametrize("wide", [0, 420])
+def test_as_many_names_of_games_are_shown_as_have_room(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, wide: int
+) -> None:
+    """`wide`: px of a name; 0: as it is."""
+    if wide:
+        monkeypatch.setattr(howto, "chip_width", lambda word: wide)
+    for game in taught():
+        names = HowTo(arcade.context, game)._names()
+        shown = [name for name, _ in names]
+        assert game in shown
+        assert ", ".join(shown) in ", ".join(taught()), "neighbours"
+        assert (shown == taught()) is not bool(wide)
+        arrows = names[0][1].left - howto.GAP - button_width("<>")
+        assert arrows - howto.GAP >= LEFT + text_width(arcade.context.words("title.howto"), TITLE)
 
 
 def test_a_page_names_the_minutes_of_its_rule_set(arcade: Arcade) -> None:

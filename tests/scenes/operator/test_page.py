@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.events.day_log import DayLog, PlayedMatch, now
 from pigaming_app.scenes.flow.settings_page import IDLE
-from pigaming_app.scenes.operator.chart import bars_of, step_of
+from pigaming_app.scenes.operator.chart import bars_of, color_of, step_of
 from pigaming_app.scenes.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
 from pigaming_app.scenes.operator.figures_page import FOLDER, FiguresPage
 from pigaming_app.scenes.operator.page import END_SECONDS, LIMITS, ROWS, OperatorPage
@@ -226,6 +226,10 @@ def test_bars_cover_all_matches_in_at_least_eight_hours(arcade: Arcade, hours: l
     assert shown == list(range(shown[0], shown[-1] + 1))
     assert set(shown) <= set(range(24))
     assert sum(sum(counts) for _, counts in bars) == len(hours)
+
+
+def test_each_of_a_dozen_games_has_a_colour_of_its_own() -> None:
+    assert len({color_of(game) for game in range(12)}) == 12
 
 
 @pytest.mark.parametrize(("most", "step"), [(1, 1), (5, 1), (6, 2), (11, 5), (26, 10), (1000, 200)])

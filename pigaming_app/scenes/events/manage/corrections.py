@@ -307,5 +307,5 @@ def result_row(where: str, line: str, noted: bool, hot: bool) -> LitImage:
     line, size = fit_text(line, LABEL, room)
     layer.canvas.text(line, size, 470, HIGH / 2, FOCUS if hot else ICE, "head")
     if noted:
-        icon(layer.glow, "wheel", w - 56, HIGH / 2, 22, FOCUS, 4)
+        icon(layer.glow, "pencil", w - 56, HIGH / 2, 22, FOCUS, 4)
     return layer.render()

@@ -30,7 +30,7 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 IDLE, MESSAGE_SECONDS = 60.0, 5.0  # s
 HOLD, HOLD_IN_KIOSK = 1.0, 5.0  # s
 RENAME, WITHDRAW, DELETE = "rename", "withdraw", "delete"
-SIGNS = {RENAME: "wheel", WITHDRAW: "cross", DELETE: "cross"}
+SIGNS = {RENAME: "pencil", WITHDRAW: "cross", DELETE: "cross"}
 
 log = logging.getLogger("pigaming")
 

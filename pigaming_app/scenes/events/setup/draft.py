@@ -18,8 +18,8 @@ ROUNDS = {
     Format.KNOCKOUT: (1,),
     Format.ROUND_ROBIN: (1, 2),
     Format.SWISS: (3, 4, 5, 6, 7, 8, 9),
-    Format.GRAND_PRIX: (3, 6, 9),
 }
+TIMES = (1, 2, 3)  # how often a Grand Prix plays each game
 
 
 @dataclass
@@ -85,7 +85,8 @@ class Draft:
         if row == "length":
             return LENGTHS if any(len(variant_of(game).minutes) > 1 for game in self.games) else ("normal",)
         if row == "rounds":
-            return ROUNDS[self.format]
+            prix = self.format is Format.GRAND_PRIX
+            return tuple(n * len(self.games) for n in TIMES) if prix else ROUNDS[self.format]
         return SEATS if row == "seats" else (False, True)
 
     def choose(self, row: str, option: object) -> None:

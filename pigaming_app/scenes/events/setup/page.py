@@ -12,8 +12,9 @@ from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.views import game_tile
-from pigaming_app.ui.draw import BODY, text_width
+from pigaming_app.ui.draw import BODY, readable, text_width
 from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.focus import Focus
@@ -78,7 +79,7 @@ class SetupPage:
             name = self.draft.format.value
             setting_row.describe(screen, words(f"events.{name}"), words(f"events.{name}_line"))
         else:
-            setting_row.describe(screen, words(f"events.{focus}"), words(f"events.{focus}_line"))
+            setting_row.describe(screen, words(f"events.{focus}"), self._line(focus))
         self.navigation.prompts.draw(screen)
 
     # ---- inside
@@ -142,6 +143,13 @@ class SetupPage:
         if row == "fill":
             return words("options.on" if option else "options.off")
         return str(option)
+
+    def _line(self, row: str) -> str:
+        """The description of a row; of the order of the games the order itself, if the row has no room for it."""
+        order = self._name("order", self.draft.order)
+        if row == "order" and fit_text(order, readable(BODY), setting_row.VALUE_ROOM, "body")[0] != order:
+            return ", ".join(self.context.words(f"events.short_{game}") for game in self.draft.order)
+        return self.context.words(f"events.{row}_line")
 
     def _arenas(self) -> str:
         """All arenas by name, or how many there are, if the names have no room."""
