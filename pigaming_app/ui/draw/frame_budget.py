@@ -125,7 +125,7 @@ def resumable(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
     @wraps(work)
     def run(*args: Args.args, **named: Args.kwargs) -> Result:
         key: Hashable = (work, args, *named.items())
-        steps: Steps[Result] = _paused.pop(key, None) or work(*args, **named)
+        steps: Steps[Result] = _paused.pop(key) if key in _paused else work(*args, **named)
         while True:
             try:
                 next(steps)
