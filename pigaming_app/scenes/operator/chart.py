@@ -13,8 +13,22 @@ from pigaming_app.ui.draw.text import SMALLEST
 X, Y, W, H = 170, 270, 1010, 500  # px: the plot without its labels
 FEWEST_HOURS = 8
 COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176), ORANGE)
+OTHERS = ""
 LEGEND_Y = 868
 Bars = tuple[tuple[int, tuple[int, ...]], ...]  # hour, and its matches by game
+
+
+def games_of(report: DayReport, shown: Sequence[str]) -> tuple[str, ...]:
+    """The games of the bars, at most one for each colour; OTHERS, as the last one, stands for those played least.
+
+    `shown`: the games of the title; the day may have others, which were removed since.
+    """
+    played = report.games
+    every = [*shown, *(game for game in played if game not in shown)]
+    if len(every) <= len(COLORS):
+        return tuple(every)
+    most = sorted(every, key=lambda game: -played.get(game, 0))[: len(COLORS) - 1]
+    return (*(game for game in every if game in most), OTHERS)
 
 
 def bars_of(report: DayReport, games: Sequence[str]) -> Bars:
