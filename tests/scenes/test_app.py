@@ -15,7 +15,8 @@ import pytest
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.drawing.values import drawing_of
-from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes import app as app_module
+from pigaming_app.scenes.app import MAX_FAILURES, App, Options
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
@@ -261,3 +262,24 @@ def test_the_second_screen_goes_with_every_other_option(
     assert "second screen" not in capsys.readouterr().err, "it was lost"
     (file,) = (home / "data" / "days").iterdir()
     assert "failure" not in file.read_text()
+
+
+@pytest.mark.parametrize("left_out", [False, True], ids=["a scene", "games that are left out"])
+def test_it_gives_up_on_a_scene_that_fails_again_and_again_but_not_for_one_game_after_another(
+    monkeypatch: pytest.MonkeyPatch, left_out: bool
+) -> None:
+    games: set[int] = set()
+
+    def failing(seconds: float) -> None:
+        raise ValueError("on purpose")
+
+    def blame(error: BaseException) -> None:
+        games.add(len(games) if left_out else 0)
+
+    games.add(0)
+    monkeypatch.setattr(app_module, "stopped", lambda: games)
+    monkeypatch.setattr(app_module, "blame", blame)
+    with opened(Options(headless=True, step=STEP)) as app:
+        monkeypatch.setattr(app, "_frame", failing)
+        ended = [app._frame_failed(STEP) and not app._recover() for _ in range(MAX_FAILURES + 2)]
+    assert any(ended) != left_out

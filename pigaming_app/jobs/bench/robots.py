@@ -128,12 +128,13 @@ def jobs() -> list[Job]:
     The last match of PiTanks and of each plug-in is played by its best level, all others by random button mashing.
     """
     result, with_best = [], {"pitanks", *(plugin.name for plugin in plugins())}
-    for i in range(MATCHES):
+    count = max(MATCHES, len(games()))
+    for i in range(count):
         game = list(games())[i % len(games())]
         places = arenas(game)
         round_ = i // len(games())
         variant = "party" if game == "pitanks" and round_ % 2 else None
-        brain = BEST if game in with_best and i + len(games()) >= MATCHES else None
+        brain = BEST if game in with_best and i + len(games()) >= count else None
         result.append(Job(game, places[round_ % len(places)], RATES[i % 4 == 3], i + 1, brain=brain, variant=variant))
     return result
 

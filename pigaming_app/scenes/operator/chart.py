@@ -28,9 +28,22 @@ from pigaming_app.ui.draw.text import SMALLEST
 X, Y, W, H = 170, 270, 1010, 500  # px: the plot without its labels
 FEWEST_HOURS = 8
 COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176), ORANGE, GREEN, PURPLE)
-DIMMER = 0.5  # brightness of the colours when they come round again
+OTHERS = ""
 LEGEND_Y = 868
 Bars = tuple[tuple[int, tuple[int, ...]], ...]  # hour, and its matches by game
+
+
+def games_of(report: DayReport, shown: Sequence[str]) -> tuple[str, ...]:
+    """The games of the bars, at most one for each colour; OTHERS, as the last one, stands for those played least.
+
+    `shown`: the games of the title; the day may have others, which were removed since.
+    """
+    played = report.games
+    every = [*shown, *(game for game in played if game not in shown)]
+    if len(every) <= len(COLORS):
+        return tuple(every)
+    most = sorted(every, key=lambda game: -played.get(game, 0))[: len(COLORS) - 1]
+    return (*(game for game in every if game in most), OTHERS)
 
 
 def bars_of(report: DayReport, games: Sequence[str]) -> Bars:
@@ -49,11 +62,6 @@ def bars_of(report: DayReport, games: Sequence[str]) -> Bars:
             counts[names.index(game) if game in names else -1] += count
         out.append((hour, tuple(counts)))
     return tuple(out)
-
-
-def color_of(game: int) -> Color:
-    """The colour of the game with this index."""
-    return dim(COLORS[game % len(COLORS)], DIMMER ** (game // len(COLORS)))
 
 
 def step_of(most: int) -> int:
@@ -84,7 +92,7 @@ def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
             if count:
                 high = H * count / top
                 box = cut_box(x + 0.16 * pitch, Y + H - H * below / top - high + 2, 0.68 * pitch, max(4, high - 4), 3)
-                layer.glow.fill(box, color_of(game))
+                layer.glow.fill(box, COLORS[game])
                 below += count
         if len(bars) <= 12 or i % 2 == 0:
             layer.canvas.body(str(hour), x + pitch / 2, Y + H + 36, MIST, "c", 36)
@@ -93,7 +101,7 @@ def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
     while size > SMALLEST and sum(48 + text_width(name, size, "body") + LABEL for name in names) - LABEL > W:
         size -= 1
     for game, name in enumerate(names):
-        layer.glow.fill(cut_box(x, LEGEND_Y - 16, 32, 32, 6), color_of(game))
+        layer.glow.fill(cut_box(x, LEGEND_Y - 16, 32, 32, 6), COLORS[game])
         layer.canvas.body(name, x + 48, LEGEND_Y, ICE, "l", size)
         x += 48 + round(text_width(name, size, "body")) + LABEL
     yield

@@ -8,9 +8,10 @@ import pygame
 from pigaming_app.events.day_log import days, now
 from pigaming_app.events.day_report import DayReport, report_of, to_csv
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Home, StackOperation
-from pigaming_app.scenes.operator.chart import bars_of, chart
+from pigaming_app.scenes.operator.chart import OTHERS, bars_of, chart, games_of
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
@@ -81,8 +82,8 @@ class FiguresPage:
         draw_arrows(screen, self.arrows)
         black_out(screen, PANEL)
         frame(*PANEL.size).draw(screen, *PANEL.topleft)
-        names = shown_games()
-        chart(bars_of(report, names), tuple(words(f"events.short_{game}") for game in names)).draw(screen)
+        names = games_of(report, shown_games())
+        chart(bars_of(report, names), tuple(_short(words, game) for game in names)).draw(screen)
         if not report.matches:
             text(words("operator.no_matches"), LABEL, MIST, "head", "c", 900).draw(screen, 675, 520)
         for i, (name, value, color) in enumerate(lines(words, report, self.trouble)):
@@ -118,6 +119,14 @@ class FiguresPage:
             return
         self.context.sounds.play("accept")
         self.navigation.show_message(self.context.words("operator.exported", file=f"{FOLDER}/{path.name}"))
+
+
+def _short(words: Words, game: str) -> str:
+    """The short name of a game, also of one that was removed since, or of all others."""
+    if game == OTHERS:
+        return words("operator.others")
+    key = f"events.short_{game}"
+    return words(key) if key in words else game_title(words, game)
 
 
 def lines(words: Words, report: DayReport, trouble: bool) -> list[tuple[str, str, Color]]:

@@ -92,7 +92,8 @@ def leave_out(name: str, reason: str) -> None:
 def blame(error: BaseException) -> Plugin | None:
     """The plug-in in whose code an error arose while it played, which is left out from here on; None: elsewhere."""
     for plugin in plugins():
-        if place := _place(plugin, error) or _place_in_text(plugin, str(error)):
+        remote = "\n".join(reversed(str(error.__cause__ or "").splitlines()))  # a traceback in another process
+        if place := _place(plugin, error) or _place_in_text(plugin, str(error)) or _place_in_text(plugin, remote):
             return stop(plugin, f"{place}{type(error).__name__}: {' '.join(str(error).split())}")
     return None
 
@@ -151,7 +152,7 @@ def _leave_out(plugin: Plugin, reason: str) -> None:
 
 
 def _place_in_text(plugin: Plugin, message: str) -> str:
-    """File and line within the plug-in that a compiler's message names."""
+    """File and line within the plug-in that a text names first."""
     for file, line in re.findall(r'File "([^"]+)", line (\d+)', message):
         path = Path(file).resolve()
         if path.is_relative_to(plugin.folder.resolve()):

@@ -7,9 +7,9 @@ import pytest
 
 from pigaming_app.events.day_log import DayLog, PlayedMatch, now
 from pigaming_app.scenes.flow.settings_page import IDLE
-from pigaming_app.scenes.operator.chart import bars_of, color_of, step_of
+from pigaming_app.scenes.operator.chart import OTHERS, bars_of, games_of, step_of
 from pigaming_app.scenes.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
-from pigaming_app.scenes.operator.figures_page import FOLDER, FiguresPage
+from pigaming_app.scenes.operator.figures_page import FOLDER, FiguresPage, _short
 from pigaming_app.scenes.operator.page import END_SECONDS, LIMITS, ROWS, OperatorPage
 from pigaming_app.scenes.options.page import FOR_CHILDREN, OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
@@ -228,8 +228,19 @@ def test_bars_cover_all_matches_in_at_least_eight_hours(arcade: Arcade, hours: l
     assert sum(sum(counts) for _, counts in bars) == len(hours)
 
 
-def test_each_of_a_dozen_games_has_a_colour_of_its_own() -> None:
-    assert len({color_of(game) for game in range(12)}) == 12
+def test_a_chart_of_many_games_has_the_most_played_ones_and_a_removed_one_by_name(arcade: Arcade) -> None:
+    log = arcade.context.day_log
+    for game, count in {"gone_game": 3, "race": 2, "tag": 1}.items():
+        for _ in range(count):
+            play(log, 10, game)
+    page = FiguresPage(arcade.context)
+    assert games_of(page.report, ["race", "tag"]) == ("race", "tag", "gone_game")
+    many = games_of(page.report, ["pitanks", "factory", "race", "football", "tennis", "golf", "tag"])
+    assert many == ("pitanks", "factory", "race", "tag", "gone_game", OTHERS)
+    assert dict(bars_of(page.report, many))[10] == (0, 0, 2, 1, 3, 0)
+    arcade.open(page)
+    arcade.wait(0.2, draw=True)
+    assert _short(arcade.context.words, "gone_game") == "Gone Game"
 
 
 @pytest.mark.parametrize(("most", "step"), [(1, 1), (5, 1), (6, 2), (11, 5), (26, 10), (1000, 200)])

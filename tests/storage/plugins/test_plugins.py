@@ -238,6 +238,23 @@ def test_one_that_fails_in_a_match_ends_the_job_with_one_line(tag: Path, words: 
     assert ended.stderr == LEFT_OUT.format(folder=tag, reason=reason)
 
 
+def test_one_that_fails_in_another_process_is_named(tag: Path) -> None:
+    rules = tag / "rules.py"
+    rules.write_text(rules.read_text().replace("    drop_coin(match)\n\n", "    drop_coin(match)\n    1 // 0\n\n", 1))
+    ended = python(
+        "from concurrent.futures import ProcessPoolExecutor\nfrom multiprocessing import get_context\n"
+        "from pigaming_app.ai.plugin_faults import blame\nfrom pigaming_app.ai.registry import new_match\n"
+        "from pigaming_app.games.game import Seat, Setup\nfrom pigaming_app.games.registry import games\n"
+        "seats, _ = tuple(Seat('hard', k) for k in range(4)), games()\n"
+        "with ProcessPoolExecutor(1, get_context('fork')) as pool:\n"
+        "    error = pool.submit(new_match, Setup('tag', 'classic', seats, 1.0, 1, 'standard')).exception()\n"
+        "print(blame(error).name)"
+    )
+    assert ended.stdout.split()[-1:] == ["tag"], ended.stderr
+    line = rules.read_text().splitlines().index("    1 // 0") + 1
+    assert f"left out: rules.py, line {line}: ZeroDivisionError" in ended.stderr
+
+
 def test_two_of_one_name_and_one_of_our_names(tag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     twin = install(tmp_path / "site", "tag", "robot_tag")
     write(twin, "tag")
