@@ -35,7 +35,7 @@ def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]
     ink, half = GlowCanvas(w, h, 3), k * arena.plan.mouth
     draw_lines(ink, left, top, k * WIDTH, k * HEIGHT, half, 0.6)
     for side in (0, 1):
-        draw_goal(ink, side, left + side * k * WIDTH + (-2 if side else 2), top + k * HEIGHT / 2, half, -0.28)
+        draw_goal(ink, side, left + side * k * WIDTH, top + k * HEIGHT / 2, half, 0.7 * k, inside=True)
     yield
     out.blit((yield from ink.lit_steps(0.5)), (0, 0), special_flags=ADD)
     return out

@@ -115,9 +115,14 @@ def kick_off_arrow(right: bool) -> Sprite:
     return trim(ink.lit(0.9), 60, 60)
 
 
-def draw_goal(ink: GlowCanvas, side: int, x: float, y: float, half: float, bold: float = 1.0) -> None:
-    """A goal with its net beside the point (x, y) of the rim: side 0 to the left of it, 1 to the right."""
-    sign, color = (-1.0 if side == 0 else 1.0), TEAMS[side]
+def draw_goal(
+    ink: GlowCanvas, side: int, x: float, y: float, half: float, bold: float = 1.0, inside: bool = False
+) -> None:
+    """A goal with its net beside the point (x, y) of the rim: side 0 to the left of it, 1 to the right.
+
+    `inside`: on the other side of the rim, where a picture has no room beyond it.
+    """
+    sign, color = (-1.0 if (side == 0) != inside else 1.0), TEAMS[side]
     deep = DEEP * bold
     for i in range(1, 4):
         ink.line(

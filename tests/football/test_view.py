@@ -7,10 +7,12 @@ import pygame
 import pytest
 
 import pigaming_football
+from pigaming_app.games.arenas import load
 from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui.i18n import LANGUAGES, Words
-from tests.football.pitch import match, put_ball, put_robot
+from tests.football.pitch import ARENAS, match, put_ball, put_robot
 
 TEXTS = Path(pigaming_football.__file__).parent / "text"
 
@@ -101,6 +103,22 @@ def test_the_lines_of_the_pitch_reach_the_walls(screen):
     post = min((wall for wall in football.state.walls if wall.ax == wall.bx == 800.0), key=lambda wall: wall.by)
     for y in range(round(post.by + post.half) + 12, 290):
         assert max(screen.get_at((160 + 800, 140 + y))[:3]) > 40, y
+
+
+@pytest.mark.parametrize("arena", ARENAS)
+def test_the_preview_of_a_pitch_shows_how_wide_its_goals_are(screen, arena):
+    """Two of them differ in nothing else."""
+    pitch, steps = load("football", arena), SCREENS["football"].preview(load("football", arena), 1144, 648, False)
+    try:
+        while True:
+            next(steps)
+    except StopIteration as end:
+        picture = end.value
+    left, top, k = fitted(1144, 648)
+    for x, inwards in ((0.0, 1.0), (1600.0, -1.0)):
+        for side in (-1.0, 1.0):
+            post = round(left + k * (x + 3.0 * inwards)), round(top + k * (450.0 + side * pitch.plan.mouth))
+            assert max(picture.get_at(post)[:3]) > 150
 
 
 def test_all_languages_have_the_same_texts():
