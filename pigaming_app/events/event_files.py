@@ -123,15 +123,15 @@ def _is_saved(path: Path, event: Event) -> bool:
         return False
 
 
-def saved_events(folder: Path) -> list[Listed]:
-    """The events in a folder, the one that was changed last first. Damaged files stay as they are."""
+def saved_events(folder: Path, most: int | None = None) -> list[Listed]:
+    """The events in a folder, at most `most`, the one that was changed last first. Damaged files stay as they are."""
     found = []
     for path in folder.glob("*.json"):
         try:
             found.append((path.stat().st_mtime, path))
         except OSError:
             continue
-    return [Listed(path, _readable(path)) for _, path in sorted(found, reverse=True)]
+    return [Listed(path, _readable(path)) for _, path in sorted(found, reverse=True)[:most]]
 
 
 def _readable(path: Path) -> Event | None:

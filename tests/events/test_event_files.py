@@ -128,6 +128,13 @@ def test_a_folder_lists_unreadable_files_too(tmp_path):
     assert (tmp_path / "b.json").read_text() == "{"
 
 
+def test_of_many_events_only_those_that_were_changed_last_are_read(tmp_path):
+    for number in range(5):
+        save(tmp_path / f"{number}.json", new_event(Format.SWISS, 4))
+        os.utime(tmp_path / f"{number}.json", (number, number))
+    assert [listed.path.stem for listed in saved_events(tmp_path, 3)] == ["4", "3", "2"]
+
+
 @pytest.mark.again  # of a whole arcade: jobs/kiosk/test_running_event.py
 @pytest.mark.long
 @pytest.mark.skipif(os.name != "posix", reason="needs fork and SIGKILL")

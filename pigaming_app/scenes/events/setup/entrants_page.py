@@ -37,7 +37,7 @@ from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 IDLE = 180.0  # s without input before the return to the title
 MESSAGE_SECONDS = 4.0
 MAX_LIST = 100_000  # bytes of a dropped file
-MAX_SHOWN = 30  # characters of a line that is refused
+MAX_SHOWN = 20  # characters of a line that is refused
 TEAMS = 4  # that can be chosen here
 COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 204  # px
 DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
