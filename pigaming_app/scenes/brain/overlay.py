@@ -4,7 +4,7 @@ Read-only. Brains are queried after a tick, never within one, so the match is ne
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import pygame
@@ -19,6 +19,7 @@ from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PLAYERS
+from pigaming_app.ui.i18n import Words
 
 QUERY_PERIOD = 5  # ticks between two queries
 EASE = 10.0  # 1/s, smoothing rate of bars and petals
@@ -29,7 +30,7 @@ TILTED = 0.35  # deflection above which a stick counts as held
 class BrainOverlay:
     """Shows the brain of one AI seat of a match, or none."""
 
-    def __init__(self, match: Match, view: MatchView, words: Callable[..., str]) -> None:
+    def __init__(self, match: Match, view: MatchView, words: Words) -> None:
         self.match, self.view, self.words = match, view, words
         self.seat: int | None = None
         self.thoughts = Thoughts("starts")
