@@ -106,4 +106,9 @@ def _run(name: str, words: list[str]) -> int:
     arguments.words = [name, *words]  # for a job that starts this program again
     if name != "doctor":  # it changes no files
         files.sweep()
-    return int(job.run(arguments))
+    try:
+        return int(job.run(arguments))
+    except SystemExit as end:
+        if not is_of_plugin(end):
+            raise
+        return 1

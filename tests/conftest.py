@@ -12,11 +12,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from pigaming_app.cli import BLAS
 from pigaming_app.sim.kernel import PACKAGE, _cache_folder
 
 WORDY = ("pt", "de")
+
+settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("any machine")
 
 os.environ["SDL_VIDEODRIVER"] = "dummy"
 os.environ["SDL_AUDIODRIVER"] = "dummy"
@@ -175,7 +179,7 @@ def _home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def _no_threads_stay() -> Iterator[None]:
     before = set(threading.enumerate())
     yield
-    end = time.monotonic() + 3.0
+    end = time.monotonic() + 30.0
     while left := set(threading.enumerate()) - before:
         assert time.monotonic() < end, f"still there: {left}"
         time.sleep(0.01)

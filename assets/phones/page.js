@@ -198,9 +198,10 @@
   addEventListener("pointercancel", lift);
   addEventListener("contextmenu", (event) => event.preventDefault());
   addEventListener("touchmove", (event) => event.preventDefault(), { passive: false });
+  if (!document.documentElement.requestFullscreen) element("full").style.display = "none"; // iPhones
   element("full").addEventListener("click", () => {
     if (document.fullscreenElement) document.exitFullscreen();
-    else if (document.documentElement.requestFullscreen) document.documentElement.requestFullscreen();
+    else document.documentElement.requestFullscreen();
   });
 
   // A locked phone, or another page in front, is an unplugged pad.

@@ -30,6 +30,12 @@ class GameAI:
         missing = [name for name in LEVELS if name not in self.kinds]
         if missing:
             raise ValueError(f"kinds: {', '.join(missing)} missing")
+        if wrong := [name for name, kind in self.kinds.items() if not isinstance(kind, BrainKind)]:
+            raise ValueError(f"kinds: {wrong[0]} is no BrainKind")
+        if not self.rivals or {*self.rivals} - self.brains.keys():
+            raise ValueError(f"rivals: not all of {', '.join(self.rivals) or 'none'} are in kinds")
+        if not {TURN, POINT} <= {*self.driving} <= {TURN, POINT, HELPED_TURN, HELPED_POINT, ONE_BUTTON}:
+            raise ValueError(f"driving: no set of styles: {', '.join(self.driving)}")
 
     @property
     def brains(self) -> dict[str, BrainKind]:

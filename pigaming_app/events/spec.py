@@ -125,10 +125,14 @@ class Round:
     byes: tuple[str, ...] = ()
 
 
+class NameRefused(ValueError):
+    """A name is empty, too long or unprintable."""
+
+
 def check_name(name: str, what: str = "name") -> None:
-    """Raises ValueError unless this can be the name of an entrant or a team."""
+    """Raises NameRefused unless this can be the name of an entrant or a team."""
     if not 0 < len(name) <= MAX_NAME or not name.isprintable() or name != name.strip():
-        raise ValueError(f"{name[:40]!r}: a {what} has 1 to {MAX_NAME} printable characters")
+        raise NameRefused(f"{name[:40]!r}: a {what} has 1 to {MAX_NAME} printable characters")
 
 
 def check_spec(spec: EventSpec) -> None:

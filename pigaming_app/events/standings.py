@@ -48,10 +48,9 @@ def standings(progress: Progress) -> tuple[Standing, ...]:
     for key, tie_break in chain.items():
         finer = []
         for group in groups:
-            found = tie_break(table, group)
-            for name in group:
-                values[name][key] = found[name]
-            finer += _split(group, found)
+            for name, value in tie_break(table, group).items():
+                values[name][key] = value
+            finer += _refined(tie_break, table, group)
         groups = finer
     rows: list[Standing] = []
     for group in groups:
@@ -169,6 +168,12 @@ def _split(names: Sequence[str], value: Mapping[str, float]) -> list[list[str]]:
     for name in names:
         groups.setdefault(scoring.exact(value[name]), []).append(name)
     return [groups[key] for key in sorted(groups, reverse=True)]
+
+
+def _refined(tie_break: TieBreak, table: Table, group: list[str]) -> list[list[str]]:
+    """A group split by a tie-break, which counts again among those who are still level, if they are fewer."""
+    parts = _split(group, tie_break(table, group))
+    return parts if len(parts) == 1 else [finer for part in parts for finer in _refined(tie_break, table, part)]
 
 
 def _row(field: Field, place: int, name: str, points: float, values: Mapping[str, float]) -> Standing:

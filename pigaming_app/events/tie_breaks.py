@@ -4,11 +4,15 @@ Two things are simpler: a round without an opponent counts as one against somebo
 and the unplayed rounds of opponents are not adjusted.
 
 Every function takes the table of all matches and the entrants who are still level, and returns a value of each of them:
-more is better. A match of three or four counts as one of two against the mean of the opponents.
+more is better. A match of three or four counts as one of two against the mean of the opponents; head to head, as one
+against each of them.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import permutations
+
+from pigaming_app.events.formats.scoring import exact
 
 Values = dict[str, float]
 
@@ -32,18 +36,27 @@ class Table:
 
 
 def head_to_head(table: Table, level: Sequence[str]) -> Values:
-    """Direct encounter: points of the matches among those who are level, if each two of them have met."""
-    among = [game for game in table.games if sum(name in game.points for name in level) > 1]
-    met = {frozenset((one, other)) for game in among for one in game.points for other in game.points if one != other}
+    """Direct encounter (article 6): points against the others who are level; of several matches with one, their mean.
+
+    If not all have met, only those have points who stay ahead of all behind them however the missing matches had ended.
+    """
+    results: dict[tuple[str, str], list[float]] = {}
+    for game in table.games:
+        for pair in permutations([name for name in level if name in game.points], 2):
+            own, other = (game.points[name] for name in pair)
+            results.setdefault(pair, []).append(0.5 + 0.5 * ((own > other) - (own < other)))
+    means = {pair: sum(points) / len(points) for pair, points in results.items()}
+    points = {name: exact(sum(means.get((name, other), 0.0) for other in level)) for name in level}
+    missing = {name: sum((name, other) not in means for other in level if other != name) for name in level}
+    if not any(missing.values()):
+        return points
     values = dict.fromkeys(level, 0.0)
-    if any(frozenset((one, other)) not in met for one in level for other in level if one < other):
-        return values
-    for game in among:
-        inner = [name for name in game.points if name in values]
-        for name in inner:
-            won = [1.0 if game.points[name] > game.points[other] else 0.5 for other in inner if other != name]
-            lost = sum(game.points[name] < game.points[other] for other in inner)
-            values[name] += (sum(won) - 0.5 * lost) / (len(inner) - 1)
+    behind = sorted(level, key=points.__getitem__)
+    while behind:
+        best = behind.pop()
+        if any(points[best] <= points[other] + missing[other] for other in behind):
+            break
+        values[best] = points[best]
     return values
 
 

@@ -2,7 +2,8 @@
 
 import contextlib
 
-FOLDERS = ("crashes", "events", "ghosts", "pictures", "replays", "reports", "robots")  # below the data folder
+FOLDERS = ("crashes", "events", "ghosts", "pictures", "replays", "reports", "robots", "shared")  # below the data folder
+BY_GAME = ("arenas", "drafts")  # folders with one folder a game
 
 
 def sweep() -> None:
@@ -11,7 +12,8 @@ def sweep() -> None:
     from pigaming_app.storage.settings import folders
 
     where = folders()
-    sweep_folders(where.config, where.data, *(where.data / folder for folder in FOLDERS))
+    by_game = [folder for name in BY_GAME for folder in (where.data / name).glob("*")]
+    sweep_folders(where.config, where.data, *(where.data / folder for folder in FOLDERS), *by_game)
 
 
 def log(line: str) -> None:

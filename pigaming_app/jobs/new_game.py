@@ -3,6 +3,7 @@
 import re
 import shutil
 from argparse import ArgumentParser, Namespace
+from keyword import iskeyword
 from pathlib import Path
 
 from pigaming_app import ASSETS
@@ -37,16 +38,17 @@ def run(arguments: Namespace) -> int:
 def write(folder: Path, name: str) -> None:
     """Write the package of a game. Raises NotSaved; then there is no folder."""
     title = " ".join(word.capitalize() for word in name.split("_") if word)
-    names = {"new_game": name, "NewGame": re.sub(r"\W", "", title), "New Game": title}
+    state = title.replace(" ", "")
     try:
-        for source in sorted(TEMPLATE.rglob("*")):
-            if source.is_file() and source.suffix in (".py", ".toml"):
-                text = source.read_text(encoding="utf-8")
-                for old, new in names.items():
-                    text = text.replace(old, new)
-                target = folder / source.relative_to(TEMPLATE)
-                target.parent.mkdir(parents=True, exist_ok=True)
-                target.write_text(text, encoding="utf-8")
+        files = [path for path in sorted(TEMPLATE.rglob("*")) if path.is_file() and path.suffix in (".py", ".toml")]
+        texts = {path.relative_to(TEMPLATE): path.read_text(encoding="utf-8") for path in files}
+        if iskeyword(state) or any(re.search(rf"\b{state}\b", text) for text in texts.values()):
+            state += "State"
+        names = {"new_game": name, "NewGame": state, "New Game": title}
+        for path, text in texts.items():
+            target = folder / path
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(re.sub("|".join(names), lambda found: names[found[0]], text), encoding="utf-8")
     except OSError as error:
         shutil.rmtree(folder, ignore_errors=True)
         raise NotSaved(f"{folder} was not written: {describe_error(error)}.") from error

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from pigaming_app.ai.plugin_faults import blame
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.scenes.events.resume import EventMarker
@@ -26,7 +27,8 @@ from pigaming_app.scenes.options.new_game import game_name
 from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.storage.heartbeat import Heartbeat
 from pigaming_app.storage.plugins.found import Plugin
-from pigaming_app.storage.plugins.parts import blame
+from pigaming_app.storage.plugins.parts import is_running, stopped
+from pigaming_app.storage.plugins.time_limit import TookTooLong, Watchdog
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui import memory as heap
@@ -45,6 +47,7 @@ MAX_FRAME_GAP = 0.1  # s; longer gaps (a dragged window, a suspended machine) ar
 PREWARM_UNTIL = 0.012  # s into a frame after which no more missing sprites are built
 MAX_UNFINISHED = 240  # frames after which a picture is completed without a budget
 POINTER_IGNORED = 1.0  # s after the start during which pointer motion does not move the focus
+MAX_FRAME = 4.0  # s in code of a plug-in until it is ended, before the supervisor of a kiosk ends the arcade
 MAX_FAILURES, FAILURE_WINDOW = 5, 10.0  # give up after this many failures, each within this many s of the last
 
 log = logging.getLogger("pigaming")
@@ -94,6 +97,7 @@ class App:
         self.shown, self.unfinished = False, 0  # whether a picture was shown yet; frames since the last one
         self.failures, self.failed_at = 0, -FAILURE_WINDOW
         self.blamed: Plugin | None = None  # for the last failure
+        self.watchdog = Watchdog(MAX_FRAME, is_running)
         self.code = 0
         self.marker = EventMarker(folders().data) if options.kiosk and not options.without_title else None
         self.stack = self._first_stack()
@@ -102,6 +106,10 @@ class App:
 
     def loop(self) -> int:
         """The main loop, until the stack is empty. Returns the exit code."""
+        with self.watchdog:
+            return self._loop()
+
+    def _loop(self) -> int:
         ticker, last = pygame.time.Clock(), perf_counter()
         while self.stack.scenes:
             now = perf_counter()
@@ -154,10 +162,13 @@ class App:
     def _frame_failed(self, seconds: float) -> bool:
         """Run one frame; true if a scene failed, which is logged."""
         try:
+            self.watchdog.beat()
             self._frame(seconds)
-        except Exception as error:
+        except (Exception, SystemExit, TookTooLong) as error:  # the latter two: by a plug-in
             log.exception("a scene failed")
+            before = len(stopped())
             self.blamed = blame(error)
+            self.failures -= len(stopped()) - before  # a plug-in fails once
             return True
         return False
 

@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Any
 from pigaming_app.games import replay as replays
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import Replay, ReplayError
+from pigaming_app.games.setup import ChoiceError, require_game
 from pigaming_app.games.timeline import EVERY, Timeline
 from pigaming_app.sim.record import copy, digest
 from pigaming_app.sim.things.spec import ThingSpec
+from pigaming_app.storage.parsing import parse_json
+from pigaming_app.storage.plugins.found import NAME
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.control.match_recording import MatchRecorder, MatchRecording
@@ -64,16 +67,39 @@ def pack(replay: Replay) -> bytes:
 def decode(raw: bytes, name: str) -> Replay:
     """Validate and unpack the contents of the file `name`. Raises ReplayError, prefixed with the name."""
     if not raw.startswith(b"PK"):
-        return replays.decode(raw, name)
+        return _decode(raw, name)
     from pigaming_app.hardware.control import match_recording
     from pigaming_app.hardware.control.match_recording import REPLAY, MatchFileError
 
     try:
         parts = match_recording.unpack(raw)
-        plain = replays.decode(parts[REPLAY], name)
+        plain = _decode(parts[REPLAY], name)
         return RealReplay(**vars(plain), recording=match_recording.recording_of(parts, plain.length))
     except MatchFileError as error:
         raise ReplayError(f"{name}: {error}") from None
+
+
+def _decode(raw: bytes, name: str) -> Replay:
+    """Validate and unpack a replay. Raises ReplayError; it names a game that is not here."""
+    try:
+        return replays.decode(raw, name)
+    except ReplayError:
+        if reason := _game_fault(raw):
+            raise ReplayError(f"{name}: {reason}") from None
+        raise
+
+
+def _game_fault(raw: bytes) -> str:
+    """The reason why the game of a replay cannot be played here, or nothing."""
+    try:
+        game = str(parse_json(raw.partition(b"\n")[0])["setup"]["game"])
+        if NAME.fullmatch(game):
+            require_game(game)
+    except ChoiceError as reason:
+        return str(reason)
+    except (ValueError, KeyError, TypeError):
+        pass
+    return ""
 
 
 def to_match(replay: Replay) -> Match:

@@ -37,6 +37,8 @@ from pigaming_app.ui.window import Canvas
 if TYPE_CHECKING:
     from pigaming_app.hardware.session.emulated import EmulatedSession
 
+SWITCH_INTERVAL = 0.001  # s for which a thread in the background may hold up the one that draws
+
 log = logging.getLogger("pigaming")
 
 
@@ -81,6 +83,8 @@ def opened(options: Options) -> "Iterator[App]":
         context.match_watchers.append(session.publish)
     context.preloader.modules = MODULES
     context.preloader.on_done = context.start_compilers
+    old_interval = sys.getswitchinterval()
+    sys.setswitchinterval(SWITCH_INTERVAL)
     old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
     app: App | None = None
     try:
@@ -90,6 +94,7 @@ def opened(options: Options) -> "Iterator[App]":
         if app:
             app.desk.close()
         signal.signal(signal.SIGTERM, old_handler)
+        sys.setswitchinterval(old_interval)
         context.stop_all_robots()
         context.phone_host.close()
         context.preloader.end()

@@ -11,12 +11,14 @@ from functools import cache
 from pathlib import Path
 from string import Formatter
 from typing import Any, Protocol
+from unicodedata import category
 
 from pigaming_app import ASSETS
 from pigaming_app.storage.parsing import parse_toml, read_text
 from pigaming_app.storage.plugins.parts import data_folders, leave_out
 
 LANGUAGES = ("en", "pt", "es", "fr", "de")
+LONGEST = 500  # letters of a plug-in's text
 DECIMAL = re.compile(r"[+−-]?\d+\.\d+")
 NAMES = {"en": "English", "pt": "Português", "es": "Español", "fr": "Français", "de": "Deutsch"}
 
@@ -118,7 +120,7 @@ def system_language() -> str:
 def texts(language: str) -> Mapping[str, str]:
     """All texts of a language by key, cached. Raises OSError or ValueError for a missing or malformed file.
 
-    Plug-ins add texts, but change none; those that they lack in a language are English.
+    Plug-ins add texts, but change none, of two with one key the second; what they lack in a language is English.
     """
     ours = _read(ASSETS / "text" / f"{language}.toml")
     added: dict[str, str] = {}
@@ -131,7 +133,7 @@ def texts(language: str) -> Mapping[str, str]:
                 leave_out(game, f"text/{file.name}: {error}")
                 theirs = {}
                 break
-        added |= theirs
+        added = theirs | added
     return added | ours
 
 
@@ -144,8 +146,10 @@ def fields(text: str) -> set[str]:
 
 
 def _checked(added: dict[str, str], english: Mapping[str, str]) -> dict[str, str]:
-    """The texts of a plug-in, after a look at the values in them. Raises ValueError."""
+    """The texts of a plug-in, after a look at their letters and values. Raises ValueError."""
     for key, text in added.items():
+        if len(text) > LONGEST or any(category(letter) == "Cc" for letter in text):
+            raise ValueError(f"{key}: more than {LONGEST} letters, or a control character")
         try:
             unknown = fields(text) - fields(english.get(key, text))
         except ValueError as error:

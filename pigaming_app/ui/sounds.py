@@ -93,10 +93,8 @@ class Sounds:
             self.trouble = f"There is no sound: {error}."
             _log.info(self.trouble)
             return
-        for folder in (
-            *(folder for _, folder in data_folders("sounds")),
-            self._folder,
-        ):  # plug-ins replace none of ours
+        added = [folder for _, folder in data_folders("sounds")]
+        for folder in (*reversed(added), self._folder):  # the later ones replace others of their name
             for path in sorted(folder.glob("*.ogg")):
                 if path.stem != "music":
                     self._load(path)

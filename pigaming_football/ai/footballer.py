@@ -19,25 +19,30 @@ from pigaming_app.ai.brain.steering import turn_stick
 from pigaming_app.ai.brain.unstick import choose_escape, escape, ticks_stuck
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.flow_field import update_route
+from pigaming_app.sim.flow_field import descend, update_route
+from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.sweep import is_clear
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, WIDTH
 
 from ..observation import FREE, MATE, OPPONENT, OWN, from_left, observe, polar
 from ..rules import side_of
 from ..state import LEFT, MIDDLE, Rules
-from .mind import CHASER, FRICTION, KEEPER, PERIOD, SUPPORTER, TOUCH, clearance, notice, time_to_meet
+from .mind import BALL, CHASER, FRICTION, KEEPER, PERIOD, SUPPORTER, TOUCH, clearance, notice, time_to_meet
 
 LOYALTY = 0.35  # s by which another must be faster to take over the chase
 FIRST = 0.25  # s by which an opponent must be faster for a lone robot to defend
 KICK_OFF = 190.0  # px from the middle, where it awaits the ball
 BEHIND = 40.0  # px, room between ball and robot on the way round it
 WRONG_SIDE = 1.7  # rad between the ways to the ball and on to the goal, from which it drives round the ball
+EITHER_SIDE = 2.6  # rad from which both ways round the ball are about as long, so that it keeps to one
 GRASP, GRASP_ANGLE = 75.0, 0.9  # px, rad: FIRE is pressed when the ball is as near
 OPEN = 64.0  # px of clearance of an open shot
 LONG_SHOT = 750.0  # px
 LONGEST = 85  # ticks for which it holds the ball
 KEEPER_X, KEEPER_FAR, KEEPER_SHARE = 78.0, 300.0, 0.36  # px, px, and share of the ball's distance: its line
+ALONG_WALL = 150.0  # px within which it drives straight at a ball beside a wall, where no robot has room
+GRAZE = BALL - 1.0  # px of room on a way on which it may slide along walls
 KEEPER_ROOM = 70.0  # px from its line within which it keeps its heading
 STUCK_TICKS, STUCK_DISTANCE = 40, 14.0
 WEAKEST, STRONGEST = Rules().weakest, Rules().strongest  # px/s, of a shot
@@ -66,7 +71,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
         keep_goal(match, seat, mind)
     else:
         support(match, seat, mind)
-    idle = abs(action.linear) < 0.3
+    idle = abs(action.linear) < 0.3 * mind.speed
     if ticks_stuck(mind, obs.x, obs.y, idle, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
         mind.freeing, mind.since = 1, 0
         choose_escape(mind, -1.0 if action.linear > 0.0 else 1.0, 0.8)
@@ -122,9 +127,12 @@ def chase(match: Any, seat: int, mind: Any) -> None:
     off = turn_to(atan2(y - obs.y, x - obs.x) - atan2(gy, gx))
     if abs(off) > WRONG_SIDE and clearance(obs, x, y, x, y, False) > 260.0 and obs.ball_distance > 1.2 * TOUCH:
         room = TOUCH + BEHIND
-        side = 1.0 if off > 0.0 else -1.0
-        x += -gx / length * room * 0.6 - side * gy / length * room
-        y += -gy / length * room * 0.6 + side * gx / length * room
+        if abs(off) < EITHER_SIDE or mind.side == 0.0:
+            mind.side = 1.0 if off > 0.0 else -1.0
+        x += -gx / length * room * 0.6 - mind.side * gy / length * room
+        y += -gy / length * room * 0.6 + mind.side * gx / length * room
+    else:
+        mind.side = 0.0
     drive_to(match, seat, mind, x, min(max(y, 36.0), HEIGHT - 36.0), 1, grasp(obs))
 
 
@@ -228,6 +236,15 @@ def drive_to(match: Any, seat: int, mind: Any, x: float, y: float, hurry: int, f
     update_route(match, route, robot.x, robot.y)
     way_x, way_y = from_left(route.waypoint_x, WIDTH, sign), from_left(route.waypoint_y, HEIGHT, sign)
     distance, angle = polar(obs, way_x, way_y)
+    if not route.straight:
+        gap, straight = polar(obs, x, y)
+        if gap < ALONG_WALL and is_clear(match, robot.x, robot.y, route.goal_x, route.goal_y, GRAZE):
+            distance, angle = gap, straight
+        elif distance < CELL:
+            node = descend(route, node_at(route.waypoint_x, route.waypoint_y))
+            node_x, node_y = node % COLUMNS * CELL, node // COLUMNS * CELL
+            if is_clear(match, robot.x, robot.y, node_x, node_y, GRAZE):
+                distance, angle = polar(obs, from_left(node_x, WIDTH, sign), from_left(node_y, HEIGHT, sign))
     ahead = 1.0
     if not fire and abs(angle) > 2.3 and distance < 160.0:
         angle, ahead = turn_to(angle + pi), -1.0

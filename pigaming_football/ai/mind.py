@@ -45,6 +45,7 @@ class Mind:
     seen_vy: float
     meet_x: float  # where it can meet the ball
     meet_y: float
+    side: float  # on which it goes round the ball, 1 or -1; 0: it does not
     held: int  # ticks for which it has held the ball
     bias: float  # present aiming error, rad
     bias_left: int  # ticks until the next draw

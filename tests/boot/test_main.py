@@ -40,8 +40,11 @@ wanted = [word for word in sys.argv[2:] if not word.startswith("-")]
 with open(Path(__file__).parent / "calls", "a") as calls:
     print(*wanted, file=calls)
 mood = os.environ.get("MOOD", "")
-if mood in ("slow", "endless"):
-    time.sleep(1.5 if mood == "slow" else 60)
+if mood == "endless":
+    time.sleep(600)
+elif mood == "slow":
+    while not os.path.exists(os.environ["MET"]):
+        time.sleep(0.02)
 elif mood and (mood.partition(":")[0] in " ".join(wanted)):
     sys.exit("ERROR: " + mood.partition(":")[2])
 """
@@ -231,7 +234,7 @@ def test_stopped_while_installing_it_goes_on_next_time(furnished):
     )
     until(lambda: (interpreter.site_packages(furnished / ".venv") / "pip" / "calls").exists())
     os.killpg(running.pid, signal.SIGINT)
-    errors = running.communicate(timeout=30)[1]
+    errors = running.communicate(timeout=120)[1]
     assert running.returncode == 130
     assert errors.splitlines()[-1] == "PiGaming: stopped. Start it again, and it goes on from there."
     assert "Traceback" not in errors
@@ -239,19 +242,17 @@ def test_stopped_while_installing_it_goes_on_next_time(furnished):
 
 
 def test_of_two_starts_at_once_one_installs_and_the_other_waits(furnished):
-    both = [
-        subprocess.Popen(
-            [BARE, str(furnished / "main.py")],
-            env=surroundings(furnished, MOOD="slow"),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        for _ in range(2)
-    ]
-    outputs = [process.communicate(timeout=60) for process in both]
-    assert [out for out, _ in outputs] == [f"{furnished / '.venv'}\n"] * 2
-    assert sum("waiting for it" in err for _, err in outputs) == 1
+    met, errors = furnished / "met", [furnished / "one", furnished / "other"]
+    command, environment = [BARE, str(furnished / "main.py")], surroundings(furnished, MOOD="slow", MET=str(met))
+    with errors[0].open("w") as one, errors[1].open("w") as other:
+        both = [
+            subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=file, text=True)
+            for file in (one, other)
+        ]
+    until(lambda: any("waiting for it" in file.read_text() for file in errors))
+    met.touch()
+    assert [process.communicate(timeout=120)[0] for process in both] == [f"{furnished / '.venv'}\n"] * 2
+    assert sum("waiting for it" in file.read_text() for file in errors) == 1
     assert len(calls(furnished)) == 1
 
 
@@ -364,7 +365,7 @@ def no_writing_below(folder):
     return opened
 
 
-def until(done, seconds=20.0):
+def until(done, seconds=120.0):
     end = time.monotonic() + seconds
     while not done():
         assert time.monotonic() < end

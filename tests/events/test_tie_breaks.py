@@ -3,6 +3,7 @@
 import pytest
 
 from pigaming_app.events.spec import Entrant, Format, Outcome
+from pigaming_app.events.tie_breaks import Game, Table, head_to_head
 from tests.events.examples import best_seed_wins, new_event, played, ranked
 
 # Round robin of four, worked by hand. P1 beats P2 and P3, loses to P4; P2 beats P3 and P4; P3 beats P4.
@@ -39,6 +40,41 @@ def test_in_a_circle_of_three_equal_ones_share_the_place():
         one, two = fixture.entrants
         event = event.record(ranked(fixture, *((one, two) if beats[one] == two else (two, one))))
     assert [(row.place, row.points) for row in event.standings] == [(1, 1.0)] * 3
+
+
+def test_head_to_head_counts_again_among_those_who_are_still_level():
+    """Six, worked by hand: P1 to P4 have 3 points each, of these against one another 2, 2, 1 and 1. P1 has beaten P2,
+    P3 has beaten P4 (article 6.2). Wins are 3 each; Sonneborn-Berger is 7, 7, 6 and 6, so nothing else decides.
+    """
+    beats = {"P1": "P2 P3 P5", "P2": "P3 P4 P5", "P3": "P4 P5 P6", "P4": "P1 P5 P6", "P5": "P6", "P6": "P1 P2"}
+
+    def by_table(fixture):
+        one, two = fixture.entrants
+        return ranked(fixture, *((one, two) if two in beats[one].split() else (two, one)))
+
+    event = played(new_event(Format.ROUND_ROBIN, 6), by_table)
+    assert [(row.place, row.entrant, row.points) for row in event.standings] == [
+        (1, "P1", 3.0), (2, "P2", 3.0), (3, "P3", 3.0), (4, "P4", 3.0), (5, "P6", 2.0), (6, "P5", 1.0)
+    ]  # fmt: skip
+    assert [row.tie_breaks["head_to_head"] for row in event.standings[:4]] == [2.0, 2.0, 1.0, 1.0]
+    assert [row.tie_breaks["sonneborn_berger"] for row in event.standings[:4]] == [7.0, 7.0, 6.0, 6.0]
+
+
+def met(*pairs):
+    """The table of these matches, each of a winner and a loser."""
+    return Table({}, [Game({one: 1.0, other: 0.0}, one) for one, other in pairs], {}, {})
+
+
+def test_of_several_matches_with_one_the_mean_counts_head_to_head():
+    """Article 6.1.2: P1 has 1 against P2, and ½ against P3."""
+    table = met(("P1", "P2"), ("P1", "P2"), ("P1", "P3"), ("P3", "P1"), ("P2", "P3"), ("P2", "P3"))
+    assert head_to_head(table, ["P1", "P2", "P3"]) == {"P1": 1.5, "P2": 1.0, "P3": 0.5}
+
+
+def test_whoever_is_ahead_without_the_missing_matches_is_ahead():
+    """Article 6.3: P1 has beaten both others, who have not met. Had P1 met P2 only, P3 could have caught up."""
+    assert head_to_head(met(("P1", "P2"), ("P1", "P3")), ["P1", "P2", "P3"]) == {"P1": 2.0, "P2": 0.0, "P3": 0.0}
+    assert head_to_head(met(("P1", "P2")), ["P1", "P2", "P3"]) == {"P1": 0.0, "P2": 0.0, "P3": 0.0}
 
 
 def test_buchholz_adds_the_points_of_the_opponents():

@@ -1,6 +1,8 @@
 """The footballer: it scores, keeps, plays alike on either side, and each level beats the one below."""
 
 from itertools import pairwise
+from math import hypot
+from random import Random
 
 import pytest
 
@@ -8,9 +10,12 @@ from pigaming_app.ai.experiments.league import duel
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import BRAINS, make_brain
+from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.sweep import offset_from_wall
+from pigaming_football.overlaps import is_free
 from tests.cases import repeated
-from tests.football.pitch import goals_of, match, put_ball, put_robot, setup
+from tests.football.pitch import ARENAS, goals_of, match, put_ball, put_robot, setup
 
 AS_PLAYED = 2.0  # minutes
 
@@ -28,6 +33,57 @@ def test_alone_every_level_finds_the_goal(level):
         football.tick()
     assert goals_of(football.state, 0) > 0
     assert football.state.players[0].own_goals <= 1
+
+
+@pytest.mark.parametrize("arena", ARENAS)
+def test_alone_it_reaches_a_ball_wherever_it_lies(arena):
+    """Also one that lies against a bumper or in a corner, and from wherever it stands."""
+    chance, slow = Random(2), []
+    for case in range(60):
+        football = with_brains(match(arena, present=(case % 2,)), **{f"p{case % 2}": "hand3"})
+        state = football.state
+        x, y = chance.uniform(36.0, 1564.0), chance.uniform(36.0, 864.0)
+        while in_wall(state, x, y):
+            x, y = chance.uniform(36.0, 1564.0), chance.uniform(36.0, 864.0)
+        put_robot(state, case % 2, x, y, heading=chance.uniform(0.0, 6.2))
+        lies_against_something(state, chance)
+        state.ball.out = 0
+        at = state.ball.x, state.ball.y
+        while not state.ball.touched and state.tick < 500:
+            football.tick()
+        if not state.ball.touched:
+            slow.append((x, y, *at))
+    assert not slow
+
+
+@pytest.mark.parametrize(
+    ("pose", "ball"),
+    [
+        ((459.0, 591.0, 1.79), (800.0, 700.0)),
+        ((457.0, 609.0, 1.59), (800.0, 700.0)),
+        ((480.0, 352.0, 1.2), (1200.0, 170.0)),
+    ],
+)
+def test_it_keeps_to_one_way_round_a_bumper_and_the_ball_behind_it(pose, ball):
+    """Both ways are about as long, and it has to turn round the ball on either."""
+    football = with_brains(match("bumpers", present=(1,)), p1="hand3")
+    state = football.state
+    put_robot(state, 1, *pose[:2], heading=pose[2])
+    put_ball(state, *ball)
+    state.ball.out = 0
+    while not state.ball.touched and state.tick < 350:
+        football.tick()
+    assert state.ball.touched == 2
+
+
+def lies_against_something(state, chance):
+    """Put the ball down at random, against a wall, but not behind that of a corner."""
+    while True:
+        x, y = chance.uniform(22.0, 1578.0), chance.uniform(22.0, 878.0)
+        gaps = [hypot(*offset_from_wall(wall, x, y)) - wall.half for wall in state.walls[: state.wall_count]]
+        if is_free(state, x, y) and min(gaps) < 23.0 and min(x, 1600.0 - x) + min(y, 900.0 - y) > 130.0:
+            put_ball(state, x, y)
+            return
 
 
 def test_a_keeper_stops_what_an_empty_goal_lets_in():

@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.cli import main
-from pigaming_app.games.arenas import MAX_BYTES, load, own_arenas, shipped_arenas
+from pigaming_app.games.arenas import MAX_BYTES, MOST_OWN, load, own_arenas, own_folder, shipped_arenas
 
 SHIPPED = [(game, name) for game in ("pitanks", "factory", "race") for name in shipped_arenas(game)[:1]]
 
@@ -46,6 +46,26 @@ def test_nothing_is_replaced_unasked(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert main(["arena", "import", file, "--of", "race", "--as", "other"]) == 2
     assert own_arenas("pitanks") == ["mine"]
     assert all(line.startswith("PiGaming: ") for line in capsys.readouterr().err.splitlines())
+
+
+@pytest.mark.parametrize("folder", ["arenas/race", "drafts/race", "shared"])
+def test_what_a_killed_program_left_there_is_deleted_by_the_next_one(folder: str, tmp_path: Path) -> None:
+    left = tmp_path / "home" / "data" / folder / ".pigaming-0a1b2c3d.tmp"
+    left.parent.mkdir(parents=True)
+    left.write_bytes(b"[title]\n")
+    assert main(["arena", "check", str(ASSETS / "arenas" / "pitanks" / "classic.toml")]) == 0
+    assert not left.exists()
+
+
+def test_no_more_come_in_than_the_lobby_lists(capsys: pytest.CaptureFixture[str]) -> None:
+    file = ASSETS / "arenas" / "pitanks" / "classic.toml"
+    own_folder("pitanks").mkdir(parents=True)
+    for i in range(MOST_OWN):
+        (own_folder("pitanks") / f"own-{i}.toml").write_bytes(file.read_bytes())
+    assert main(["arena", "import", str(file), "--as", "zebra"]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert main(["arena", "import", str(file), "--as", "own-3", "--replace"]) == 0
+    assert len(own_arenas("pitanks")) == MOST_OWN
 
 
 @pytest.mark.parametrize(

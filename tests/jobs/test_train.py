@@ -8,7 +8,6 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from time import sleep
 
 import pytest
 
@@ -140,10 +139,10 @@ def test_a_curve_without_matplotlib_is_refused_before_the_training(tmp_path, cap
 def test_ctrl_c_keeps_what_has_been_learned(tmp_path):
     out = tmp_path / "a.npz"
     job = [sys.executable, "main.py", "train", "qlearning", "--plain", "--minutes", "0.1", "--out", str(out)]
-    running = subprocess.Popen([*job, "--matches", "100000"], cwd=ROOT, stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+    running = subprocess.Popen([*job, "--matches", "40"], cwd=ROOT, stderr=subprocess.PIPE, stdout=subprocess.PIPE)
     assert running.stderr is not None
     assert b"Ctrl-C" in running.stderr.readline()
-    sleep(0.5)
+    assert b" 4/40 matches" in running.stderr.readline()
     running.send_signal(signal.SIGINT)
     output, _ = running.communicate(timeout=60)
     assert running.returncode == 130

@@ -35,14 +35,18 @@ FAULTS = {
     "ai.py": ("    if match.tick % PERIOD", "    match.nothing.x = 1\n    if match.tick % PERIOD"),
     "screens.py": ("        put(under, coin()", "        self.nothing.draw()\n        put(under, coin()"),
 }
+ENDLESS = (*FAULTS["rules.py"][:1], "    match.tick += 1\n    while match.tick > 9:\n        pass\n")
 
 
-@pytest.mark.parametrize("file", FAULTS)
-def test_the_title_returns_without_a_game_that_fails_in_a_match(home: Path, file: str) -> None:
+@pytest.mark.parametrize(
+    ("file", "before", "after"), [*((file, *fault) for file, fault in FAULTS.items()), ("rules.py", *ENDLESS)]
+)
+def test_the_title_returns_without_a_game_that_fails_or_hangs_in_a_match(
+    home: Path, file: str, before: str, after: str
+) -> None:
     folder = user_folder() / "tag"
     write(folder, "tag")
     switch("tag", True)
-    before, after = FAULTS[file]
     source = (folder / file).read_text()
     assert before in source
     (folder / file).write_text(source.replace(before, after))

@@ -3,17 +3,22 @@
 import json
 import os
 import signal
+import sys
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from pathlib import Path
+from time import monotonic, sleep
 from typing import Any
 
 import pygame
 import pytest
 
+from pigaming_app.games.arenas import load
+from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, StackOperation
+from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
 from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened, run
@@ -149,6 +154,22 @@ def test_only_the_very_first_start_takes_the_language_of_the_system(
     with opened(Options(headless=True)) as app:
         assert app.context.words.language == app.context.settings.language == language
     assert Settings.load(home / "config")[0].language == language
+
+
+def test_threads_in_the_background_yield_within_a_millisecond_while_it_is_open() -> None:
+    """Also after the shortest of several threads has ended, such as those that check and plan a drawing."""
+    before = sys.getswitchinterval()
+    with opened(Options(headless=True)) as app:
+        app.stack.apply(Push(Editor(app.context, "pitanks", "new-1", drawing_of(load("pitanks", "classic").source))))
+        editor = app.stack.top
+        assert isinstance(editor, Editor)
+        end = monotonic() + 20.0
+        while not (editor.bench.verdict and editor.bench.verdict.done):
+            assert monotonic() < end
+            sleep(0.01)
+        assert sys.getswitchinterval() == pytest.approx(0.001)
+        app.stack.clear()
+    assert sys.getswitchinterval() == before
 
 
 @pytest.mark.parametrize(("kiosk", "frames"), [(False, 1), (True, 10)])

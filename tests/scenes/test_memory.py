@@ -22,6 +22,7 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.effects import beam, wave
 from pigaming_app.ui.draw import PLAYERS, surface_cache
+from pigaming_app.ui.draw.frame_budget import Steps, Unfinished, budget, resumable
 from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
@@ -96,6 +97,26 @@ def test_after_a_second_the_title_releases_what_other_pages_have_painted(
     arcade.stack.apply(Pop())
     arcade.wait(1.5, draw=True)
     assert len(returned) == 2
+
+
+def test_the_title_drops_pictures_that_were_interrupted_on_other_pages(arcade: Arcade) -> None:
+    sheets: list[weakref.ref[pygame.Surface]] = []
+
+    @resumable
+    def painted(number: int) -> Steps[None]:
+        sheet = pygame.Surface((64, 64))
+        sheets.append(weakref.ref(sheet))
+        yield
+        yield
+
+    budget.note()
+    with pytest.raises(Unfinished), budget.until(0.0):
+        painted(1)
+    assert sheets[0]()
+    arcade.wait(1.5, draw=True)
+    assert sheets[0]() is None
+    painted(1)
+    assert len(sheets) == 2, "it began anew"
 
 
 @pytest.mark.parametrize("game", one_in(3, games()))

@@ -51,19 +51,26 @@ def mixed(groups: Sequence[Sequence[str]], met: Mapping[Pair, int]) -> list[tupl
 
 def _exchange(groups: list[list[str]], order: Mapping[str, int], met: Mapping[Pair, int]) -> None:
     """Exchange two entrants of different groups as long as that is better."""
+    number = {name: i for i, name in enumerate(name for group in groups for name in group)}
+    again = [[0] * len(number) for _ in number]
+    for (one, other), times in ((tuple(pair), times) for pair, times in met.items()):
+        if one in number and other in number:
+            i, j = number[one], number[other]
+            again[i][j] = again[j][i] = AGAIN * times * times + (order[one] - order[other]) ** 2 if times else 0
+    place = [order[name] for name in number]
 
-    def cost(group: Sequence[str]) -> int:
-        total = 0
-        for one, other in combinations(group, 2):
-            again = met.get(frozenset((one, other)), 0)
-            total += AGAIN * again * again + (order[one] - order[other]) ** 2 if again else 0
-        low, high = min(order[name] for name in group), max(order[name] for name in group)
-        return total + (high - low) ** 2
+    def width(group: Sequence[int]) -> int:
+        places = [place[i] for i in group]
+        return (max(places) - min(places)) ** 2
 
+    def cost(group: Sequence[int]) -> int:
+        return sum(again[one][other] for one, other in combinations(group, 2)) + width(group)
+
+    numbers = [[number[name] for name in group] for group in groups]
     better = True
     while better:
         better = False
-        for first, second in combinations(groups, 2):
+        for first, second in combinations(numbers, 2):
             before = cost(first) + cost(second)
             if before < AGAIN:
                 continue
@@ -75,6 +82,9 @@ def _exchange(groups: list[list[str]], order: Mapping[str, int], met: Mapping[Pa
                         before, better = after, True
                     else:
                         first[i], second[j] = second[j], first[i]
+    names = list(number)
+    for group, wanted in zip(groups, numbers, strict=True):
+        group[:] = [names[i] for i in wanted]
 
 
 def seated(group: Sequence[str], sat: Mapping[str, Sequence[int]]) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from functools import lru_cache
 from random import Random
 
 from pigaming_app.events.formats.field import Draw, Field, Match, meetings
-from pigaming_app.events.formats.grouping import mixed, serpentine
+from pigaming_app.events.formats.grouping import mixed, serpentine, sizes
 
 CYCLES = 1  # by default
 PATIENCE = 3  # times the rounds of a perfect design
@@ -73,7 +73,7 @@ def _pairs(names: tuple[str, ...], seats: int, cycles: int) -> list[Draw]:
 
 @lru_cache(8)
 def _groups(names: tuple[str, ...], seats: int, cycles: int) -> list[Draw]:
-    perfect = -(-cycles * (len(names) - 1) // (min(seats, len(names)) - 1))
+    perfect = -(-cycles * (len(names) - 1) // (sizes(len(names), seats)[0] - 1))
     every = len(names) * (len(names) - 1) // 2
     draws: list[Draw] = []
     met: dict[frozenset[str], int] = {}

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from pigaming_app.games.arenas import is_own_name, load_file, own_folder
+from pigaming_app.games.arenas import MOST_OWN, is_own_name, load_file, own_folder
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import require_game
 from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.scenes.editor.store import is_full
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.storage.parsing import quote
 from pigaming_app.storage.safe_files import write_atomic
@@ -20,6 +21,8 @@ def import_file(file: Path, game: str | None, name: str | None, replace: bool) -
     target = own_folder(game) / f"{name}.toml"
     if target.exists() and not replace:
         raise Refusal(f"{game} has an arena {name}: --as NAME for another name, --replace to replace it")
+    if not target.exists() and is_full(game):
+        raise Refusal(f"{game} has {MOST_OWN} arenas of yours already: delete one first, or --replace one of them")
     write_atomic(target, arena.source.encode())
     return f"{name} is an arena of {game}, in {target}"
 

@@ -32,7 +32,8 @@ def start_entry(platform: str, home: Path, variables: Mapping[str, str], command
 
 def _linux(home: Path, variables: Mapping[str, str], command: Sequence[str]) -> StartEntry:
     """A desktop entry in the autostart folder of the XDG specification."""
-    folder = Path(variables.get("XDG_CONFIG_HOME") or home / ".config", "autostart")
+    given = Path(variables.get("XDG_CONFIG_HOME", ""))
+    folder = (given if given.is_absolute() else home / ".config") / "autostart"  # relative ones do not count
     lines = (
         "[Desktop Entry]",
         "Type=Application",

@@ -3,17 +3,13 @@
 from argparse import ArgumentParser, Namespace
 
 from pigaming_app.jobs.event import export, new, play, show
+from pigaming_app.jobs.terminal.options import subcommands
 
 WORDS = {"new": new, "run": play, "show": show, "export": export}
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare a sub-command for each word."""
-    words = parser.add_subparsers(dest="word", metavar="WORD", required=True)
-    for name, module in WORDS.items():
-        about = (module.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
-        short = about[0].lower() + about[1:].rstrip(".")
-        module.options(words.add_parser(name, help=short, description=about, allow_abbrev=False))
+    subcommands(parser, "word", WORDS)
 
 
 def run(arguments: Namespace) -> int:

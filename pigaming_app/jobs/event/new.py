@@ -10,7 +10,7 @@ from typing import TypeVar
 from pigaming_app.ai.brain_files import is_path
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
-from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words
+from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words, read_list
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
 from pigaming_app.events.spec import (
@@ -32,7 +32,7 @@ from pigaming_app.jobs.event.show import print_event
 from pigaming_app.jobs.terminal.options import DEFAULT_GAME, decimal, integer, word
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
-from pigaming_app.storage.parsing import describe_error, quote, read_text
+from pigaming_app.storage.parsing import describe_error, quote
 from pigaming_app.storage.safe_files import require_writable
 
 T = TypeVar("T")
@@ -114,7 +114,7 @@ def _entrants(text: str) -> tuple[Entrant, ...]:
         return entrants_of_words(text.split(","))
     file = Path(text[1:])
     try:
-        content = read_text(file)
+        content = read_list(file)
     except (OSError, ValueError) as error:
         raise Refusal(f"{quote(text[1:])}: cannot be read ({describe_error(error)})") from None
     try:

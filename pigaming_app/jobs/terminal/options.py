@@ -5,9 +5,10 @@ Each type accepts every sensible value and refuses the others in one line (argpa
 
 import argparse
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from math import isfinite
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from pigaming_app.jobs.terminal.refusal import Refusal
@@ -123,6 +124,15 @@ def shared(parser: argparse._ActionsContainer, *names: str) -> None:
     """Declare some of SHARED."""
     for name in names:
         parser.add_argument(name, **SHARED[name])
+
+
+def subcommands(parser: ArgumentParser, name: str, modules: Mapping[str, ModuleType]) -> None:
+    """Declare a sub-command for each module, described by its docstring. The chosen one is the value `name`."""
+    parsers = parser.add_subparsers(dest=name, metavar=name.upper(), required=True)
+    for word, module in modules.items():
+        about = (module.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
+        short = about[0].lower() + about[1:].rstrip(".")
+        module.options(parsers.add_parser(word, help=short, description=about, allow_abbrev=False))
 
 
 def game_option(parser: ArgumentParser, required: bool = False, more: tuple[str, ...] = ()) -> None:

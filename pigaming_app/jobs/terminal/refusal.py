@@ -6,7 +6,6 @@ from importlib.util import find_spec
 
 from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.hardware.messages import OperatorError
-from pigaming_app.storage.plugins.parts import blame
 from pigaming_app.ui.i18n import english
 
 EXTRAS = {  # a module, and the package's name
@@ -42,8 +41,10 @@ def sentence(error: Exception) -> str:
     return english().long_sentence(error.message) if isinstance(error, OperatorError) else str(error)
 
 
-def is_of_plugin(error: Exception) -> bool:
-    """True if an error arose in the code of a plug-in, which is left out with one line on standard error."""
+def is_of_plugin(error: BaseException) -> bool:
+    """True if an error is due to a plug-in, which is left out with one line on standard error."""
+    from pigaming_app.ai.plugin_faults import blame  # late: most jobs end without an error
+
     return blame(error) is not None
 
 

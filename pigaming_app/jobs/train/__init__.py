@@ -2,18 +2,14 @@
 
 from argparse import ArgumentParser, Namespace
 
+from pigaming_app.jobs.terminal.options import subcommands
 from pigaming_app.jobs.train import ppo, qlearning
 
 LEARNERS = {"qlearning": qlearning, "ppo": ppo}
 
 
 def options(parser: ArgumentParser) -> None:
-    """Declare a sub-command for each learner."""
-    learners = parser.add_subparsers(dest="learner", metavar="LEARNER", required=True)
-    for name, learner in LEARNERS.items():
-        learns = (learner.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
-        about = learns[0].lower() + learns[1:].rstrip(".")
-        learner.options(learners.add_parser(name, help=about, description=learns, allow_abbrev=False))
+    subcommands(parser, "learner", LEARNERS)
 
 
 def run(arguments: Namespace) -> int:

@@ -99,9 +99,8 @@ class BrainOverlay:
         left, right, w = LEFT, clock.right + 8, clock.left - 8 - LEFT
         cards.blank(screen, LEFT - 12, clock.left + GLOW)
         cards.blank(screen, clock.right - GLOW, LEFT + int(WIDTH) + 12)
-        doing = self.words(f"brain.{thoughts.behaviour}", **thoughts.names)
-        because, count = f"brain.because_{thoughts.reason}", thoughts.names.get("count")
-        because = self.words.counted(because, count, **thoughts.names) if thoughts.reason else ""
+        doing = self._word("brain.", thoughts.behaviour)
+        because = self._word("brain.because_", thoughts.reason) if thoughts.reason else ""
         cards.draw_words(screen, left, w, seat, doing, because)
         screens = SCREENS[self.match.setup.game]
         if thoughts.moves:
@@ -117,6 +116,12 @@ class BrainOverlay:
             if screens.fire:
                 buttons.insert(0, ("fire", state.actions[seat].fire))
             cards.draw_held(screen, right + w, seat, held(state.actions[seat]), buttons)
+
+    def _word(self, prefix: str, name: str) -> str:
+        """The text for a behaviour or reason; its name, where a plug-in has no text."""
+        key = f"{prefix}{name}"
+        names = self.thoughts.names
+        return self.words.counted(key, names.get("count"), **names) if key in self.words else name.replace("_", " ")
 
 
 def held(action: Any) -> MoveKey:

@@ -93,10 +93,10 @@ def draw_axes(screen: pygame.Surface, symmetry: Symmetry) -> None:
     axes(symmetry).draw(screen)
 
 
-def draw_outline(screen: pygame.Surface, tools: Tools, drawing: Drawing, item: Item, width: int = 4) -> None:
+def draw_outline(screen: pygame.Surface, tools: Tools, drawing: Drawing, item: Item) -> None:
     """Draw the outline of a part that is in hand or selected."""
     for outline in tools.shapes[item.kind].outlines(tools.part(drawing, item), item.k):
-        pygame.draw.lines(screen, FOCUS, True, [on_canvas(*point) for point in outline], width)
+        pygame.draw.lines(screen, FOCUS, True, [on_canvas(*point) for point in outline], 4)
 
 
 def draw_grips(screen: pygame.Surface, tools: Tools, drawing: Drawing, item: Item) -> None:

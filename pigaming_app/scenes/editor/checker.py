@@ -1,7 +1,6 @@
 """Checks of a drawing in threads: its problems at once, then the plans of AIs. Only the latest drawing counts."""
 
 import logging
-import sys
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -12,14 +11,12 @@ from pigaming_app.games.drawing.problems import Problem, problems
 from pigaming_app.games.drawing.values import Drawing, text_of
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.model.shapes import Routes, Tools
-from pigaming_app.scenes.flow.preload import SWITCH_INTERVAL
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 log = logging.getLogger("pigaming")
 Task = TypeVar("Task")
-NORMAL_INTERVAL = sys.getswitchinterval()  # s
 
 
 @dataclass(frozen=True)
@@ -64,13 +61,10 @@ class LatestTask(Generic[Task]):
 
     def _run(self) -> None:
         while (task := self._next()) is not None:
-            sys.setswitchinterval(SWITCH_INTERVAL)  # so that the thread that draws need not wait
             try:
                 self.work(task)
             except Exception:
                 log.exception("the %s failed", self.name)
-            finally:
-                sys.setswitchinterval(NORMAL_INTERVAL)
 
     def _next(self) -> Task | None:
         with self._wake:

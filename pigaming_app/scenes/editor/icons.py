@@ -161,6 +161,15 @@ def _corner(pen: Pen) -> None:
     pen.dot(-0.9, -0.9, 0.22)
 
 
+def _rename(pen: Pen) -> None:
+    """A letter and a cursor."""
+    pen.line((-1.0, 0.8), (-0.4, -0.8), (0.2, 0.8))
+    pen.line((-0.78, 0.25), (-0.02, 0.25))
+    pen.line((0.45, -0.95), (0.95, -0.95))
+    pen.line((0.7, -0.95), (0.7, 0.95))
+    pen.line((0.45, 0.95), (0.95, 0.95))
+
+
 def _share(pen: Pen) -> None:
     pen.line((-0.4, -0.3), (-0.85, -0.3), (-0.85, 0.95), (0.85, 0.95), (0.85, -0.3), (0.4, -0.3))
     pen.line((0, 0.4), (0, -0.8))
@@ -179,6 +188,7 @@ PICTURES: dict[str, Callable[[Pen], None]] = {
     "redo": _redo,
     "save": _save,
     "dice": _dice,
+    "rename": _rename,
     "share": _share,
     "worker": _worker,
     "shared": _slot,

@@ -9,6 +9,7 @@ import pygame
 from pigaming_app.games.drawing.problems import Problem
 from pigaming_app.scenes.editor.board import SCALE, on_canvas
 from pigaming_app.scenes.editor.model.shapes import Routes
+from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ALARM, BLACK, LINE, ORANGE, Color, GlowCanvas, Point, dim, icon
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -24,7 +25,8 @@ def draw_problems(screen: pygame.Surface, problems: Sequence[Problem], seconds: 
     for problem in problems:
         extent = SCALE * problem.extent
         radius = next((size for size in SIZES if size >= extent + 16), SIZES[-1])
-        mark(radius, problem.blocks, pulse(seconds, 4)).draw(screen, *on_canvas(problem.x, problem.y))
+        x, y = min(max(problem.x, 0.0), WIDTH), min(max(problem.y, 0.0), HEIGHT)
+        mark(radius, problem.blocks, pulse(seconds, 6)).draw(screen, *on_canvas(x, y))
 
 
 def draw_routes(screen: pygame.Surface, routes: Routes, seconds: float) -> None:

@@ -1,4 +1,4 @@
-"""A match on a drawing: one person against AIs, without results; START or the end leads back to the drawing."""
+"""A match on a drawing: one person against AIs, without results; START, a click or the end leads back."""
 
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -30,8 +30,9 @@ class PlayTest(MatchScene):
         self.notice_at = (places or PLACES)[0]
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """START and Escape lead back."""
-        if event.button is Button.START or (event.button is Button.BACK and self._escapes(event.device)):
+        """START, Escape and a click lead back."""
+        escapes = event.button is Button.BACK and self._escapes(event.device)
+        if escapes or event.button in (Button.START, Button.CLICK):
             self.context.sounds.play("back")
             return Pop()
         return super().handle(event)

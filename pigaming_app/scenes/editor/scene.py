@@ -72,6 +72,11 @@ class Editor:
         """Draw, drag, choose tiles; X deletes, Y opens the tool bar, START plays, BACK lets go or leaves."""
         event, bench = self.prompts.as_button(event), self.bench
         self.reveal = 0.0 if event.button not in (Button.POINT, Button.FOUND, Button.LOST) else self.reveal
+        if self.waiting and event.button in (Button.FIRE, Button.CLICK, Button.X, Button.BACK):
+            self.waiting = None  # drawn on instead
+            if event.button is Button.BACK:
+                self._play("back")
+                return None
         match event.button:
             case Button.POINT if event.at:
                 bench.pointer.place(event.at)
@@ -129,7 +134,7 @@ class Editor:
         for item in in_hand:
             draw_outline(screen, self.tools, drawing, item)
         if bench.selected and not in_hand:
-            draw_outline(screen, self.tools, drawing, bench.selected, 2)
+            draw_outline(screen, self.tools, drawing, bench.selected)
             draw_grips(screen, self.tools, drawing, bench.selected)
         if verdict:
             draw_problems(screen, verdict.problems, self.clock)
@@ -153,7 +158,10 @@ class Editor:
     def tiles(self) -> Mapping[str, Tile]:
         """The tiles of the tool bar."""
         bench, now = self.bench, self.bench.history.now
-        tiles = {f"tool {i}": Tile(tool.name, on=i == bench.tool) for i, tool in enumerate(self.tools.palette)}
+        tiles = {
+            f"tool {i}": Tile(tool.name, on=i == bench.tool, live=len(now.of(tool.kind)) < tool.most)
+            for i, tool in enumerate(self.tools.palette)
+        }
         removable = copied = False
         if bench.selected:
             part = self.tools.part(now, bench.selected)
@@ -167,7 +175,8 @@ class Editor:
         tiles["undo"] = Tile("undo", live=bench.history.can_undo)
         tiles["redo"] = Tile("redo", live=bench.history.can_redo)
         playable = bench.verdict is None or not bench.verdict.blocked
-        tiles["play"], tiles["save"] = Tile("play", live=playable), Tile("save", live=playable)
+        for name in ("play", "save"):
+            tiles[name] = Tile(name, on=bool(self.waiting) and self.saving == (name == "save"), live=playable)
         return tiles
 
     @property

@@ -59,7 +59,7 @@ class ToolBar:
         for i, name in enumerate(NAMES):
             at = box(i).topleft
             if shown := tiles.get(name):
-                state = "on" if shown.on else "live" if shown.live else "dim"
+                state = "dim" if not shown.live else "on" if shown.on else "live"
                 tile(shown.icon, shown.value, state).draw(screen, *at)
             else:
                 free().draw(screen, *at)

@@ -16,27 +16,23 @@ import pygame
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
-from pigaming_app.games.registry import games
 from pigaming_app.scenes.events import next_view as view
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
-from pigaming_app.scenes.events.running import RunningEvent, progress_line
+from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.seats import Seats
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
-from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, LABEL, MIST, text_width
+from pigaming_app.ui.draw import ALARM, FOCUS, LABEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
-from pigaming_app.ui.draw.text import fit_text, text
+from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
@@ -71,6 +67,7 @@ class NextMatch:
 
     def on_enter(self) -> None:
         self.context.sounds.music(True)
+        self.running.refresh()
         self._reset_if_changed()
         self.ready = 0.0
 
@@ -121,7 +118,7 @@ class NextMatch:
                 self._postpone()
             case Button.Y:
                 self._replace_absent()
-            case Button.FIRE if self.seats.people:
+            case Button.FIRE if self.seats.people or self.seats.stood_in:
                 self._take(device)
             case Button.FIRE | Button.START:
                 return self._start()
@@ -152,18 +149,10 @@ class NextMatch:
         screen.blit(backdrop(), (0, 0))
         if fixture is None:
             return
-        heading(words("events.next"), self._what(fixture)).draw(screen)
+        heading(words("events.next"), view.match_line(words, fixture, self.running.setup(fixture))).draw(screen)
         self.seats.draw(screen, self.clock)
         self._draw_message(screen, fixture)
-        event = self.running.event
-        then = [" ".join(other.entrants) for other in event.open[1:4]]
-        line = progress_line(words, event)
-        text(line, BODY, MIST, "body", "r").draw(screen, RIGHT, view.THEN_Y)
-        if then:
-            room = RIGHT - LEFT - 48 - text_width(line, BODY, "body")
-            notice = view.following(lambda names: words("events.then", names=names), then, room)
-            notice, size = fit_text(notice, LABEL, room)
-            text(notice, size, MIST, "head", "l").draw(screen, LEFT, view.THEN_Y)
+        view.draw_following(screen, words, self.running.event)
         self.prompts.draw(screen)
 
     @property
@@ -174,7 +163,8 @@ class NextMatch:
         if self.seats.people:
             own = [(Button.START, "events.hint_begin"), (Button.X, "events.hint_skip"), (Button.Y, "events.hint_ai")]
         else:
-            own = [(Button.FIRE, "events.hint_watch"), (Button.Y, "events.hint_quick"), (Button.X, "events.hint_skip")]
+            watch = Button.START if self.seats.stood_in else Button.FIRE
+            own = [(watch, "events.hint_watch"), (Button.Y, "events.hint_quick"), (Button.X, "events.hint_skip")]
         late = [(Button.DOWN, "events.hint_late")] if self.running.accepts_late else []
         return self.context.prompts([*own, (Button.UP, "events.hint_table"), *late, (Button.BACK, "events.hint_back")])
 
@@ -190,12 +180,10 @@ class NextMatch:
         """A person for whom an AI drives is there again."""
         fixture = self.fixture
         assert fixture is not None
-        for seat, name in enumerate(fixture.entrants):
-            if self.running.brain(name) and self.running.is_person(name):
-                if self._change(partial(Event.substitute, name=name, brain="")):
-                    self.seats.claims[seat] = device
-                    self.context.sounds.play("join", seat)
-                return
+        for seat in self.seats.stood_in[:1]:
+            if self._change(partial(Event.substitute, name=fixture.entrants[seat], brain="")):
+                self.seats.claims[seat] = device
+                self.context.sounds.play("join", seat)
 
     # ---- changes of the event
 
@@ -271,6 +259,12 @@ class NextMatch:
         if self.seats.waiting:
             self._say("events.missing")
             return None
+        before = self.fixture
+        self.running.refresh()
+        self._reset_if_changed()
+        if self.fixture != before:
+            self._say("events.elsewhere", "error")
+            return None
         self.context.sounds.play("accept")
         self.going = True
         return self._begin()
@@ -320,15 +314,6 @@ class NextMatch:
 
     # ---- drawing
 
-    def _what(self, fixture: Fixture) -> str:
-        """Game, length and arena in one line."""
-        words, setup = self.context.words, self.running.setup(fixture)
-        if setup is None:
-            return words(f"games.{fixture.game}")
-        arena = arena_title(load_cached(setup.game, setup.arena), words.language)
-        length = match_length(words, games()[setup.game], setup.minutes, setup.goal)
-        return "  ·  ".join((words(f"games.{setup.game}"), length, arena))
-
     def _draw_message(self, screen: pygame.Surface, fixture: Fixture) -> None:
         words = self.context.words
         if self.message_left > 0.0:
@@ -339,6 +324,8 @@ class NextMatch:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
         elif (self.seats.people and not self.seats.waiting) or (self.show and not self.seats.people):
             call_to_action(words("lobby.starting"), "", LABEL).draw(screen, 960, view.MESSAGE_Y)
+        elif self.seats.stood_in and not self.seats.people:
+            caption(words("events.stand_in"), FOCUS).draw(screen, 960, view.MESSAGE_Y)
         elif self.seats.waiting:
             seat = self.seats.waiting[0]
             call = words("events.call", name=fixture.entrants[seat], button="{button}")

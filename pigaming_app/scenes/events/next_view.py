@@ -1,10 +1,17 @@
-"""Cards of the next match: seat, name, robot, and who drives it. Top left of a card at (0, 0); see `player_card`."""
+"""The next match: a card for each seat, what is played, and who follows. Top left of a card at (0, 0)."""
 
 import math
 from collections.abc import Callable, Sequence
 
 import pygame
 
+from pigaming_app.events.event import Event
+from pigaming_app.events.spec import Fixture
+from pigaming_app.games.game import Setup
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.events.running import progress_line
+from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
+from pigaming_app.scenes.flow.match_words import game_title, match_length
 from pigaming_app.scenes.lobby import seat_card
 from pigaming_app.ui.draw import (
     ARROWS,
@@ -24,10 +31,11 @@ from pigaming_app.ui.draw import (
     text_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text
+from pigaming_app.ui.draw.text import fit_size, fit_text, text
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.labels import blit_sprite
 from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 
@@ -82,6 +90,26 @@ def draw_robot(screen: pygame.Surface, seat: int, x: int, y: int, clock: float, 
     hop = 8 * abs(math.sin(clock * 7 + seat)) if taken else 0.0
     sprite = seat_card.robot(seat, step(seat_card.UP, HEADINGS), SCALE)
     blit_sprite(screen, sprite, x + MIDDLE, y + ROBOT_Y - hop)
+
+
+def match_line(words: Words, fixture: Fixture, setup: Setup | None) -> str:
+    """Game, length and arena in one line; the game alone if the match cannot be played."""
+    if setup is None:
+        return game_title(words, fixture.game)
+    arena = arena_title(load_cached(setup.game, setup.arena), words.language)
+    length = match_length(words, games()[setup.game], setup.minutes, setup.goal)
+    return "  ·  ".join((words(f"games.{setup.game}"), length, arena))
+
+
+def draw_following(screen: pygame.Surface, words: Words, event: Event) -> None:
+    """Draw who plays after the next match, and how far the event is."""
+    line = progress_line(words, event)
+    text(line, BODY, MIST, "body", "r").draw(screen, RIGHT, THEN_Y)
+    if then := [" ".join(other.entrants) for other in event.open[1:4]]:
+        room = RIGHT - LEFT - 48 - text_width(line, BODY, "body")
+        sentence = following(lambda names: words("events.then", names=names), then, room)
+        sentence, size = fit_text(sentence, LABEL, room)
+        text(sentence, size, MIST, "head", "l").draw(screen, LEFT, THEN_Y)
 
 
 def following(sentence: Callable[[str], str], matches: Sequence[str], room: float) -> str:

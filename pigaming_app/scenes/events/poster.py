@@ -20,6 +20,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
 from pigaming_app.events.spec import Fixture, Format, Standing
 from pigaming_app.scenes.events.running import stage_name
+from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
 from pigaming_app.ui.draw import Color, cut_box, font
 from pigaming_app.ui.draw.text import fit_size
@@ -162,7 +163,7 @@ def _head(page: pygame.Surface, event: Event, words: Words, part: str = "") -> N
     spec = event.spec
     _write(page, spec.title, 190, (MARGIN, 260), INK, room=W - 2 * MARGIN)
     form = words(f"events.{spec.format.value}")
-    line = "  ·  ".join((form, *([part] if part else []), *(words(f"games.{game}") for game in spec.games)))
+    line = "  ·  ".join((form, *([part] if part else []), *(game_title(words, game) for game in spec.games)))
     _write(page, line, 64, (MARGIN, 430), SOFT, room=W - 2 * MARGIN - 420)
     _write(page, words.day(date.today()), 64, (W - MARGIN, 430), SOFT, "r")
     pygame.draw.line(page, INK, (MARGIN, 500), (W - MARGIN, 500), 8)

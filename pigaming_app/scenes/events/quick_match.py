@@ -5,6 +5,7 @@ python -m pigaming_app.scenes.events.quick_match    takes an event and fixtures 
 """
 
 import logging
+import os
 import pickle
 import sys
 from collections.abc import Sequence
@@ -76,11 +77,13 @@ class QuickMatches:
 
 def serve() -> None:
     """Play what standard input orders."""
+    output = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # whatever prints must not print into the outcomes
     event, fixtures = pickle.load(sys.stdin.buffer)
     exit_with_parent()
     for fixture in fixtures:
-        pickle.dump(play(event, fixture), sys.stdout.buffer)
-        sys.stdout.buffer.flush()
+        pickle.dump(play(event, fixture), output)
+        output.flush()
 
 
 def play(event: "Event", fixture: "Fixture") -> "Outcome":

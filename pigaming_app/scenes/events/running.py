@@ -1,5 +1,6 @@
 """A running event and its file. A change is on the disk before any page shows it."""
 
+import contextlib
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -8,6 +9,7 @@ from pathlib import Path
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
+from pigaming_app.events.journal import Added
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import MOST, Fixture
 from pigaming_app.games.game import Setup
@@ -44,6 +46,11 @@ class RunningEvent:
             raise
         return True
 
+    def refresh(self) -> None:
+        """Take over what another process has changed."""
+        with contextlib.suppress(ValueError):  # the file has another event now
+            self.event = event_files.latest(self.path, self.event)
+
     def setup(self, fixture: Fixture) -> Setup | None:
         """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
         if self._known is None or self._known[0] is not self.event or self._known[1] != fixture:
@@ -71,9 +78,8 @@ class RunningEvent:
 
     def is_person(self, name: str) -> bool:
         """True for an entrant who is a person, even while an AI drives."""
-        persons = {entrant.name for entrant in self.event.spec.entrants if not entrant.brain}
-        first = {entrant.name for entrant in self.event.spec.entrants}
-        return name in persons or (name not in first and not self.brain(name))
+        late = (entry.entrant for entry in self.event.journal if isinstance(entry, Added))
+        return any(one.name == name and not one.brain for one in (*self.event.spec.entrants, *late))
 
     def without_people(self, fixture: Fixture) -> bool:
         """True if only AIs play."""

@@ -36,6 +36,12 @@ class Seats:
         return people_of(self.running, fixture) if fixture else []
 
     @property
+    def stood_in(self) -> list[int]:
+        """Seats of people for whom an AI drives."""
+        names = self.fixture.entrants if self.fixture else ()
+        return [i for i, name in enumerate(names) if self.running.brain(name) and self.running.is_person(name)]
+
+    @property
     def waiting(self) -> list[int]:
         """Seats of people that nobody has taken."""
         return [seat for seat in self.people if seat not in self.claims]

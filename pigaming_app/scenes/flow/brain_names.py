@@ -23,4 +23,4 @@ def brain_name(words: Words, game: str, brain: str) -> str:
     """The name of an AI on a label: the stars of a level, the words for another that the lobby offers, else its own."""
     if level := level_of(brain):
         return stars_of(level)
-    return words(f"match.{brain}") if brain in AIS[game].rivals else display_name(brain).upper()
+    return words(f"match.{brain}") if game in AIS and brain in AIS[game].rivals else display_name(brain).upper()

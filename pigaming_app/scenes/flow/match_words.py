@@ -12,6 +12,12 @@ def limits_line(words: Words, game: str, minutes: float, variant: str) -> str:
     return words(f"howto.limits_{game}", **rule_numbers(game, minutes, variant))
 
 
+def game_title(words: Words, game: str) -> str:
+    """The name of a game, also of one that is not here: a plug-in that was removed or switched off."""
+    key = f"games.{game}"
+    return words(key) if key in words else game.replace("_", " ").title()
+
+
 def tagline(words: Words, game: str, goal: int) -> str:
     """The line under a game's name; it may contain the goal, such as the number of laps."""
     return words.counted(f"games.{game}_line", goal, n=goal)

@@ -33,6 +33,7 @@ class NamePage:
         self.pitch = min(W + GAP, (RIGHT - LEFT) // length)
         self.age = 0.0
         self.taken = False  # the name is in use; START again overwrites
+        self.unusable = False  # the name was refused
         self.prompts = self.context.prompts(
             [(Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save")],
         )
@@ -67,7 +68,8 @@ class NamePage:
         if self.age < INPUT_LOCKOUT:
             return None
         if event.button is not Button.START:
-            self.taken = self.taken and event.button is Button.POINT
+            pointing = event.button is Button.POINT
+            self.taken, self.unusable = self.taken and pointing, self.unusable and pointing
         match event.button:
             case Button.UP | Button.DOWN:
                 self._play(self.picker.turn(-1 if event.button is Button.UP else 1))
@@ -114,6 +116,8 @@ class NamePage:
 
     def _hint(self) -> tuple[str, Color]:
         words = self.context.words
+        if self.unusable:
+            return words("lab.unusable"), ALARM
         if self.taken:
             return words("lab.taken", name=self.name), ALARM
         return words("lab.name_how"), MIST
@@ -133,6 +137,7 @@ class NamePage:
     def _save(self) -> StackOperation:
         """Save, unless the name is impossible, or in use and not yet confirmed."""
         if not self.is_possible(self.name):
+            self.unusable = True
             self.context.sounds.play("refused")
             return None
         if self.is_taken(self.name) and not self.taken:

@@ -4,12 +4,12 @@ No frame waits for it. The compiler of the Lab is started afterwards.
 """
 
 import logging
-import sys
 import threading
 from collections.abc import Callable, Sequence
 from importlib import import_module
 
-SWITCH_INTERVAL = 0.001  # s, interpreter switch interval while the thread runs
+from pigaming_app.storage.plugins.parts import LOADING
+from pigaming_app.storage.plugins.time_limit import time_limit
 
 log = logging.getLogger("pigaming")
 
@@ -51,14 +51,10 @@ class Preloader:
         return (game, arena) in self._ready or not self.busy
 
     def _work(self) -> None:
-        old_interval = sys.getswitchinterval()
-        sys.setswitchinterval(SWITCH_INTERVAL)
         try:
             self._do()
         except Exception:
             log.exception("preloading failed")
-        finally:
-            sys.setswitchinterval(old_interval)
 
     def _do(self) -> None:
         """All steps, in the order in which they are likely to be needed."""
@@ -67,16 +63,24 @@ class Preloader:
 
         all_arenas = arena_preload.every_arena()
         for arena in all_arenas:
-            if not self._ended:
-                arena_preload.read(*arena)
+            self._try(arena_preload.read, *arena)
         for module in self.modules:
             if not self._ended:
                 import_module(module)
         for arena in all_arenas:
-            if not self._ended:
-                arena_preload.prepare(*arena)
-                self._ready.add(arena)
+            self._try(arena_preload.prepare, *arena)
+            self._ready.add(arena)
         if not self._ended:
             engine_hash()  # 0.1 s; cached for the first saved robot, ghost or replay
         if not self._ended:
             self.on_done()
+
+    def _try(self, step: Callable[[str, str], None], game: str, arena: str) -> None:
+        """A step in which code of a game may fail or never end, except after the end."""
+        if self._ended:
+            return
+        try:
+            with time_limit(LOADING):
+                step(game, arena)
+        except (Exception, SystemExit):
+            log.exception("preloading %s of %s failed", arena, game)

@@ -88,7 +88,9 @@ class HowTo:
             screen.set_clip(None)
             frame(i + 1, box.w).draw(screen, *box.topleft)
             if key:
-                text(words(key), LABEL, ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
+                text(words(key) if key in words else key, LABEL, ICE, "head", "c", box.w - 40).draw(
+                    screen, box.centerx, TOP + 446
+                )
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
         self._foot(screen)
         keys(self._keys()).draw(screen)

@@ -7,7 +7,6 @@ a failure of the page.
 
 import gc
 import logging
-import sys
 import threading
 from dataclasses import replace
 from time import monotonic, perf_counter, sleep
@@ -32,7 +31,6 @@ MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
 FEED_TIMEOUT = 0.7  # s without `feed` after which the thread ends
 SLICE = 0.007  # s per frame for interpreted training and evaluation; rendering takes 2 of the 16 ms
 TRAINING_SHARE = 0.4  # share of a slice for training at full speed
-SWITCH = 0.001  # s, thread switch interval
 
 log = logging.getLogger("pigaming")
 
@@ -173,8 +171,6 @@ class Trainer:
 
     def _thread_main(self) -> None:
         """Thread body: compile, then train until no longer fed."""
-        before = sys.getswitchinterval()
-        sys.setswitchinterval(SWITCH)
         try:
             if self.training.fast or self._load_compiled():
                 self._run()
@@ -182,8 +178,6 @@ class Trainer:
             log.exception("compiled training failed; falling back to interpreted training")
             self.may_compile = False
             self._switch_to(fast=False)
-        finally:
-            sys.setswitchinterval(before)
 
     def _load_compiled(self) -> bool:
         """Wait for the compiler, load its output and take over the training; False if no longer fed."""

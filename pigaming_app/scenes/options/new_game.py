@@ -6,6 +6,7 @@ from pathlib import Path
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.storage.plugins.consent import switch
@@ -91,8 +92,7 @@ class NewGame:
 
 def game_name(words: Words, plugin: Plugin) -> str:
     """The name of a plug-in's game: as its texts have it if they are loaded."""
-    key = f"games.{plugin.name}"
-    return words(key) if key in words and not plugin.fault else plugin.name.replace("_", " ").title()
+    return plugin.name.replace("_", " ").title() if plugin.fault else game_title(words, plugin.name)
 
 
 def short(path: Path) -> str:

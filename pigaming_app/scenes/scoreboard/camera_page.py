@@ -28,7 +28,20 @@ class CameraPage:
         """The newest picture."""
         scene = next((scene for scene in reversed(scenes) if isinstance(scene, CameraScene)), None)
         image = scene.camera_image if scene is not None else None
-        return None if image is None else [Part(BOX, id(image), lambda surface: _picture(image, surface))]
+        return None if image is None else [Part(BOX, Picture(image), lambda surface: _picture(image, surface))]
+
+
+class Picture:
+    """Equal for the same picture only, which it keeps: the address of one that is gone is soon that of another."""
+
+    def __init__(self, image: Any) -> None:
+        self.image = image
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Picture) and other.image is self.image
+
+    def __hash__(self) -> int:
+        return id(self.image)
 
 
 def _picture(image: Any, surface: pygame.Surface) -> None:

@@ -22,7 +22,7 @@ from pigaming_app.ui.draw import (
     SUB,
     button_width,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.frame_budget import Steps, drop_paused, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import NAMES
@@ -140,6 +140,7 @@ class Title:
         before, self.since = self.since, self.since + seconds
         if before < REST <= self.since:
             surfaces.release_pages()
+            drop_paused()
             return_freed_blocks()
 
     def _open(self, name: str) -> StackOperation:

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Mapping
 
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import AIS
 from pigaming_app.games.registry import OURS, games
 from pigaming_app.scenes.views.game_screens import GameScreens
 from pigaming_app.scenes.views.games import factory, pitanks, race
@@ -24,6 +26,7 @@ def text_keys(name: str, screens: GameScreens) -> Iterator[str]:
     yield from (f"setup.count_{game.goal}", f"setup.{game.goal}") if game.goal else ()
     yield from (f"howto.{lesson}" for lesson in screens.lessons)
     yield from (f"howto.{screens.fire}",) if screens.fire else ()
+    yield from (f"{page}.{rival}" for rival in AIS[name].rivals if rival not in LEVELS for page in ("lobby", "match"))
 
 
 def _lacks(name: str, screens: GameScreens) -> str:

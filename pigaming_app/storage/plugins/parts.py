@@ -11,6 +11,7 @@ from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from types import FrameType
 from typing import TypeVar
 
 from pigaming_app.storage.parsing import one_line
@@ -92,11 +93,22 @@ def blame(error: BaseException) -> Plugin | None:
     """The plug-in in whose code an error arose while it played, which is left out from here on; None: elsewhere."""
     for plugin in plugins():
         if place := _place(plugin, error) or _place_in_text(plugin, str(error)):
-            if plugin not in _failed:
-                _stopped.add(plugin.name)
-                _leave_out(plugin, f"{place}{type(error).__name__}: {' '.join(str(error).split())}")
-            return plugin
+            return stop(plugin, f"{place}{type(error).__name__}: {' '.join(str(error).split())}")
     return None
+
+
+def stop(plugin: Plugin, reason: str) -> Plugin:
+    """Leave out a plug-in that failed while it played, with the reason. Returns it."""
+    if plugin not in _failed:
+        _stopped.add(plugin.name)
+        _leave_out(plugin, reason)
+    return plugin
+
+
+def is_running(frame: FrameType) -> bool:
+    """Whether the code of a plug-in is among the callers of a frame, or the frame itself."""
+    files = {Path(caller.f_code.co_filename) for caller, _ in traceback.walk_stack(frame)}
+    return any(plugin.folder in file.parents for plugin in plugins() for file in files)
 
 
 def rule_sources(name: str) -> tuple[Path, ...]:

@@ -1,15 +1,55 @@
-"""An end for code of others that does not end, such as an endless loop at import."""
+"""An end for code of others that does not end, such as an endless loop at import or in a frame."""
 
 import ctypes
+import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from time import monotonic
+from types import FrameType
 
 AGAIN = 1.0  # s after which the exception is raised once more, if the code has caught it
 
 
 class TookTooLong(BaseException):
     """Raised within the code, whose handlers of `Exception` do not catch it."""
+
+    def __str__(self) -> str:
+        return "it did not end"
+
+
+class Watchdog:
+    """Within this context, raises TookTooLong in its thread `limit` s after a `beat`, if `is_foreign(frame)` then.
+
+    Like `time_limit` for each frame of a loop, with one thread for all.
+    """
+
+    def __init__(self, limit: float, is_foreign: Callable[[FrameType], bool]) -> None:
+        self._limit, self._is_foreign = limit, is_foreign
+        self._lock, self._ended = threading.Lock(), threading.Event()
+        self._watched, self._last = 0, 0.0  # thread, and time of its last beat
+
+    def __enter__(self) -> None:
+        self._watched, self._ended = threading.get_ident(), threading.Event()
+        self.beat()
+        threading.Thread(target=self._watch, args=(self._ended,), name="watchdog", daemon=True).start()
+
+    def __exit__(self, *_: object) -> None:
+        self._ended.set()
+        self.beat()
+
+    def beat(self) -> None:
+        """Begin anew."""
+        with self._lock:
+            self._last = monotonic()
+            _raise_in(self._watched, None)
+
+    def _watch(self, ended: threading.Event) -> None:
+        while not ended.wait(min(AGAIN, self._limit / 2)):
+            with self._lock:
+                frame = sys._current_frames().get(self._watched)
+                if frame and monotonic() - self._last > self._limit and self._is_foreign(frame):
+                    _raise_in(self._watched, TookTooLong)
 
 
 @contextmanager

@@ -12,11 +12,11 @@ from contextlib import contextmanager
 from functools import wraps
 from itertools import chain
 from time import get_clock_info, perf_counter, thread_time
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 # Thread time where its resolution allows: other processes then do not use up a frame's budget.
 clock = thread_time if get_clock_info("thread_time").resolution < 1e-4 else perf_counter
-MAX_PAUSED = 4  # interrupted generators kept per function
+MAX_PAUSED = 4  # interrupted generators kept: one of the picture, others of what is made ahead; each holds up to 100 MB
 
 Args = ParamSpec("Args")
 Result = TypeVar("Result")
@@ -113,17 +113,19 @@ def run_to_end(steps: Steps[Result]) -> Result:
             return value
 
 
+_paused: OrderedDict[Hashable, Steps[Any]] = OrderedDict()  # of all functions, by function and arguments
+
+
 def resumable(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
     """Decorator: make a generator function interruptible at each yield and resumable with the same arguments.
 
     The result raises Unfinished when the frame budget is spent. Arguments must be hashable.
     """
-    paused: OrderedDict[Hashable, Steps[Result]] = OrderedDict()
 
     @wraps(work)
     def run(*args: Args.args, **named: Args.kwargs) -> Result:
-        key: Hashable = (args, *named.items())
-        steps = paused.pop(key, None) or work(*args, **named)
+        key: Hashable = (work, args, *named.items())
+        steps: Steps[Result] = _paused.pop(key) if key in _paused else work(*args, **named)
         while True:
             try:
                 next(steps)
@@ -133,12 +135,17 @@ def resumable(work: Callable[Args, Steps[Result]]) -> Callable[Args, Result]:
             try:
                 budget.pause()
             except Unfinished:
-                paused[key] = steps
-                while len(paused) > MAX_PAUSED:
-                    paused.popitem(last=False)
+                _paused[key] = steps
+                while len(_paused) > MAX_PAUSED:
+                    _paused.popitem(last=False)
                 raise
 
     return run
+
+
+def drop_paused() -> None:
+    """Drop all interrupted work; it begins anew when it is needed again."""
+    _paused.clear()
 
 
 def finished_within(work: Callable[[], None], milliseconds: float) -> bool:

@@ -67,3 +67,9 @@ def test_pallets_are_lifted_and_delivered_by_the_button() -> None:
 def test_the_button_is_the_turbo_of_the_race() -> None:
     slow, fast = played(match_of("race", NOTHING), 15.0), played(match_of("race", FIRE, 60), 15.0)
     assert fast.state.racers[0].progress > slow.state.racers[0].progress > 0.0
+
+
+def test_a_ball_is_caught_while_the_button_is_held_and_shot_when_it_is_released() -> None:
+    kept, shot = (played(match_of("football", FIRE, every), 60.0) for every in (10_000, 60))
+    assert kept.state.robots[0].score <= 1
+    assert shot.state.robots[0].score > 1

@@ -5,12 +5,33 @@ from math import hypot
 
 import pytest
 
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load
-from pigaming_app.games.pitanks.surprise import PAIRS, PASSAGE
+from pigaming_app.games.drawing.problems import problems
+from pigaming_app.games.drawing.values import drawing_of
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.pitanks.surprise import PAIRS, PASSAGE, surprise
+from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from tests.cases import repeated
 
 SEEDS = range(60)
+FAR = 3000.0  # px that a robot drives in a minute that it does not spend in a corner
+
+
+def fight(seed: int) -> None:
+    """Four hand-written opponents drive about for a minute and hit each other."""
+    one, two, three, four = (Seat("level3", i) for i in range(4))
+    match = new_match(Setup("pitanks", f"surprise-{seed}", (one, two, three, four), 1.0, 1, "plain"))
+    ways, places = [0.0] * 4, [(robot.x, robot.y) for robot in match.state.robots]
+    while not match.over:
+        match.tick()
+        for i, robot in enumerate(match.state.robots):
+            ways[i] += hypot(robot.x - places[i][0], robot.y - places[i][1])
+            places[i] = robot.x, robot.y
+    assert min(ways) > FAR
+    assert any(robot.score for robot in match.state.robots)
 
 
 def test_every_seed_makes_a_playable_arena() -> None:
@@ -50,3 +71,12 @@ def test_wrong_names_are_unknown_arenas() -> None:
     for game, name in (("pitanks", "surprise-"), ("race", "surprise-1234567890"), ("factory", "surprise-x")):
         with pytest.raises(ArenaError, match="no such arena"):
             load(game, name)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", repeated(range(0, 1000, 200)))
+def test_a_thousand_seeds_can_be_played(first: int) -> None:
+    for seed in range(first, first + 200):
+        assert not problems(games()["pitanks"], drawing_of(surprise(seed)))
+    for seed in range(first, first + 200, 25):
+        fight(seed)

@@ -92,7 +92,7 @@ def test_threads_look_and_talk_and_end_when_it_is_closed():
     before = threading.active_count()
     tracker = Tracker()
     rig = Rig(Eye(*[picture(i, i) for i in range(20)]), tracker, tracker, time.monotonic).start()
-    deadline = time.monotonic() + 5.0
+    deadline = time.monotonic() + 60.0
     while len(tracker.shown) < 20 and time.monotonic() < deadline:
         time.sleep(0.01)
     rig.pump()  # no effect while a thread runs
@@ -115,7 +115,7 @@ def test_a_tracker_that_breaks_once_is_logged_and_goes_on_with_the_next_picture(
 
     monkeypatch.setattr(tracker, "process", broken)
     rig = Rig(Eye(picture(1, 1), picture(2, 2)), tracker, tracker, time.monotonic).start()
-    deadline = time.monotonic() + 5.0
+    deadline = time.monotonic() + 60.0
     while not tracker.shown and time.monotonic() < deadline:
         time.sleep(0.01)
     rig.close()

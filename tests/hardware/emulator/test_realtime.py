@@ -34,7 +34,7 @@ while True:
 ROOT = Path(__file__).resolve().parents[3]
 
 
-def until(true, seconds=20.0):
+def until(true, seconds=60.0):
     """Wait for a condition, with a timeout for busy machines."""
     end = time.monotonic() + seconds
     while not true():

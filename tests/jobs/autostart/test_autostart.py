@@ -34,6 +34,8 @@ def test_linux_has_a_desktop_entry_whose_words_are_escaped(tmp_path: Path) -> No
     assert parser["Desktop Entry"]["type"] == "Application"
     elsewhere = entries.start_entry("linux", tmp_path, {"XDG_CONFIG_HOME": "/x"}, COMMAND)
     assert elsewhere.path == Path("/x/autostart/pigaming.desktop")
+    for invalid in ("", "relative"):  # XDG Base Directory Specification: to be ignored
+        assert entries.start_entry("linux", tmp_path, {"XDG_CONFIG_HOME": invalid}, COMMAND).path == entry.path
 
 
 def test_windows_has_a_batch_file_in_the_start_up_folder(tmp_path: Path) -> None:

@@ -188,10 +188,15 @@ def test_emulated_robots_drive_under_the_emulated_camera(inside: list[str]) -> N
 
 def test_the_title_is_there_as_soon_as_from_a_clone(inside: list[str], home: Path) -> None:
     assert run(inside, "--frames", "1").returncode == 0  # from a warm disk, as the clone
-    bundled = min(core_time([*inside, "--frames", "1"]) for _ in range(3))
     clone = [sys.executable, "-X", "pigaming", str(ROOT / "main.py"), "--frames", "1"]
-    assert bundled <= TITLE
-    assert bundled <= AS_FAST * min(core_time(clone) for _ in range(3))
+    bundled, cloned = [], []
+    for _ in range(8):  # by turns, until both have had a core to themselves
+        bundled.append(core_time([*inside, "--frames", "1"]))
+        cloned.append(core_time(clone))
+        if min(bundled) <= min(TITLE, AS_FAST * min(cloned)):
+            break
+    assert min(bundled) <= TITLE
+    assert min(bundled) <= AS_FAST * min(cloned)
 
 
 def core_time(command: list[str]) -> float:

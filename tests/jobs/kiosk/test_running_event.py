@@ -18,6 +18,7 @@ from pigaming_app.jobs.kiosk.supervisor import Limits
 from pigaming_app.storage import resume
 from pigaming_app.storage.restarts import restarts
 from tests.cases import repeated
+from tests.jobs.kiosk.test_real_arcade import LONG, arcades_begun, wait
 
 pytestmark = [
     pytest.mark.long,
@@ -102,26 +103,16 @@ def test_event_run_in_a_kiosk_is_supervised_and_returns_to_its_event(data: Path,
     kiosk = subprocess.Popen(main)
     children = Path(f"/proc/{kiosk.pid}/task/{kiosk.pid}/children")
 
-    def starts() -> int:
-        log = data / "days"
-        return sum(path.read_text().count('"start"') for path in log.iterdir()) if log.exists() else 0
-
-    def wait(condition) -> None:
-        end = time.monotonic() + 60.0
-        while not condition():
-            assert time.monotonic() < end
-            time.sleep(0.05)
-
-    wait(lambda: starts() == 1 and children.read_text())
+    wait(lambda: arcades_begun(data) == 1)
     assert resume.marked(data) == file
     time.sleep(2.0)  # into the main loop, which would clear the mark on the title
     assert resume.marked(data) == file
     os.kill(int(children.read_text()), signal.SIGKILL)
-    wait(lambda: starts() == 2)
+    wait(lambda: arcades_begun(data) == 2)
     time.sleep(2.0)
     assert resume.marked(data) == file
     kiosk.terminate()
-    assert kiosk.wait(20) == 0
+    assert kiosk.wait(LONG) == 0
     assert [one.detail for one in restarts(data)] == ["ended by SIGKILL"]
 
 

@@ -41,7 +41,7 @@ from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from tests.scenes.operated import Operated
 
-LONG = 30.0  # s, timeout of a test
+LONG = 120.0  # s, timeout of a test: the machine may be busy
 
 
 class Wizard(NamedTuple):

@@ -2,17 +2,24 @@
 
 from collections.abc import Iterator
 from contextlib import ExitStack
+from dataclasses import replace
 
 import pytest
 
 from pigaming_app.games.arenas import load, shipped_arenas
 from pigaming_app.games.drawing.values import drawing_of
+from pigaming_app.games.factory.layout import PALLET
 from pigaming_app.games.race.circuit import read_course
+from pigaming_app.scenes.editor.checker import Verdict
+from pigaming_app.scenes.editor.games.factory import _slots
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
+from pigaming_app.scenes.editor.parts.things import RADII
+from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.editor.store import titled
 from pigaming_app.sim.toml_table import TomlTable
+from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
@@ -159,6 +166,26 @@ def test_problems_are_found_while_a_part_is_in_hand(mouse: Mouse) -> None:
     assert not checked(mouse).bench.verdict.blocked
 
 
+@pytest.mark.parametrize("button", [Button.BACK, Button.FIRE])
+def test_a_match_that_is_awaited_is_shown_and_can_be_called_off(mouse: Mouse, button: Button) -> None:
+    """The plan of a track takes a second."""
+    editor = opened(mouse, "race")
+    editor.bench.checker.end()
+    checks = Verdict(editor.bench.history.now, (), load("race", "classic"))
+    editor.bench.checker.verdict = checks
+    mouse.arcade.press(Button.START)
+    mouse.arcade.frame()
+    assert (editor.tiles["play"].on, editor.tiles["save"].on) == (True, False)
+    mouse.arcade.press(button)
+    assert not editor.tiles["play"].on
+    editor.bench.checker.verdict = replace(checks, done=True)
+    mouse.arcade.frame()
+    assert mouse.arcade.stack.top is editor
+    if button is Button.BACK:
+        mouse.arcade.press(Button.START)
+        assert isinstance(mouse.arcade.stack.top, PlayTest)
+
+
 def test_a_course_over_itself_is_marked_at_the_crossing(mouse: Mouse) -> None:
     opened(mouse, "race")
     mouse.click((900, 150))
@@ -166,6 +193,57 @@ def test_a_course_over_itself_is_marked_at_the_crossing(mouse: Mouse) -> None:
     problems = checked(mouse).bench.verdict.problems
     assert problems
     assert all(one.key == "corner" and 300 < one.y < 900 and one.blocks for one in problems)
+
+
+@pytest.mark.parametrize("game", EDITORS)
+def test_whole_parts_stay_in_the_arena(game: str) -> None:
+    """Slots, people and robots too, wherever a part is moved, when it is turned there, and as an image."""
+    tools = EDITORS[game]
+    drawing = drawing_of(tools.empty or load(game, tools.template).source)
+    for item in tools.items(drawing):
+        shape, part = tools.shapes[item.kind], tools.part(drawing, item)
+        for dx, dy in ((-WIDTH, -HEIGHT), (WIDTH, -HEIGHT), (-WIDTH, HEIGHT), (WIDTH, HEIGHT)):
+            moved = shape.moved(part, dx, dy)
+            for turned in (moved, *(dial.turned(moved) for dial in shape.dials(moved))):
+                for one in (turned, *(shape.image(turned, image) for image in Symmetry.FOUR.images)):
+                    assert all(0 <= x <= WIDTH and 0 <= y <= HEIGHT for x, y in shape.reach(one))
+
+
+def test_a_machine_in_a_corner_can_be_played(mouse: Mouse) -> None:
+    """Its slots are then not at the rim, neither after a turn."""
+    bench = opened(mouse, "factory", "yard").bench
+    at = bench.history.now.of("machine")[0].get("at")
+    assert isinstance(at, tuple)
+    mouse.drag(at, (at[0], 0))
+    for _ in range(4):
+        mouse.choose("dial 0")
+        slots = _slots(bench.history.now.of("machine")[0])
+        assert all(PALLET <= slot.x <= WIDTH - PALLET and PALLET <= slot.y <= HEIGHT - PALLET for slot in slots)
+    assert not checked(mouse).bench.verdict.blocked
+
+
+def test_a_tool_without_room_for_more_is_dim(mouse: Mouse) -> None:
+    editor = opened(mouse, "factory", "hall")
+    shared = editor.bench.history.now.of("shared")
+    assert not editor.tiles["tool 1"].live
+    mouse.choose("tool 1")
+    assert editor.bench.tool == 0
+    at = shared[0].get("at")
+    assert isinstance(at, tuple)
+    mouse.click(at)
+    mouse.choose("delete")
+    mouse.choose("tool 1")
+    mouse.click((300, 450))
+    assert editor.bench.history.now.of("shared") == (*shared[1:], shared[0].changed("at", (300, 450)))
+    assert not editor.tiles["tool 1"].live
+
+
+def test_mud_has_a_largest_size(mouse: Mouse) -> None:
+    bench = opened(mouse, "race").bench
+    mouse.choose("tool 1")
+    mouse.drag((800, 450), (1400, 450))
+    (patch,) = bench.history.now.of("thing")
+    assert max(x for x, _ in patch.get("outline")) == 800 + RADII[-1]
 
 
 @pytest.mark.parametrize("game", EDITORS)
@@ -180,6 +258,7 @@ def test_our_arenas_can_be_opened_and_are_as_they_were(game: str) -> None:
         assert tools.settled(drawing, drawing) == drawing
         for item in items:
             shape, part = tools.shapes[item.kind], tools.part(drawing, item)
+            assert item.kind == "line" or shape.moved(part, 0.0, 0.0) == part
             for symmetry in Symmetry:
                 for image in symmetry.images:
                     assert shape.same(shape.image(shape.image(part, image), image), part)

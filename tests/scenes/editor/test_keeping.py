@@ -251,6 +251,18 @@ def test_in_a_kiosk_nothing_is_deleted_or_replaced(mouse: Mouse) -> None:
     assert naming.is_possible("MINE"), "a second press replaces it"
 
 
+@pytest.mark.parametrize("name", ["", "CLASSIC", "NEW 3", "CON"])
+def test_a_name_that_cannot_be_used_is_one_sentence_until_it_is_changed(mouse: Mouse, name: str) -> None:
+    naming = NamePage(mouse.arcade.context, "pitanks", "new-1", name, lambda name: None)
+    mouse.arcade.open(naming)
+    mouse.arcade.wait(0.5)
+    mouse.arcade.press(Button.START)
+    assert mouse.arcade.shown(NamePage) is naming
+    assert naming._hint()[0] == mouse.arcade.context.words("lab.unusable")
+    mouse.arcade.press(Button.UP)
+    assert naming._hint()[0] == mouse.arcade.context.words("lab.name_how")
+
+
 def test_a_new_name_never_mixes_two_drawings(mouse: Mouse) -> None:
     one, other = empty("pitanks"), drawing_of(load("pitanks", "islands").source)
     store.save("pitanks", "one", store.titled(one, "ONE"), "new-1")

@@ -53,7 +53,7 @@ def story(artist: Artist) -> None:
     artist.choose("play")
     assert len(arcade.shown(PlayTest).match.state.walls) >= 1
     assert arcade.shown(PlayTest).match.state.wall_count == 1
-    arcade.press(Button.START)
+    artist.tap("start")
     assert artist.editor is editor
     checked(artist)
     artist.choose("save")

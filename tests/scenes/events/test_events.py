@@ -1,5 +1,6 @@
 """Events on the screen: set-up by pad and list, seats, results on disk, absent and late people, corrections, podium."""
 
+from dataclasses import replace
 from pathlib import Path
 from time import sleep
 
@@ -7,6 +8,7 @@ import pytest
 
 from pigaming_app.ai.registry import new_match
 from pigaming_app.events import event_files
+from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Corrected
 from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, Format
@@ -18,6 +20,7 @@ from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.poster import drawn
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
@@ -166,6 +169,25 @@ def test_a_list_is_pasted_or_dropped_and_a_bad_one_is_refused(arcade: Arcade, tm
     page.focus.move_to("0")
     arcade.press(Button.X)
     assert page.draft.entrants[0].name == "Bea"
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "words"),
+    [
+        ("Ana\nMaria da Conceição\n", "bad_name", {"line": 2, "text": "Maria da Conceição"}),
+        ("Ana\nAna\n", "taken", {"name": "Ana"}),
+        ("Ana\nBea,level1,Red,x\n", "bad_line", {"line": 2, "text": "Bea,level1,Red,x"}),
+        ("\n".join(f"N{i}" for i in range(500)), "full", {"most": 64}),
+        ("Ana\nBea=level9\n", "bad_ai", {}),
+    ],
+)
+def test_a_list_is_refused_as_a_whole_with_the_line_and_the_reason(
+    arcade: Arcade, text: str, key: str, words: dict[str, object]
+) -> None:
+    page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
+    page.add_list(text)
+    assert page.draft.entrants == []
+    assert page.navigation.sentence == arcade.context.words(f"events.{key}", **words)
 
 
 def test_the_clipboard_may_be_empty(arcade: Arcade) -> None:
@@ -333,6 +355,27 @@ def test_absent_people_are_skipped_or_replaced_and_may_come_back(arcade: Arcade)
     assert saved(run).entrants == run.event.spec.entrants
 
 
+@pytest.mark.parametrize("late", [False, True])
+def test_whoever_is_back_takes_a_seat_even_if_ais_have_all_of_them(arcade: Arcade, late: bool) -> None:
+    """Of people who are in the list from the beginning, and of late ones."""
+    event = an_event(Format.ROUND_ROBIN, brains="level1" if late else "")
+    event = event.add(Entrant("EVA")).add(Entrant("IDA")) if late else event
+    while late and {*event.open[0].entrants} != {"EVA", "IDA"}:
+        event = event.postpone(event.open[0].number)
+    run = running(event)
+    page = at_next(arcade, run)
+    arcade.press(Button.Y)
+    fixture = page.fixture
+    assert fixture
+    assert run.without_people(fixture)
+    arcade.shown(NextMatch)
+    arcade.press(Button.FIRE, KEYS[2])
+    assert page.seats.claims == {0: KEYS[2]}
+    assert (run.brain(fixture.entrants[0]), run.brain(fixture.entrants[1])) == ("", "level3")
+    assert saved(run) == run.event
+    arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
+
+
 def test_a_late_entrant_joins_before_round_two_only(arcade: Arcade) -> None:
     run = running(an_event())
     at_next(arcade, run)
@@ -462,6 +505,11 @@ def test_two_processes_on_one_event_lose_and_double_nothing(arcade: Arcade) -> N
     assert sorted(saved(run).outcomes) == [1, second.number]
     arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
     arcade.wait(INPUT_LOCKOUT + 0.1)
+    third = run.event.open[0]
+    assert other.change(lambda event: event.record(result_of(third)))
+    arcade.press(Button.FIRE)
+    assert arcade.shown(NextMatch).message == "events.elsewhere"
+    assert run.event == other.event, "nobody plays a match that has a result"
     arcade.press(Button.FIRE)
     third = run.event.open[0]
     assert other.change(lambda event: event.record(result_of(third)))
@@ -516,6 +564,19 @@ def test_every_page_survives_every_press(arcade: Arcade) -> None:
                 at = (960.0, 240.0) if device.kind == "mouse" else None
                 scene.handle(InputEvent(button, device, at=at))
                 scene.update(0.1)
+
+
+def test_an_event_of_a_game_that_was_removed_is_shown_and_plays_nothing(arcade: Arcade) -> None:
+    event = Event(replace(an_event(brains="fsm").spec, games=("gone_game",)))
+    page = at_next(arcade, running(event))
+    assert page.fixture
+    assert page._what(page.fixture) == "Gone Game"
+    page.draw(arcade.screen)
+    assert drawn(event, arcade.context.words)
+    for button in (Button.FIRE, Button.START, Button.Y):
+        arcade.press(button)
+        arcade.wait(0.5, draw=True)
+    assert not running(event).event.outcomes
 
 
 @pytest.mark.long

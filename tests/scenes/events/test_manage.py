@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.events import event_files
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.choice import EventsPage
-from pigaming_app.scenes.events.manage.corrections import MAX_NOTE, NOTES, Correction
+from pigaming_app.scenes.events.manage.corrections import MAX_NOTE, NOTES, Correction, ResultsList
 from pigaming_app.scenes.events.manage.event_page import DELETE, HOLD, HOLD_IN_KIOSK, RENAME, WITHDRAW, EventPage
 from pigaming_app.scenes.events.manage.text_page import ALPHABET, INPUT_LOCKOUT, TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
@@ -229,3 +229,23 @@ def test_a_correction_has_a_reason_in_own_words(arcade: Arcade) -> None:
     arcade.press(Button.LEFT)
     arcade.press(Button.START)
     assert saved(run).outcomes[1].note == "Cable torn"
+
+
+def test_in_a_kiosk_visitors_read_the_results_but_do_not_change_them(arcade: Arcade) -> None:
+    arcade.context.kiosk = True
+    run = running(played(an_event(), 2))
+    arcade.open(ResultsList(arcade.context, run))
+    hold(arcade, "SPACE", HOLD_IN_KIOSK - 0.5)
+    assert arcade.shown(ResultsList).navigation.sentence == arcade.context.words("events.hold")
+    hold(arcade, "SPACE", HOLD_IN_KIOSK + 0.2)
+    assert arcade.shown(Correction).fixture == run.event.fixtures[1]
+
+
+def test_in_a_kiosk_visitors_do_not_change_the_title(arcade: Arcade) -> None:
+    arcade.context.kiosk = True
+    run = running(an_event())
+    managed(arcade, run, RENAME)
+    hold(arcade, "SPACE", HOLD_IN_KIOSK - 0.5)
+    arcade.shown(EventPage)
+    hold(arcade, "SPACE", HOLD_IN_KIOSK + 0.2)
+    arcade.shown(TextPage)

@@ -12,6 +12,7 @@ from pigaming_app.games import engine_hash
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
+from pigaming_app.scenes.flow import preload
 from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import Seats
@@ -70,6 +71,41 @@ def test_a_failing_preload_does_not_block_matches(monkeypatch: pytest.MonkeyPatc
     preloader.start()
     until(lambda: not preloader.busy)
     assert preloader.ready("race", "classic")
+
+
+@pytest.mark.parametrize("error", [KeyError, SystemExit])
+def test_a_game_that_fails_does_not_keep_the_others_waiting(
+    prepared: list[tuple[str, str]], monkeypatch: pytest.MonkeyPatch, error: type[BaseException]
+) -> None:
+    def prepare(game: str, name: str) -> None:
+        if game == "factory":
+            raise error("a start")
+        prepared.append((game, name))
+
+    monkeypatch.setattr(arena_jobs, "prepare", prepare)
+    preloader, after = Preloader(), list[int]()
+    preloader.on_done = lambda: after.append(1)
+    preloader.start()
+    until(lambda: not preloader.busy)
+    assert {"pitanks", "race"} <= {game for game, _ in prepared}
+    assert after
+
+
+def test_a_game_that_never_starts_does_not_keep_the_others_waiting(
+    prepared: list[tuple[str, str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def prepare(game: str, name: str) -> None:
+        while game == "pitanks":
+            pass
+        prepared.append((game, name))
+
+    monkeypatch.setattr(preload, "LOADING", 0.02)
+    monkeypatch.setattr(arena_jobs, "every_arena", lambda: [("pitanks", "classic"), ("race", "classic")])
+    monkeypatch.setattr(arena_jobs, "prepare", prepare)
+    preloader = Preloader()
+    preloader.start()
+    until(lambda: not preloader.busy)
+    assert prepared == [("race", "classic")]
 
 
 def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, home: Path) -> None:

@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import time
 from collections.abc import AsyncIterator, Iterator
-from contextlib import asynccontextmanager, contextmanager
+from contextlib import asynccontextmanager, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +20,9 @@ OPTIONS = (
     "--disable-component-update", "--disable-default-apps", "--disable-breakpad",
     "--disable-background-timer-throttling", "--disable-renderer-backgrounding",
 )  # fmt: skip
-START_SECONDS = 30.0
+LONG = 60.0  # s, for whatever must come: the machine may be busy
 LANDSCAPE, PORTRAIT = (844, 390), (390, 844)
+AS_AN_IPHONE = "navigator.vibrate = Element.prototype.requestFullscreen = undefined;"
 WATCH_VIBRATION = "window.shaken = []; navigator.vibrate = (ms) => { window.shaken.push(ms); return true; };"
 
 
@@ -46,7 +47,7 @@ class Browser:
         self._answers[number] = answer = asyncio.get_running_loop().create_future()
         message: dict[str, Any] = {"id": number, "method": method, "params": parameters}
         await self._socket.send_json(message | ({"sessionId": session} if session else {}))
-        async with asyncio.timeout(20.0):
+        async with asyncio.timeout(LONG):
             return await answer
 
     async def listen(self) -> None:
@@ -72,12 +73,10 @@ class Browser:
         page = Page(self, attached["sessionId"], size)
         for domain in ("Page", "Runtime", "Log"):
             await page.ask(f"{domain}.enable")
-        await page.ask(
-            "Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1, mobile=True
-        )
+        await page.resize(*size)
         await page.ask("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         await page.ask("Emulation.setFocusEmulationEnabled", enabled=True)
-        source = WATCH_VIBRATION if vibrates else "navigator.vibrate = undefined;"
+        source = WATCH_VIBRATION if vibrates else AS_AN_IPHONE
         await page.ask("Page.addScriptToEvaluateOnNewDocument", source=source)
         await page.ask("Page.navigate", url=url)
         return page
@@ -88,10 +87,16 @@ class Page:
 
     def __init__(self, browser: Browser, session: str, size: tuple[int, int]) -> None:
         self.browser, self.session, self.size = browser, session, size
-        self._fingers: dict[int, tuple[float, float]] = {}
+        self.fingers: dict[int, tuple[float, float]] = {}
 
     async def ask(self, method: str, **parameters: Any) -> Any:
         return await self.browser.ask(method, self.session, **parameters)
+
+    async def resize(self, width: int, height: int) -> None:
+        """Set the size of the screen, px."""
+        await self.ask(
+            "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=True
+        )
 
     async def value(self, expression: str) -> Any:
         """The value of an expression in the page."""
@@ -99,12 +104,16 @@ class Page:
         assert "exceptionDetails" not in answer, answer
         return answer["result"].get("value")
 
-    async def until(self, expression: str, seconds: float = 10.0) -> None:
+    async def until(self, expression: str) -> None:
         """Wait until an expression is true in the page, which may still be loading."""
-        expression = f"(() => {{ try {{ return {expression}; }} catch (error) {{ return false; }} }})()"
-        async with asyncio.timeout(seconds):
-            while not await self.value(expression):
-                await asyncio.sleep(0.03)
+        guarded = f"(() => {{ try {{ return {expression}; }} catch (error) {{ return false; }} }})()"
+        end = time.monotonic() + LONG
+        while True:
+            with suppress(RuntimeError):  # while it is being replaced by another page
+                if await self.value(guarded):
+                    return
+            assert time.monotonic() < end, f"not so in the page: {expression}"
+            await asyncio.sleep(0.03)
 
     async def middle(self, name: str) -> tuple[float, float]:
         """The middle of an element, px."""
@@ -116,12 +125,12 @@ class Page:
 
     async def touch(self, finger: int, x: float, y: float) -> None:
         """Put a finger down, or move it."""
-        kind = "touchMove" if finger in self._fingers else "touchStart"
-        self._fingers[finger] = (x, y)
-        await self._dispatch(kind, self._fingers)
+        kind = "touchMove" if finger in self.fingers else "touchStart"
+        self.fingers[finger] = (x, y)
+        await self._dispatch(kind, self.fingers)
 
     async def lift(self, finger: int) -> None:
-        await self._dispatch("touchEnd", {finger: self._fingers.pop(finger)})
+        await self._dispatch("touchEnd", {finger: self.fingers.pop(finger)})
 
     async def tap(self, name: str) -> None:
         """Touch an element for a moment."""
@@ -172,7 +181,7 @@ async def browsing(address: str) -> AsyncIterator[Browser]:
 
 def _address(process: subprocess.Popen[bytes], port_file: Path) -> str:
     """From the file that Chromium writes when it listens: the port, and the path of its socket."""
-    end = time.monotonic() + START_SECONDS
+    end = time.monotonic() + LONG
     while time.monotonic() < end and process.poll() is None:
         lines = port_file.read_text().split() if port_file.exists() else []
         if len(lines) == 2:

@@ -2,7 +2,9 @@
 
 from collections.abc import Hashable, Sequence
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pygame
 import pytest
 
@@ -14,6 +16,7 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.snapshot import sides, snapshot
 from pigaming_app.scenes.scoreboard import text
 from pigaming_app.scenes.scoreboard.board import SIZE, Board, fit
+from pigaming_app.scenes.scoreboard.camera_page import CameraPage
 from pigaming_app.scenes.scoreboard.pages import complete
 from pigaming_app.scenes.scoreboard.score_page import ScorePage, match_parts
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage, best_today
@@ -95,6 +98,24 @@ def test_it_fits_any_window_undistorted(size: tuple[int, int]) -> None:
     if area.w > 100:  # smoothly scaled
         assert target.get_at((area.x + area.w * 145 // 1920, area.y + area.h * 45 // 1080))[:3] >= (250, 250, 250)
         assert target.get_at((area.x + area.w // 2, area.y + area.h // 2))[:3] == (0, 0, 0)
+
+
+class Filmed:
+    """A scene with a camera."""
+
+    camera_image: Any = None
+
+
+def test_every_new_picture_of_the_camera_is_painted() -> None:
+    scene, board, target = Filmed(), Board([CameraPage()]), pygame.Surface(SIZE)
+    board.refresh("camera", [scene])
+    assert board.page == "", "without a picture it gives way"
+    for level in range(40, 240, 10):
+        for _ in range(8):  # the second screen looks at every eighth or so
+            scene.camera_image = np.full((540, 960), level, np.uint8)
+        painted(board, target, "camera", [scene])
+        assert target.get_at((960, 540))[0] == level
+    assert not board.refresh("camera", [scene])
 
 
 # ---- the match

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -106,6 +107,37 @@ def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, o
 
 
 @pytest.mark.parametrize(
+    ("brains", "reason"),
+    [
+        ("{}", "kinds: level1, level2, level3, level4, level5 missing"),
+        ('KINDS | {"net": think}', "kinds: net is no BrainKind"),
+        ('KINDS, rivals=("level1", "net")', "rivals: not all of level1, net are in kinds"),
+        ('KINDS, driving={"fly": 1}', "driving: no set of styles: fly"),
+    ],
+)
+def test_brains_that_the_lobby_could_not_offer(tag: Path, brains: str, reason: str) -> None:
+    file = tag / "ai.py"
+    before, _, _ = file.read_text().partition("AI = ")
+    kinds = 'every_level(BrainKind("collector", Mind, think, reset))'
+    file.write_text(f"{before}AI = GameAI({brains.replace('KINDS', kinds)})\n")
+    ended = python("from pigaming_app.ai.registry import AIS; print(*AIS['tag'].kinds)")
+    assert ended.stdout.split() == ["level1", "level2", "level3", "level4", "level5"], "random ones"
+    assert f"is left out: ai.py, line 34: ValueError: {reason}" in ended.stderr
+    assert ended.stderr.count("\n") == 1
+
+
+def test_a_brain_that_the_lobby_offers_has_a_name(tag: Path) -> None:
+    file = tag / "ai.py"
+    kinds = 'every_level(BrainKind("collector", Mind, think, reset))'
+    file.write_text(
+        file.read_text().replace(kinds, f'{kinds} | {{"ace": BrainKind("ace", Mind, think, reset)}}, ("ace",)')
+    )
+    ended = python("from pigaming_app.scenes.views.registry import shown_games; print(*shown_games())")
+    assert "tag" not in ended.stdout.split()
+    assert "is left out: text/en.toml lacks lobby.ace, match.ace." in ended.stderr
+
+
+@pytest.mark.parametrize(
     ("file", "old", "new", "reason"),
     [
         ("screens.py", "SCREENS = ", "SCREENS = 1 or ", "SCREENS is no GameScreens"),
@@ -125,6 +157,8 @@ def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, o
             '"{n} wins."',
             "text/en.toml: rules.tag_standard: no value has the name n",
         ),
+        ("text/en.toml", '= "Tag"', '= "Ta\\u0000g"', "text/en.toml: games.tag: more than 500 letters, or a control"),
+        ("text/en.toml", '= "Tag"', f'= "{"Tag" * 200}"', "text/en.toml: games.tag: more than 500 letters"),
         ("text/en.toml", "[howto]", "[howto]\npress = 5", ""),
     ],
 )
@@ -149,6 +183,15 @@ def test_a_translation_has_the_values_of_the_english_text(tag: Path) -> None:
     assert ended.stderr == LEFT_OUT.format(folder=tag, reason=f"{reason}.")
 
 
+def test_of_two_texts_with_one_key_the_first_counts(tag: Path) -> None:
+    write(user_folder() / "zap", "zap")
+    switch("zap", True)
+    other = user_folder() / "zap" / "text" / "en.toml"
+    other.write_text(other.read_text().replace("[games]", '[games]\ntag = "Zapped"'))
+    code = "from pigaming_app.ui.i18n import Words; w = Words('en'); print(w('games.tag'), w('games.zap'))"
+    assert python(code).stdout == "Tag Zap\n"
+
+
 @pytest.mark.parametrize("file", ["__init__.py", "ai.py"])
 def test_an_import_that_does_not_end_is_ended(tag: Path, file: str) -> None:
     source = tag / file
@@ -163,6 +206,23 @@ def test_an_import_that_does_not_end_is_ended(tag: Path, file: str) -> None:
     assert f"The game tag in {tag} is left out: {file}, line " in ended.stderr
     assert "TimeoutError: not done after 0.3 s." in ended.stderr
     assert ended.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "reason"),
+    [
+        ("robot.score += 1", "robot.score += 0.5", r"Tag\.robots\[\d\]\.score is \d+\.\d, no whole number\."),
+        ("steer(match, k, 1.0)", "steer(match, k, 1e999 * 0)", r"Tag\.robots\[\d\]\.x is nan, no number\."),
+        ("match.tick += 1", "raise SystemExit(0)", r"rules\.py, line \d+: SystemExit: 0\."),
+    ],
+)
+def test_wrong_numbers_are_named_and_an_exit_is_a_failure(tag: Path, before: str, after: str, reason: str) -> None:
+    rules = tag / "rules.py"
+    assert before in rules.read_text()
+    rules.write_text(rules.read_text().replace(before, after))
+    ended = program("play", "tag", "--headless", "--speed", "max", "--minutes", "0.5", "--seats", "hard,hard")
+    assert ended.returncode == 1
+    assert re.fullmatch(rf"PiGaming: The game tag in \S+ is left out: {reason}\n", ended.stderr)
 
 
 @pytest.mark.parametrize(
@@ -252,6 +312,20 @@ def test_only_a_plug_ins_own_replays_depend_on_its_rules(tag: Path) -> None:
     assert after[1] != before[1]
 
 
+def test_a_replay_names_a_game_that_is_not_here_and_rules_that_are_others(tag: Path, tmp_path: Path) -> None:
+    words = ["play", "tag", "--headless", "--speed", "max", "--minutes", "0.1", "--seats", "hard,easy"]
+    assert program(*words, "--record", str(tmp_path / "one.replay")).returncode == 0
+    replay = program("replay", str(tmp_path / "one.replay"), "--verify")
+    assert (replay.returncode, replay.stderr) == (0, "")
+    rules = tag / "rules.py"
+    rules.write_text(rules.read_text().replace("REACH = 60.0", "REACH = 90.0"))
+    assert "another version of the engine" in program("replay", str(tmp_path / "one.replay"), "--verify").stderr
+    assert program("games", "off", "tag").returncode == 0
+    replay = program("replay", str(tmp_path / "one.replay"), "--verify")
+    reason = f"one.replay: the game tag in {tag} is switched off: main.py games on tag"
+    assert (replay.returncode, replay.stderr) == (2, f"PiGaming: {reason}\n")
+
+
 @pytest.mark.parametrize("text", ["", "[]", "{", '{"tag": 1}', '{"../tag": true}', "\x00"])
 def test_damaged_decisions_switch_nothing_on(home: Path, text: str) -> None:
     file = home / "config" / consent.FILE
@@ -259,6 +333,21 @@ def test_damaged_decisions_switch_nothing_on(home: Path, text: str) -> None:
     file.write_text(text)
     assert is_on(Plugin("tag", "tag", home)) is None
     assert is_on(Plugin("football", "pigaming_football", home, own=True)) is True
+
+
+def test_a_new_game_may_have_a_name_that_its_files_use(home: Path) -> None:
+    names = ["any", "game", "mind", "new_game_2", "none", "rules", "setup", "world"]
+    for name in names:
+        write(user_folder() / name, name)
+        switch(name, True)
+    ended = python(
+        "from pigaming_app.ai.registry import AIS\nfrom pigaming_app.scenes.views.registry import shown_games\n"
+        "from pigaming_app.games.registry import games\nfrom pigaming_app.games.game import Seat, Setup\n"
+        "from pigaming_app.ai.registry import new_match\nseats = tuple(Seat('hard', k) for k in range(4))\n"
+        f"for name in {names}: new_match(Setup(name, 'classic', seats, 1.0, 1, 'standard')).tick()\n"
+        "print(*shown_games())"
+    )
+    assert (ended.stdout.split()[-len(names) :], ended.stderr) == (names, "")
 
 
 @pytest.mark.parametrize("name", ["Tag", "2", "a-b", "x" * 25, "", "../x", "pitanks"])

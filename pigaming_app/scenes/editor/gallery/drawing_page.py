@@ -28,7 +28,7 @@ IDLE, STAY, CONFIRM_SECONDS = 90.0, 6.0, 3.0  # s
 FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 ROW_X, ROW_W = span(8, 4)
 ROW_H, PITCH = 96, 114  # px
-SIGNS = {"edit": "pencil", "play": "play", "rename": "list", "share": "share", "delete": "delete"}
+SIGNS = {"edit": "pencil", "play": "play", "rename": "rename", "share": "share", "delete": "delete"}
 SENTENCE_Y = 906
 
 

@@ -41,6 +41,7 @@ from pigaming_app.scenes.editor.model.shapes import (
     inside,
     part_of,
     point_of,
+    square,
     whole,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
@@ -63,6 +64,7 @@ from pigaming_app.ui.draw import FOCUS, LINE, Point, cut_box
 LONG = SHELF * (SHELVES - 1)  # px from the first to the last slot of a warehouse
 HALF, AROUND = 54.0, 56.0  # px, half the width of a warehouse; from its outer slots to its outline
 SLOT = 34.0  # px, half a slot
+EDGE = 36.0  # px between slots, or people, and the rim
 LEAST = 100  # px, of an aisle
 BESIDE = 76.0  # px from a warehouse to the arrows that say in or out
 WORDS = tuple(WAYS)
@@ -87,10 +89,9 @@ class Warehouse(Shape):
             px, py = x + inwards * BESIDE, y + LONG / 2 + 34 * i
             ink.line([(px - 8 * way, py - 11), (px + 6 * way, py), (px - 8 * way, py + 11)], COLORS[team], LINE)
 
-    def moved(self, part: Part, dx: float, dy: float) -> Part:
+    def reach(self, part: Part) -> Sequence[Point]:
         x, y = point_of(part, "at")
-        dx, dy = inside([(x - SLOT, y - SLOT), (x + SLOT, y + LONG + 36)], dx, dy)
-        return part.changed("at", whole(x + dx, y + dy))
+        return *square(x, y, EDGE), *square(x, y + LONG, EDGE)
 
     def image(self, part: Part, image: Image) -> Part:
         x, y = point_of(part, "at")
@@ -119,10 +120,10 @@ class Machine(Shape):
         draw_work_place((ink, ink), _slots(part), spec)
         ink.ring(spec.spot_x, spec.spot_y, 14, FOCUS, 5)
 
-    def moved(self, part: Part, dx: float, dy: float) -> Part:
-        x, y = point_of(part, "at")
-        dx, dy = inside([(x, y)], dx, dy, BODY)
-        return part.changed("at", whole(x + dx, y + dy))
+    def reach(self, part: Part) -> Sequence[Point]:
+        spec = _spec(part)
+        corners = [corner for slot in _slots(part) for corner in square(slot.x, slot.y, EDGE)]
+        return *corners, *square(spec.spot_x, spec.spot_y, EDGE)
 
     def image(self, part: Part, image: Image) -> Part:
         part = super().image(part, image)
@@ -131,11 +132,17 @@ class Machine(Shape):
         return part
 
     def dials(self, part: Part) -> Sequence[Dial]:
-        return Dial("turn", lambda part: "", _turned), Dial("worker", lambda part: "", _swapped)
+        return (
+            Dial("turn", lambda part: self.moved(_turned(part), 0.0, 0.0)),  # back into the arena
+            Dial("worker", lambda part: self.moved(_swapped(part), 0.0, 0.0)),
+        )
 
 
 class Worker(Shape):
     """The resting place of a worker."""
+
+    def reach(self, part: Part) -> Sequence[Point]:
+        return square(*point_of(part, "at"), EDGE)
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
         x, y = point_of(part, "at")
@@ -149,6 +156,9 @@ class Shared(Shape):
     """A slot for both teams."""
 
     fixed = False
+
+    def reach(self, part: Part) -> Sequence[Point]:
+        return square(*point_of(part, "at"), EDGE)
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
         x, y = point_of(part, "at")
@@ -174,8 +184,11 @@ class Aisle(Shape):
         ink = paper.flat()
         draw_aisle((ink, ink), _box(part), walkers=False)
 
+    def reach(self, part: Part) -> Sequence[Point]:
+        return self.grips(part)
+
     def moved(self, part: Part, dx: float, dy: float) -> Part:
-        dx, dy = inside(self.grips(part), dx, dy)
+        dx, dy = inside(self.reach(part), dx, dy)
         x, y, _, _ = _box(part)
         return part.changed("at", whole(x + dx, y + dy))
 

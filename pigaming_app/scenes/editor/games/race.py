@@ -38,7 +38,7 @@ from pigaming_app.scenes.views.things.styles import ROAD
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ALARM, BLACK, FOCUS, ICE, Point, dim, regular_polygon
+from pigaming_app.ui.draw import ALARM, BLACK, ICE, Point, dim, regular_polygon
 from pigaming_app.ui.draw.frame_budget import Steps
 
 WIDE, WIDTHS = 180, (150, 180, 210, 250, 300)  # px, of the course
@@ -87,15 +87,15 @@ class ControlPoint(Shape):
     def draw(self, paper: Paper, part: Part, k: int) -> None:
         x, y = point_of(part, "at")
         diamond = regular_polygon(4, KNOB, 0.0, x, y)
-        paper.flat().solid(diamond).neon(diamond, FOCUS, 4, True)
+        paper.flat().solid(diamond).neon(diamond, ICE, 4, True)  # yellow if it is selected
         if not k:
-            paper.flat().disc(x, y, 6, FOCUS)
+            paper.flat().disc(x, y, 6, ICE)
 
     def same(self, part: Part, other: Part) -> bool:
         return apart(point_of(part, "at"), point_of(other, "at")) < 2.0
 
     def dials(self, part: Part) -> Sequence[Dial]:
-        return (Dial("thick", lambda part: str(round(number_of(part, "width", WIDE) - 120)), _wider),)
+        return (Dial("thick", _wider, lambda part: str(round(number_of(part, "width", WIDE) - 120))),)
 
 
 class StartLine(Shape):

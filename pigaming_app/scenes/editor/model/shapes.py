@@ -55,11 +55,11 @@ class Item(NamedTuple):
 
 @dataclass(frozen=True)
 class Dial:
-    """A property that a press changes to its next value. `read`: the value to show, as a text or a picture's name."""
+    """A property that a press changes to its next value. `read`: the value that its picture shows, if it shows one."""
 
     icon: str
-    read: Callable[[Part], str]
     turned: Callable[[Part], Part]
+    read: Callable[[Part], str] = lambda part: ""
 
 
 class Shape:
@@ -82,9 +82,15 @@ class Shape:
         """Draw the k-th of its kind."""
         raise NotImplementedError
 
+    def reach(self, part: Part) -> Sequence[Point]:
+        """Points that stay within the arena wherever the part is moved."""
+        return (point_of(part, "at"),)
+
     def moved(self, part: Part, dx: float, dy: float) -> Part:
         """The part elsewhere, but within the arena."""
-        return _at(part, "at", dx, dy)
+        x, y = point_of(part, "at")
+        dx, dy = inside(self.reach(part), dx, dy)
+        return part.changed("at", whole(x + dx, y + dy))
 
     def pulled(self, part: Part, grip: int, x: float, y: float) -> Part:
         """The part with one of its grips at (x, y)."""
@@ -200,12 +206,15 @@ def whole(x: float, y: float) -> tuple[int, int]:
     return round(min(max(x, 0.0), WIDTH)), round(min(max(y, 0.0), HEIGHT))
 
 
-def inside(points: Sequence[Point], dx: float, dy: float, margin: float = 0.0) -> Point:
+def inside(points: Sequence[Point], dx: float, dy: float) -> Point:
     """The displacement nearest to (dx, dy) that leaves all points within the arena."""
     xs, ys = [x for x, _ in points], [y for _, y in points]
-    dx = min(max(dx, margin - min(xs)), WIDTH - margin - max(xs))
-    dy = min(max(dy, margin - min(ys)), HEIGHT - margin - max(ys))
-    return dx, dy
+    return min(max(dx, -min(xs)), WIDTH - max(xs)), min(max(dy, -min(ys)), HEIGHT - max(ys))
+
+
+def square(x: float, y: float, half: float) -> tuple[Point, Point]:
+    """Two opposite corners of a square about (x, y)."""
+    return (x - half, y - half), (x + half, y + half)
 
 
 def following(values: Sequence[float], value: float) -> float:
@@ -215,9 +224,3 @@ def following(values: Sequence[float], value: float) -> float:
 
 def apart(a: Point, b: Point) -> float:
     return hypot(a[0] - b[0], a[1] - b[1])
-
-
-def _at(part: Part, key: str, dx: float, dy: float) -> Part:
-    x, y = point_of(part, key)
-    dx, dy = inside([(x, y)], dx, dy)
-    return part.changed(key, whole(x + dx, y + dy))

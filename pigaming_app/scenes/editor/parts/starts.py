@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import atan2, cos, degrees, radians, sin
 
 from pigaming_app.games.drawing.values import Part
-from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape, inside, number_of, point_of, whole
+from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape, number_of, point_of, square
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.sim.robot import RADIUS
@@ -32,10 +32,8 @@ class Start(Shape):
         (x, y), _ = self.grips(part)
         robot(paper.ink, k % len(PLAYERS), *paper.at(x, y), radians(number_of(part, "heading", 0.0)), paper.scale)
 
-    def moved(self, part: Part, dx: float, dy: float) -> Part:
-        x, y = point_of(part, "at")
-        dx, dy = inside([(x, y)], dx, dy, RADIUS)
-        return part.changed("at", whole(x + dx, y + dy))
+    def reach(self, part: Part) -> Sequence[Point]:
+        return square(*point_of(part, "at"), RADIUS)
 
     def pulled(self, part: Part, grip: int, x: float, y: float) -> Part:
         ax, ay = point_of(part, "at")
@@ -49,7 +47,7 @@ class Start(Shape):
         return super().image(part, image).changed("heading", round(heading) % 360)
 
     def dials(self, part: Part) -> Sequence[Dial]:
-        return (Dial("turn", lambda part: "", _turned),)
+        return (Dial("turn", _turned),)
 
 
 def _turned(part: Part) -> Part:

@@ -48,9 +48,11 @@ class Thing(Shape):
         use = next((use for use in Use if use == part.get("use")), Use.MUD)
         draw(paper.flat(), self.style, use, _corners(part), number_of(part, "margin", 0.0, 0.0, MAX_MARGIN))
 
+    def reach(self, part: Part) -> Sequence[Point]:
+        return self.grips(part)[:1]
+
     def moved(self, part: Part, dx: float, dy: float) -> Part:
-        x, y, _ = _round(part)
-        dx, dy = (round(by) for by in inside([(x, y)], dx, dy))
+        dx, dy = (round(by) for by in inside(self.reach(part), dx, dy))
         return part.changed("outline", tuple((px + dx, py + dy) for px, py in _corners(part)))
 
     def pulled(self, part: Part, grip: int, x: float, y: float) -> Part:
@@ -69,13 +71,13 @@ class Thing(Shape):
         return len(a) == len(b) and all(apart(p, q) < 2.0 for p, q in zip(a, b, strict=True))
 
     def dials(self, part: Part) -> Sequence[Dial]:
-        return (Dial("size", lambda part: "", lambda part: _sized(part, following(RADII, _round(part)[2]))),)
+        return (Dial("size", lambda part: _sized(part, following(RADII, _round(part)[2]))),)
 
 
 def patch(a: Point, b: Point) -> Part:
     """A patch round a, up to b."""
     far = apart(a, b)
-    return part_of("thing", use="mud", outline=_outline(*a, far if far > RADII[0] else RADIUS))
+    return part_of("thing", use="mud", outline=_outline(*a, min(far, RADII[-1]) if far > RADII[0] else RADIUS))
 
 
 MUD = Tool("mud", "thing", patch, MOST)

@@ -56,8 +56,11 @@ class Wall(Shape):
         ink = paper.turned((ax + bx) / 2, (ay + by) / 2, atan2(by - ay, bx - ax))
         draw_wall(ink, hypot(bx - ax, by - ay) + thick - 4, thick - 4, health, int(ax * 7 + ay * 13 + bx), abs(health))
 
+    def reach(self, part: Part) -> Sequence[Point]:
+        return self.grips(part)
+
     def moved(self, part: Part, dx: float, dy: float) -> Part:
-        dx, dy = inside(self.grips(part), dx, dy)
+        dx, dy = inside(self.reach(part), dx, dy)
         (ax, ay), (bx, by) = self.grips(part)
         return part.changed("from", whole(ax + dx, ay + dy)).changed("to", whole(bx + dx, by + dy))
 
@@ -75,10 +78,10 @@ class Wall(Shape):
 
     def dials(self, part: Part) -> Sequence[Dial]:
         dials = [
-            Dial("turn", lambda part: "", self.turned),
-            Dial("thick", lambda part: str(round(_thick(part))), _thicker),
+            Dial("turn", self.turned),
+            Dial("thick", _thicker, lambda part: str(round(_thick(part)))),
         ]
-        return [*dials, Dial("health", lambda part: str(self.health(part)), _weaker)] if self.healthy else dials
+        return [*dials, Dial("health", _weaker, lambda part: str(self.health(part)))] if self.healthy else dials
 
     def health(self, part: Part) -> int:
         """Bullets it takes; SOLID: any number."""

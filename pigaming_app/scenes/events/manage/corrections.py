@@ -1,4 +1,7 @@
-"""The results of an event, newest first, and the correction of one of them with a note."""
+"""The results of an event, newest first, and the correction of one of them with a note.
+
+In a kiosk the button is held until a correction opens: visitors can read the results.
+"""
 
 import logging
 
@@ -6,6 +9,7 @@ import pygame
 
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import WALKOVER, Fixture, Outcome
+from pigaming_app.scenes.events.manage.event_page import HOLD_IN_KIOSK
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.running import RunningEvent, stage_name
 from pigaming_app.scenes.flow.context import Context
@@ -17,6 +21,7 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
@@ -46,7 +51,8 @@ class ResultsList:
             (Button.RIGHT, "events.hint_page"),
             (Button.BACK, "events.hint_back"),
         ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, HOLD_IN_KIOSK)
+        self.holding = HoldTimers(context.controls, HOLD_IN_KIOSK)
         self._show()
 
     def prewarm(self, milliseconds: float) -> bool:
@@ -68,15 +74,24 @@ class ResultsList:
             return None
         if event.button is Button.Y and self.shown:
             return self._watch(self.shown[int(self.focus.name)])
-        chosen = self.focus.activated(event)
+        before, chosen = self.focus.name, self.focus.activated(event)
         if chosen is None or not self.shown:
-            return self.navigation.handle(event)
-        self.context.sounds.play("accept")
-        return Push(Correction(self.context, self.running, self.shown[int(chosen)]))
+            turn = self.navigation.handle(event)
+            if self.focus.name != before:
+                self.holding.clear()
+            return turn
+        if not self.context.kiosk:
+            return self._correct(chosen)
+        self.context.sounds.play("move")
+        self.navigation.show_message(self.context.words("events.hold"))
+        self.holding.begin(event)
+        return None
 
     def update(self, seconds: float) -> StackOperation:
-        """Animate; return to the table when idle."""
+        """Animate; open a correction once the button has been held long enough; return to the table when idle."""
         self.navigation.update(seconds)
+        if self.holding.update(seconds):
+            return self._correct(self.focus.name)
         return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -95,9 +110,16 @@ class ResultsList:
             result_row(where, line, noted, self.focus.name == str(i)).draw(screen, *row_box(i).topleft)
         if self.shown:
             self.focus.draw(screen)
-        self.navigation.prompts.draw(screen)
+        if self.navigation.sentence:
+            caption(self.navigation.sentence, FOCUS).draw(screen, 960, self.navigation.prompts.y)
+        else:
+            self.navigation.prompts.draw(screen)
 
     # ---- inside
+
+    def _correct(self, chosen: str) -> StackOperation:
+        self.context.sounds.play("accept")
+        return Push(Correction(self.context, self.running, self.shown[int(chosen)]))
 
     def _watch(self, fixture: Fixture) -> StackOperation:
         """Play a match of AIs again: it goes as before, and does not count."""
@@ -127,6 +149,7 @@ class ResultsList:
         return [by_number[number] for number in reversed(recorded)]
 
     def _show(self) -> None:
+        self.holding.clear()
         self.shown = self.played[self.page * ROWS : (self.page + 1) * ROWS]
         self.focus.set_spots([FocusSpot(str(i), row_box(i)) for i in range(max(1, len(self.shown)))])
 

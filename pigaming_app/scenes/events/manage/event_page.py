@@ -1,6 +1,6 @@
 """An event as its operator sees it: another title, an entrant who withdraws, the end of the event and its files.
 
-Whatever cannot be undone needs a button that is held, in a kiosk much longer.
+Whatever cannot be undone needs a button that is held; in a kiosk everything does, much longer.
 """
 
 import logging
@@ -93,7 +93,7 @@ class EventPage:
         """Animate; act once a button has been held long enough; leave when idle."""
         self.navigation.update(seconds)
         if self.holding.update(seconds):
-            return self._delete() if self.focus.name == DELETE else self._withdraw()
+            return {RENAME: self._open_title, DELETE: self._delete}.get(self.focus.name, self._withdraw)()
         return Pop() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -132,13 +132,17 @@ class EventPage:
         return 60 < across < setting_row.ROOM - 60
 
     def _activate(self, row: str, event: InputEvent) -> StackOperation:
-        if row == RENAME and self.running:
-            self.context.sounds.play("accept")
-            title = self.running.event.spec.title
-            return Push(TextPage(self.context, self.context.words("events.rename"), title, MAX_TITLE, self._rename))
+        if row == RENAME and not self.context.kiosk:
+            return self._open_title()
         self.context.sounds.play("move")
         self.holding.begin(event)
         return None
+
+    def _open_title(self) -> StackOperation:
+        assert self.running
+        self.context.sounds.play("accept")
+        title = self.running.event.spec.title
+        return Push(TextPage(self.context, self.context.words("events.rename"), title, MAX_TITLE, self._rename))
 
     def _rename(self, title: str) -> str:
         """Take another title; returns the sentence why not, or an empty one."""

@@ -11,9 +11,10 @@ import pygame
 
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.game_ai import LEVELS
-from pigaming_app.ai.registry import AIS, level_of
-from pigaming_app.events.entrant_lists import entrants_of_text
+from pigaming_app.ai.registry import AIS, find_brain, level_of
+from pigaming_app.events.entrant_lists import ListError, entrants_of_text, read_list
 from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
+from pigaming_app.games.setup import ChoiceError
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.format_pictures import row_picture
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
@@ -22,7 +23,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.lab.saved_robots import file_of, names
-from pigaming_app.storage.parsing import read_text
+from pigaming_app.storage.parsing import one_line
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
@@ -36,6 +37,7 @@ from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 IDLE = 180.0  # s without input before the return to the title
 MESSAGE_SECONDS = 4.0
 MAX_LIST = 100_000  # bytes of a dropped file
+MAX_SHOWN = 30  # characters of a line that is refused
 TEAMS = 4  # that can be chosen here
 COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 204  # px
 DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
@@ -131,9 +133,15 @@ class EntrantsPage:
         words, count = self.context.words, 0
         try:
             found = entrants_of_text(one_a_line(text))
-        except ValueError as error:
+            for entrant in found:
+                self._require_brain(entrant.brain)
+        except ListError as error:
             log.warning("list of entrants: %s", error)
-            self._refuse(words("events.unread"))
+            self._refuse(self._reason(error))
+            return
+        except ChoiceError as error:
+            log.warning("list of entrants: %s", error)
+            self._refuse(words("events.bad_ai"))
             return
         for entrant in found:
             name = HARMLESS if is_rude(entrant.name.upper()) else entrant.name
@@ -144,9 +152,24 @@ class EntrantsPage:
         else:
             self._refuse(words("events.no_names"))
 
+    def _require_brain(self, brain: str) -> None:
+        """Raises ChoiceError unless an AI plays all games of the event."""
+        for game in self.draft.games if brain else ():
+            find_brain(game, brain)
+
+    def _reason(self, error: ListError) -> str:
+        """Why a list cannot be taken."""
+        words = self.context.words
+        if error.full:
+            return words("events.full", most=MOST)
+        if error.taken:
+            return words("events.taken", name=error.taken)
+        key = "events.bad_name" if error.name else "events.bad_line"
+        return words(key, line=error.line, text=one_line(error.text, MAX_SHOWN))
+
     def _read(self, path: Path) -> None:
         try:
-            self.add_list(read_text(path, MAX_LIST))
+            self.add_list(read_list(path, MAX_LIST))
         except (OSError, ValueError) as error:
             log.warning("%s: %s", path.name, error)
             self._refuse(self.context.words("events.unread"))

@@ -4,7 +4,7 @@ import asyncio
 import secrets
 from collections import deque
 
-from aiohttp import WSMsgType, web
+from aiohttp import WSMessage, WSMsgType, web
 
 from pigaming_app.ui.input.phones import protocol
 from pigaming_app.ui.input.phones.protocol import Touches
@@ -12,6 +12,7 @@ from pigaming_app.ui.input.phones.refusals import RateMeter, Refusals
 from pigaming_app.ui.input.phones.registry import Phones
 
 SILENT_SECONDS = 1.5  # without a message, after which a phone counts as unplugged; a page sends at least five a second
+STALL_SECONDS = 0.05  # for messages that were waiting while this computer did nothing
 CLOSE_SECONDS = 0.3  # for the farewell; then the connection is cut
 MAX_TEXTS = 8  # waiting for a slow phone; older ones are dropped
 
@@ -60,7 +61,7 @@ class Connection:
         loop = asyncio.get_running_loop()
         while True:
             try:
-                message = await self.socket.receive(timeout=SILENT_SECONDS)
+                message = await self._next()
             except TimeoutError:
                 return protocol.CLOSED_SILENT
             if message.type in (WSMsgType.CLOSE, WSMsgType.CLOSING, WSMsgType.CLOSED) or self.replaced:
@@ -75,6 +76,13 @@ class Connection:
             if not self.phones.receive(self.number, touches):
                 self.refusals.note("phone dropped while the arcade was busy", self.peer)
                 return protocol.CLOSED_FLOOD
+
+    async def _next(self) -> WSMessage:
+        """The next message. Raises TimeoutError if the phone is silent, but not if this computer stalled meanwhile."""
+        try:
+            return await self.socket.receive(timeout=SILENT_SECONDS)
+        except TimeoutError:
+            return await self.socket.receive(timeout=STALL_SECONDS)
 
     async def _send_texts(self) -> None:
         while True:

@@ -12,6 +12,7 @@ from pigaming_app.ui.input.phones.protocol import Touches, pack
 from pigaming_app.ui.input.phones.registry import Phones
 from pigaming_app.ui.input.phones.server import PhoneServer
 
+LONG = 60.0  # s, for whatever must come: the machine may be busy
 TEXTS = {"page_old": "This code is old.", "page_fire": "fire </script>"}
 T = TypeVar("T")
 
@@ -27,12 +28,12 @@ class Phone:
 
     async def told(self) -> Any:
         """The next message of the arcade."""
-        return json.loads((await self.socket.receive(timeout=3.0)).data)
+        return json.loads((await self.socket.receive(timeout=LONG)).data)
 
     async def closed(self) -> int | None:
         """The code with which the arcade closes the socket; None if it is cut. Earlier messages are skipped."""
         while True:
-            message = await self.socket.receive(timeout=3.0)
+            message = await self.socket.receive(timeout=LONG)
             if message.type in (WSMsgType.CLOSE, WSMsgType.CLOSED, WSMsgType.CLOSING, WSMsgType.ERROR):
                 return self.socket.close_code
 
@@ -57,15 +58,15 @@ def play(story: Callable[[ClientSession], Awaitable[T]]) -> T:
     """Run a story of phones to its end."""
 
     async def run() -> T:
-        async with ClientSession() as session, asyncio.timeout(10.0):
+        async with ClientSession() as session, asyncio.timeout(2 * LONG):
             return await story(session)
 
     return asyncio.run(run())
 
 
-async def until(condition: Callable[[], Any], seconds: float = 3.0) -> None:
+async def until(condition: Callable[[], Any]) -> None:
     """Wait until the server's thread has done its part."""
-    async with asyncio.timeout(seconds):
+    async with asyncio.timeout(LONG):
         while not condition():
             await asyncio.sleep(0.005)
 

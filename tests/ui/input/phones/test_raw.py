@@ -15,11 +15,11 @@ import pytest
 from aiohttp import ClientSession
 
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Button, Device, StickState
-from pigaming_app.ui.input.phones import protocol
+from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.input.phones import connection, protocol, refusals
 from pigaming_app.ui.input.phones import server as servers
 from pigaming_app.ui.input.phones.server import PhoneServer
-from tests.ui.input.phones.client import phone, play, serving, until
+from tests.ui.input.phones.client import LONG, phone, play, serving, until
 from tests.ui.input.phones.test_server import pressed, still_plays
 
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
@@ -34,8 +34,9 @@ def server(controls: Controls) -> Iterator[PhoneServer]:
 
 
 @pytest.fixture
-def quiet(caplog: pytest.LogCaptureFixture, capfd: Any) -> Iterator[None]:
-    """No traceback is printed or logged, and one line of a kind at most."""
+def quiet(caplog: pytest.LogCaptureFixture, capfd: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """No traceback is printed or logged, and one line of a kind at most, however long the test takes."""
+    monkeypatch.setattr(refusals, "LOG_SECONDS", 1e6)
     logging.getLogger("pigaming").propagate = True
     yield
     assert "Traceback" not in caplog.text + "".join(capfd.readouterr())
@@ -61,7 +62,7 @@ def handshake(server: PhoneServer, resume: str = "", *more: str) -> bytes:
 
 
 def connected(server: PhoneServer) -> socket.socket:
-    return socket.create_connection((server.address, server.port), 3.0)
+    return socket.create_connection((server.address, server.port), LONG)
 
 
 def opened(server: PhoneServer, *more: str) -> tuple[socket.socket, bytes]:
@@ -124,15 +125,15 @@ def test_fragments_count_as_messages_and_may_not_dribble(controls: Controls, ser
         for piece in pieces:
             peer.sendall(piece)
         play(lambda session: until(lambda: server.phones._connected[0].touches.x > 0.0))
-        begun = time.monotonic()
+        cut = False
         for i in range(40):
             try:
                 peer.sendall(frame(0 if i else BINARY, b"", 0))
             except ConnectionError:
+                cut = True
                 break
             time.sleep(0.1)
-        rest(peer)
-        assert time.monotonic() - begun < 4.0
+        assert cut
     play(lambda session: until(lambda: not server.phones._connected))
 
 
@@ -188,12 +189,13 @@ def test_five_hundred_connections_leave_room_for_those_who_play(controls: Contro
                 if i % 2:
                     with suppress(ConnectionError):
                         peer.sendall(b"GET /")  # and no more
-                if i % 25 == 0:
+                if i % 5 == 0:
                     await one.touch(0.0, -1.0)
             await until(lambda: server.refusals.counts["too many connections refused"] >= 500 - servers.MAX_OPENED)
-            await one.touch(0.0, -1.0)
-            await until(lambda: controls.drive(Device("phone", 0)) == StickState(linear=1.0))
-            assert (Button.LOST, 0) not in pressed(controls)
+            await one.touch(0.0, 1.0)
+            seen: list[tuple[Button, int]] = []
+            await until(lambda: seen.extend(pressed(controls)) or (Button.DOWN, 0) in seen)
+            assert (Button.LOST, 0) not in seen
 
     play(story)
 
@@ -205,7 +207,7 @@ def test_a_slow_request_is_cut_whatever_it_dribbles(controls: Controls, monkeypa
         begun = time.monotonic()
         cut = False
         peer.setblocking(False)
-        while not cut and time.monotonic() - begun < 5.0:
+        while not cut and time.monotonic() - begun < LONG:
             try:
                 peer.sendall(b"G" if time.monotonic() - begun < 0.05 else b"E")
                 cut = peer.recv(100) == b""
@@ -217,8 +219,11 @@ def test_a_slow_request_is_cut_whatever_it_dribbles(controls: Controls, monkeypa
 
 
 @pytest.mark.usefixtures("quiet")
-def test_two_phones_with_the_same_identity_are_one_device(controls: Controls, server: PhoneServer) -> None:
+def test_two_phones_with_the_same_identity_are_one_device(
+    controls: Controls, server: PhoneServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Of many connections at once with the same token, one holds the seat; the device is never there twice."""
+    monkeypatch.setattr(connection, "SILENT_SECONDS", LONG)
 
     async def story(session: ClientSession) -> None:
         one = await phone(session, server)
@@ -247,6 +252,6 @@ def test_a_half_open_connection_is_an_unplugged_pad(controls: Controls, server: 
     peer, _ = opened(server)
     with peer:
         play(lambda session: until(lambda: pressed(controls) == [(Button.FOUND, 0)]))
-        play(lambda session: until(lambda: pressed(controls) == [(Button.LOST, 0)], 4.0))
+        play(lambda session: until(lambda: pressed(controls) == [(Button.LOST, 0)]))
     if before:
         play(lambda session: until(lambda: len(os.listdir("/proc/self/fd")) <= before + 3))
