@@ -10,7 +10,6 @@ from pigaming_app.ui.draw import (
     GREEN,
     HAIR,
     ICE,
-    LABEL,
     MIST,
     ORANGE,
     PURPLE,
@@ -18,18 +17,18 @@ from pigaming_app.ui.draw import (
     Color,
     cut_box,
     dim,
-    text_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import SMALLEST
+from pigaming_app.ui.draw.text import fit_text
 
-X, Y, W, H = 170, 270, 1010, 500  # px: the plot without its labels
+X, Y, W, H = 170, 270, 1010, 476  # px: the plot without its labels
 FEWEST_HOURS = 8
 COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176), ORANGE, GREEN, PURPLE)
 OTHERS = ""
-LEGEND_Y = 868
+LEGEND_Y, ROW_H, GAP = 866, 52, 24  # px
+ONE_ROW = 4  # names in it
 Bars = tuple[tuple[int, tuple[int, ...]], ...]  # hour, and its matches by game
 
 
@@ -97,12 +96,14 @@ def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
         if len(bars) <= 12 or i % 2 == 0:
             layer.canvas.body(str(hour), x + pitch / 2, Y + H + 36, MIST, "c", 36)
         yield
-    x, size = X, BODY
-    while size > SMALLEST and sum(48 + text_width(name, size, "body") + LABEL for name in names) - LABEL > W:
-        size -= 1
-    for game, name in enumerate(names):
-        layer.glow.fill(cut_box(x, LEGEND_Y - 16, 32, 32, 6), COLORS[game])
-        layer.canvas.body(name, x + 48, LEGEND_Y, ICE, "l", size)
-        x += 48 + round(text_width(name, size, "body")) + LABEL
+    rows = [names[:3], names[3:]] if len(names) > ONE_ROW else [names]
+    room = W // max(map(len, rows)) - GAP
+    labels = [fit_text(name, BODY, room - 48, "body") for name in names]
+    size = min(size for _, size in labels)
+    for game, (name, _) in enumerate(labels):
+        row, column = divmod(game, len(rows[0]))
+        x, y = X + column * (room + GAP), LEGEND_Y + round(ROW_H * (row - (len(rows) - 1) / 2))
+        layer.glow.fill(cut_box(x, y - 16, 32, 32, 6), COLORS[game])
+        layer.canvas.body(name, x + 48, y, ICE, "l", size)
     yield
     return (yield from layer.render_steps())
