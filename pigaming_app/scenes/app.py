@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from pigaming_app.ai.plugin_faults import blame
+from pigaming_app.ai.plugin_faults import blame, suspect
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.scenes.events.resume import EventMarker
@@ -167,7 +167,7 @@ class App:
         except (Exception, SystemExit, TookTooLong) as error:  # the latter two: by a plug-in
             log.exception("a scene failed")
             before = len(stopped())
-            self.blamed = blame(error)
+            self.blamed = blame(error) or suspect(error)
             self.failures -= len(stopped()) - before  # a plug-in fails once
             return True
         return False
