@@ -1,5 +1,6 @@
 """The watchdog: it ends foreign code that does not come back, and nothing else."""
 
+from contextlib import suppress
 from time import monotonic, sleep
 
 import pytest
@@ -13,10 +14,8 @@ def endless(seconds: float = 30.0) -> None:
     """A loop that catches all exceptions of programs, for so long at most."""
     end = monotonic() + seconds
     while monotonic() < end:
-        try:
+        with suppress(Exception):
             sleep(0.001)
-        except Exception:
-            pass
 
 
 def test_it_ends_foreign_code_each_time() -> None:
