@@ -1,14 +1,21 @@
-"""Faults of plug-ins that show in our code: a match whose numbers are none."""
+"""Faults of plug-ins that show in our code: numbers of a match that are none, functions with unusable results."""
 
+from collections import Counter
 from collections.abc import Iterator
 from math import isfinite
-from traceback import walk_tb
+from pathlib import Path
+from traceback import extract_tb, walk_tb
 from typing import Any
 
+from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
 from pigaming_app.sim.record import fields_of
 from pigaming_app.storage.plugins import parts
 from pigaming_app.storage.plugins.found import Plugin
+
+TWICE = 2  # failures of our code with the same game until this is left out
+_failures: Counter[Plugin] = Counter()
 
 
 def blame(error: BaseException) -> Plugin | None:
@@ -23,6 +30,31 @@ def blame(error: BaseException) -> Plugin | None:
             if type(state).__module__.startswith(f"{plugin.module}."):
                 return parts.stop(plugin, reason)
     return None
+
+
+def suspect(error: BaseException) -> Plugin | None:
+    """The plug-in whose game our code was showing or playing when an error arose, for the second time: it is left out.
+
+    None: nobody is to blame, or not yet.
+    """
+    plugin = next(_concerned(error), None)
+    if plugin is None:
+        return None
+    _failures[plugin] += 1
+    if _failures[plugin] < TWICE:
+        return None
+    place = extract_tb(error.__traceback__)[-1]
+    return parts.stop(plugin, f"{type(error).__name__}: {error} ({Path(place.filename).name}, line {place.lineno})")
+
+
+def _concerned(error: BaseException) -> Iterator[Plugin]:
+    """The plug-ins whose games are on the way of an error, from the innermost frame on: as `game`, or in a setup."""
+    plugins = {plugin.name: plugin for plugin in parts.plugins()}
+    for frame, _ in reversed([*walk_tb(error.__traceback__)]):
+        setups = (vars(value).get("setup") for value in frame.f_locals.values() if hasattr(value, "__dict__"))
+        for name in (frame.f_locals.get("game"), *(setup.game for setup in setups if isinstance(setup, Setup))):
+            if isinstance(name, str) and name in plugins:
+                yield plugins[name]
 
 
 def wrong_numbers(state: Any) -> Iterator[str]:
@@ -41,8 +73,9 @@ def wrong_numbers(state: Any) -> Iterator[str]:
 
 def _states(error: BaseException) -> Iterator[Any]:
     """The states of matches on the way of an error, from the innermost frame on."""
+    kinds = {game.state for game in games().values()}
     for frame, _ in reversed([*walk_tb(error.__traceback__)]):
         for value in frame.f_locals.values():
-            state = value.state if isinstance(value, Match) else value
-            if hasattr(type(state), "_fields") and hasattr(state, "robots"):
+            state = getattr(value, "state", None) if isinstance(value, Match) else value
+            if type(state) in kinds:
                 yield state

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from pigaming_app.ai.plugin_faults import blame
+from pigaming_app.ai.plugin_faults import blame, suspect
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.scenes.events.resume import EventMarker
@@ -47,7 +47,7 @@ MAX_FRAME_GAP = 0.1  # s; longer gaps (a dragged window, a suspended machine) ar
 PREWARM_UNTIL = 0.012  # s into a frame after which no more missing sprites are built
 MAX_UNFINISHED = 240  # frames after which a picture is completed without a budget
 POINTER_IGNORED = 1.0  # s after the start during which pointer motion does not move the focus
-MAX_FRAME = 4.0  # s in code of a plug-in until it is ended, before the supervisor of a kiosk ends the arcade
+MAX_FRAME = 3.0  # s in code of a plug-in until it is ended; the supervisor of a kiosk waits 5 s for a frame
 MAX_FAILURES, FAILURE_WINDOW = 5, 10.0  # give up after this many failures, each within this many s of the last
 
 log = logging.getLogger("pigaming")
@@ -167,7 +167,7 @@ class App:
         except (Exception, SystemExit, TookTooLong) as error:  # the latter two: by a plug-in
             log.exception("a scene failed")
             before = len(stopped())
-            self.blamed = blame(error)
+            self.blamed = blame(error) or suspect(error)
             self.failures -= len(stopped()) - before  # a plug-in fails once
             return True
         return False

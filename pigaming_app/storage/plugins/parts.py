@@ -7,10 +7,12 @@ import re
 import sys
 import traceback
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, nullcontext, redirect_stdout
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from threading import current_thread, main_thread
 from types import FrameType
 from typing import TypeVar
 
@@ -133,7 +135,7 @@ def _loaded(plugin: Plugin, part: str, attribute: str) -> object:
     """The attribute; None if the plug-in has no such part, or if loading it fails."""
     name = f"{plugin.module}.{part}" if part else plugin.module
     try:
-        with time_limit(LOADING):
+        with time_limit(LOADING), _prints_aside():
             if part and find_spec(name) is None:  # this imports the package
                 return None
             module = import_module(name)
@@ -143,6 +145,11 @@ def _loaded(plugin: Plugin, part: str, attribute: str) -> object:
     if not hasattr(module, attribute) and part == RULES:
         _leave_out(plugin, f"{Path(module.__file__ or name).name}: {attribute} is missing")
     return getattr(module, attribute, None)
+
+
+def _prints_aside() -> AbstractContextManager[object]:
+    """Prints go to standard error, as the output may be data; in one thread only, since the stream is global."""
+    return redirect_stdout(sys.stderr) if current_thread() is main_thread() else nullcontext()
 
 
 def _leave_out(plugin: Plugin, reason: str) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import monotonic
 from types import FrameType
+from typing import Self
 
 AGAIN = 1.0  # s after which the exception is raised once more, if the code has caught it
 
@@ -29,10 +30,11 @@ class Watchdog:
         self._lock, self._ended = threading.Lock(), threading.Event()
         self._watched, self._last = 0, 0.0  # thread, and time of its last beat
 
-    def __enter__(self) -> None:
+    def __enter__(self) -> Self:
         self._watched, self._ended = threading.get_ident(), threading.Event()
         self.beat()
         threading.Thread(target=self._watch, args=(self._ended,), name="watchdog", daemon=True).start()
+        return self
 
     def __exit__(self, *_: object) -> None:
         self._ended.set()
@@ -45,7 +47,7 @@ class Watchdog:
             _raise_in(self._watched, None)
 
     def _watch(self, ended: threading.Event) -> None:
-        while not ended.wait(min(AGAIN, self._limit / 2)):
+        while not ended.wait(self._limit / 10):
             with self._lock:
                 frame = sys._current_frames().get(self._watched)
                 if frame and monotonic() - self._last > self._limit and self._is_foreign(frame):

@@ -255,6 +255,24 @@ def test_one_that_fails_in_another_process_is_named(tag: Path) -> None:
     assert f"left out: rules.py, line {line}: ZeroDivisionError" in ended.stderr
 
 
+def test_one_that_prints_does_not_print_into_outcomes_from_another_process(tag: Path) -> None:
+    for file, before in (("__init__.py", "GAME ="), ("rules.py", "    match.tick += 1")):
+        source = tag / file
+        after = f"{'    ' * before.startswith(' ')}print('tick')\n{before}"
+        source.write_text(source.read_text().replace(before, after))
+    ended = python(
+        "from time import sleep\nfrom pigaming_app.events.event import Event\n"
+        "from pigaming_app.events.spec import Entrant, EventSpec, Format\n"
+        "from pigaming_app.scenes.events.quick_match import QuickMatches\n"
+        "entrants = tuple(Entrant(name, 'hard') for name in ('A', 'B', 'C'))\n"
+        "event = Event(EventSpec('Day', Format.ROUND_ROBIN, ('tag',), entrants, minutes={'tag': 0.1}))\n"
+        "quick = QuickMatches(event, event.open[:1])\n"
+        "while quick.next_outcome() is None and not quick.over: sleep(0.01)\n"
+        "print('left', quick.left)"
+    )
+    assert ended.stdout == "left 0\n", ended.stderr
+
+
 def test_two_of_one_name_and_one_of_our_names(tag: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     twin = install(tmp_path / "site", "tag", "robot_tag")
     write(twin, "tag")

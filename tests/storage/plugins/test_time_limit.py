@@ -1,0 +1,42 @@
+"""The watchdog: it ends foreign code that does not come back, and nothing else."""
+
+from contextlib import suppress
+from time import monotonic, sleep
+
+import pytest
+
+from pigaming_app.storage.plugins.time_limit import TookTooLong, Watchdog
+
+LIMIT = 0.05  # s
+
+
+def endless(seconds: float = 30.0) -> None:
+    """A loop that catches all exceptions of programs, for so long at most."""
+    end = monotonic() + seconds
+    while monotonic() < end:
+        with suppress(Exception):
+            sleep(0.001)
+
+
+def test_it_ends_foreign_code_each_time() -> None:
+    watchdog = Watchdog(LIMIT, lambda frame: True)
+    with watchdog:
+        for _ in range(2):
+            watchdog.beat()
+            with pytest.raises(TookTooLong, match="did not end"):
+                endless()
+
+
+def test_our_own_code_may_take_longer() -> None:
+    with Watchdog(LIMIT, lambda frame: False):
+        endless(6 * LIMIT)
+
+
+def test_nothing_is_raised_between_beats_or_after_the_end() -> None:
+    with Watchdog(1.0, lambda frame: True) as watchdog:
+        for _ in range(4):
+            watchdog.beat()
+            endless(0.3)
+    with Watchdog(LIMIT, lambda frame: True):
+        pass
+    endless(6 * LIMIT)
