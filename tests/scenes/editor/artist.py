@@ -140,7 +140,7 @@ class Mouse(Artist):
         pygame.event.post(pygame.Event(kind, pos=self.at, button=pygame.BUTTON_LEFT, touch=False))
 
 
-def wait_for(arcade: Arcade, condition: Callable[[], bool], seconds: float = 20.0) -> None:
+def wait_for(arcade: Arcade, condition: Callable[[], bool], seconds: float = 120.0) -> None:
     """Run frames in real time, as checks take place in a thread."""
     end = time.monotonic() + seconds
     while not condition():
