@@ -6,6 +6,7 @@ from functools import partial
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.flow.stack import Push
+from pigaming_app.scenes.options.page import OPENING, SECTIONS
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.walk.events_tour import events
@@ -89,18 +90,30 @@ def options(walker: TourWalker) -> None:
     walker.set_screen("options")
     choose(walker, "options")
     walker.wait(0.5)
+    rows(walker)
+    home(walker)
+
+
+def rows(walker: TourWalker) -> None:
+    """The rows of a page of options, and the pages that they open; the language is changed and changed back."""
+    depth = len(walker.app.stack.scenes)
     for name in [*walker.top.rows]:
-        if name in ("padtest", "robots", "ease"):
+        if name in (*OPENING, "figures"):
             walker.set_screen(f"options: {name}")
             walker.press("space", pause=1.0)
             if name == "robots":
                 robots(walker)
-            walker.press("escape")
-        elif name not in ("display", "fullscreen"):  # the language is changed and changed back
+            elif name in (*SECTIONS, "day"):
+                rows(walker)
+            else:
+                walker.press("s", "s", pause=0.3)
+            for _ in range(3):
+                if len(walker.app.stack.scenes) > depth:
+                    walker.press("escape", pause=0.5)
+        elif name in ("language", "music", "sounds"):
             walker.press(*("d", "a") if walker.context.words.language == LANGUAGES[0] else ("a", "d"))
         walker.set_screen("options")
         walker.press("s")
-    home(walker)
 
 
 def robots(walker: TourWalker) -> None:
