@@ -33,7 +33,7 @@ def tag(home: Path) -> Path:
 def run(command: str) -> str:
     words = [sys.executable, "-X", "pigaming", "main.py", *shlex.split(command)]
     environment = os.environ | {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
-    ended = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, env=environment, timeout=500)
+    ended = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, env=environment, timeout=1800)
     assert ended.returncode == 0, (command, ended.stdout[-2000:], ended.stderr)
     return ended.stdout
 

@@ -52,7 +52,7 @@ def test_the_title_returns_without_a_game_that_fails_or_hangs_in_a_match(
     (folder / file).write_text(source.replace(before, after))
     quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     command = [sys.executable, "-c", MATCH]
-    ended = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=os.environ | quiet, timeout=120)
+    ended = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=os.environ | quiet, timeout=600)
     assert ended.returncode == 0, ended.stderr[-2000:]
     *_, at_first, later, stack, notice = ended.stdout.splitlines()
     assert at_first.split() == [*later.split(), "tag"]

@@ -25,5 +25,5 @@ def test_a_plug_in_appears_at_every_place(home: Path, tmp_path: Path, place: str
         switch("tag@robot_tag.game", True)
     command = [sys.executable, "-X", "pigaming", "-m", "tests.plugins.places", "tag", str(tmp_path)]
     quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONPATH": str(site)}
-    ended = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=os.environ | quiet, timeout=500)
+    ended = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=os.environ | quiet, timeout=1800)
     assert ended.stdout.splitlines()[-1:] == ["all places"], ended.stderr[-3000:]
