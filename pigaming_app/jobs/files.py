@@ -1,6 +1,7 @@
 """The user's files before and after a job."""
 
 import contextlib
+from pathlib import Path
 
 FOLDERS = ("crashes", "events", "ghosts", "pictures", "replays", "reports", "robots", "shared")  # below the data folder
 BY_GAME = ("arenas", "drafts")  # folders with one folder a game
@@ -11,8 +12,10 @@ def sweep() -> None:
     from pigaming_app.storage.safe_files import delete_temporary_files as sweep_folders
     from pigaming_app.storage.settings import folders
 
-    where = folders()
-    by_game = [folder for name in BY_GAME for folder in (where.data / name).glob("*")]
+    where, by_game = folders(), list[Path]()
+    for name in BY_GAME:
+        with contextlib.suppress(OSError):
+            by_game += (where.data / name).iterdir()
     sweep_folders(where.config, where.data, *(where.data / folder for folder in FOLDERS), *by_game)
 
 

@@ -70,6 +70,17 @@ def test_the_button_is_the_turbo_of_the_race() -> None:
 
 
 def test_a_ball_is_caught_while_the_button_is_held_and_shot_when_it_is_released() -> None:
-    kept, shot = (played(match_of("football", FIRE, every), 60.0) for every in (10_000, 60))
-    assert kept.state.robots[0].score <= 1
-    assert shot.state.robots[0].score > 1
+    shots, longest = [], []  # the latter: ticks for which a ball was held
+    for press, every in ((NOTHING, 60), (FIRE, 10_000), (FIRE, 60)):
+        match = match_of("football", press, every)
+        charges = [match.state.ball.charge]
+        while match.seconds < 30.0:
+            match.tick()
+            charges.append(match.state.ball.charge)
+        shots.append(match.state.players[0].shots)
+        longest.append(max(charges))
+    hold = match.state.rules.hold
+    assert longest[0] == shots[0] == 0
+    assert longest[1] == hold - 1, "until it is shot by itself"
+    assert 0 < longest[2] <= 30
+    assert shots[2] > shots[1] > 0

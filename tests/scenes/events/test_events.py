@@ -19,6 +19,7 @@ from pigaming_app.scenes.events.manage.corrections import Correction, ResultsLis
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
+from pigaming_app.scenes.events.next_view import match_line
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.poster import drawn
 from pigaming_app.scenes.events.quick_match import QuickMatches
@@ -570,7 +571,7 @@ def test_an_event_of_a_game_that_was_removed_is_shown_and_plays_nothing(arcade: 
     event = Event(replace(an_event(brains="fsm").spec, games=("gone_game",)))
     page = at_next(arcade, running(event))
     assert page.fixture
-    assert page._what(page.fixture) == "Gone Game"
+    assert match_line(arcade.context.words, page.fixture, page.running.setup(page.fixture)) == "Gone Game"
     page.draw(arcade.screen)
     assert drawn(event, arcade.context.words)
     for button in (Button.FIRE, Button.START, Button.Y):
