@@ -333,6 +333,7 @@ def _on_screen(
             screenshot=arguments.screenshot,
             screenshot_due=due,
             headless=arguments.headless,
+            without_title=arguments.headless,  # nobody is there to go on after a failure
             step=DT if arguments.headless else None,
             should_close=over,
             emulator_seed=arguments.emulate,

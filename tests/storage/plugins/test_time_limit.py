@@ -2,6 +2,7 @@
 
 from contextlib import suppress
 from time import monotonic, sleep
+from weakref import ref
 
 import pytest
 
@@ -40,3 +41,16 @@ def test_nothing_is_raised_between_beats_or_after_the_end() -> None:
     with Watchdog(LIMIT, lambda frame: True):
         pass
     endless(6 * LIMIT)
+
+
+def test_it_keeps_no_variable_of_a_frame_alive() -> None:
+    """A view of a surface that lives longer than its function locks the surface."""
+
+    def painted() -> "ref[Watchdog]":
+        view = Watchdog(LIMIT, lambda frame: False)
+        endless(3 * LIMIT)
+        return ref(view)
+
+    with Watchdog(10 * LIMIT, lambda frame: True):
+        for _ in range(3):
+            assert painted()() is None
