@@ -53,7 +53,7 @@ class Watchdog:
                     _raise_in(self._watched, TookTooLong)
 
     def _in_foreign_code(self) -> bool:
-        """The frame is kept no longer than this takes: its variables live as long, such as a view that locks a surface."""
+        """The frame is kept no longer than this takes: its variables live as long, as a view that locks a surface."""
         frame = sys._current_frames().get(self._watched)
         return frame is not None and self._is_foreign(frame)
 
