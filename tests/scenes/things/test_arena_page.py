@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import dist, pi
+from math import dist, hypot, pi
 
 import numpy as np
 import pytest
@@ -34,6 +34,7 @@ from tests.scenes.robots.test_recording import MatSession
 pytest.importorskip("cv2")
 
 PUSHED = 60.0  # mm
+FREE = 150.0  # px between a robot and a thing that is pushed, so that it is not pushed onto the robot
 NOTICED = 6.0  # s
 EXPLAINED = 2.0  # s from a fault to its cause
 BOXES = {
@@ -155,13 +156,16 @@ def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_p
     assert not isinstance(arcade.stack.top, MovedPage)
 
     moved = mat.arena.things[len(things) - 1]
-    corners = tuple((x + PUSHED, y + PUSHED) for x, y in moved.outline)
-    mat.arena.furnish([replace(one, outline=corners) if one is moved else one for one in mat.arena.things])
+    pushed = replace(moved, outline=tuple((x + PUSHED, y + PUSHED) for x, y in moved.outline))
+    there = mat.arena.outline(pushed)
+    x, y = there.mean(axis=0).tolist()
+    robots = [match.match.state.robots[seat] for seat in real]
+    frames(arcade, mat, lambda _: all(hypot(one.x - x, one.y - y) > FREE for one in robots), 60.0)
+    mat.arena.furnish([pushed if one is moved else one for one in mat.arena.things])
     frames(arcade, mat, lambda top: isinstance(top, MovedPage), NOTICED)
     arcade.press(Button.FIRE)
     frames(arcade, mat, lambda top: isinstance(top, RealMatch), 60.0)
     frames(arcade, mat, lambda _: bool(match.match.state.shifts), 10.0)
-    there = mat.arena.outline(replace(moved, outline=corners))
     assert any(same(np.array(one.outline), there) for one in match.plant.shown_things or ())
     assert any(same(one.points, there) for one in load_layout(mat).things)
 
