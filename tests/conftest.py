@@ -3,6 +3,8 @@
 import compileall
 import os
 import pickle
+import random
+import secrets
 import tempfile
 import threading
 import time
@@ -19,7 +21,11 @@ from pigaming_app.sim.kernel import PACKAGE, _cache_folder
 
 WORDY = ("pt", "de")
 
-settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+OTHER_RANDOMNESS = os.environ.get("PIGAMING_TEST_SEED", "")  # any text; without it, every run is the same
+
+settings.register_profile(
+    "any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=not OTHER_RANDOMNESS
+)
 settings.load_profile("any machine")
 
 os.environ["SDL_VIDEODRIVER"] = "dummy"
@@ -63,6 +69,15 @@ def _one_process_for_many_arcades() -> Iterator[None]:
         patch.setattr(surfaces, "release_matches", lambda: None)
         patch.setattr(surfaces, "release_pages", lambda: None)
         yield
+
+
+@pytest.fixture(autouse=True)
+def _the_same_seeds_in_every_run(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draw seeds of matches and choices of the arcade by the name of the test, so that what fails, fails again."""
+    chance = random.Random(f"{OTHER_RANDOMNESS}{request.node.nodeid}")
+    monkeypatch.setattr(secrets, "randbelow", chance.randrange)
+    monkeypatch.setattr(secrets, "choice", chance.choice)
+    random.seed(chance.random())
 
 
 @pytest.fixture

@@ -20,6 +20,7 @@ class PlayTest(MatchScene):
     """The match. It is in no table, log or list of replays."""
 
     def __init__(self, context: Context, game: str, arena: Arena, device: Device) -> None:
+        device = context.controls.driver(device)
         super().__init__(context, setup_of(game, arena.name), [device], arena=arena)
         self.noted = True
         self.restart_allowed = False

@@ -297,8 +297,7 @@ class Editor:
             return None
         if not saving:
             self._play("accept")
-            device = event.device if event.device.kind != "mouse" else self.context.controls.last
-            return Push(PlayTest(self.context, self.game, verdict.arena, device))
+            return Push(PlayTest(self.context, self.game, verdict.arena, event.device))
         if self.bench.named:
             self.save(self.title)
             return None

@@ -150,7 +150,7 @@ class Lab:
         from pigaming_app.scenes.lab.challenge import Challenge
 
         self.context.sounds.play("accept")
-        driver = self.context.controls.last if device.kind == "mouse" else device
+        driver = self.context.controls.driver(device)
         robot = self.trainer.checkpoint(self.name or self.context.words("lab.robot"))
         self.trainer.close()
         return Push(Challenge(self.context, robot.kind, driver, self.trainer.arena))

@@ -154,6 +154,10 @@ class Controls:
             return device.number in self.phones.plugged
         return device.kind != "pad" or device.number in self._pads.plugged
 
+    def driver(self, device: Device) -> Device:
+        """The device if it can drive now; in place of a mouse or of a pad unplugged since, the one used last."""
+        return device if device.kind != "mouse" and self.connected(device) else self.last
+
     def pads(self) -> list[Device]:
         """The connected pads, oldest first."""
         return [Device("pad", number) for number in sorted(self._pads.plugged)]

@@ -120,8 +120,7 @@ class DrawingPage:
             self._say("editor.unfinished", wrong=True)
             return None
         self.context.sounds.play("accept")
-        device = event.device if event.device.kind != "mouse" else self.context.controls.last
-        return Push(PlayTest(self.context, self.game, arena, device))
+        return Push(PlayTest(self.context, self.game, arena, event.device))
 
     def _rename(self, title: str) -> None:
         try:
