@@ -59,6 +59,7 @@ class Preloader:
     def _do(self) -> None:
         """All steps, in the order in which they are likely to be needed."""
         from pigaming_app.games.engine_hash import engine_hash  # late: the title does not wait for these
+        from pigaming_app.games.registry import games
         from pigaming_app.scenes.flow import arena_preload
 
         all_arenas = arena_preload.every_arena()
@@ -70,17 +71,17 @@ class Preloader:
         for arena in all_arenas:
             self._try(arena_preload.prepare, *arena)
             self._ready.add(arena)
-        if not self._ended:
-            engine_hash()  # 0.1 s; cached for the first saved robot, ghost or replay
+        for game in games():  # 0.1 s each; cached for the first saved robot, ghost or replay
+            self._try(lambda game, _: engine_hash(game), game, "rules")
         if not self._ended:
             self.on_done()
 
-    def _try(self, step: Callable[[str, str], None], game: str, arena: str) -> None:
+    def _try(self, step: Callable[[str, str], object], game: str, part: str) -> None:
         """A step in which code of a game may fail or never end, except after the end."""
         if self._ended:
             return
         try:
             with time_limit(LOADING):
-                step(game, arena)
+                step(game, part)
         except (Exception, SystemExit):
-            log.exception("preloading %s of %s failed", arena, game)
+            log.exception("preloading %s of %s failed", part, game)

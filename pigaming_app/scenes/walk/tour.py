@@ -1,4 +1,4 @@
-"""The route of the walk: every screen, in all languages."""
+"""The route of the walk: every screen, in the languages with the shortest and the longest texts."""
 
 from dataclasses import replace
 from functools import partial
@@ -14,25 +14,32 @@ from pigaming_app.scenes.walk.steps import TourWalker, choose, home
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.i18n import LANGUAGES
 
+WALKED = ("en", "de")
 BRAINS = 5  # presses of F4 to cycle through all AIs of a match
 
 
 def tour(walker: TourWalker) -> None:
-    """The whole tour, in all languages; every arena of each game, and drawing, only in the first."""
+    """The whole tour, in both languages; every arena of each game, and drawing, only in the first."""
     for language in LANGUAGES:
-        lessons(walker)
-        options(walker)
-        for game in games():
-            play(walker, game, every_arena=language == LANGUAGES[0])
-        ladder(walker)
-        events(walker)
-        lab(walker)
-        home(walker)
-        if language == LANGUAGES[0]:
-            editor(walker)
-        replays(walker)
+        if language in WALKED:
+            screens(walker, everything=language == WALKED[0])
         walker.press("tab")
     attract(walker)
+
+
+def screens(walker: TourWalker, everything: bool) -> None:
+    """The screens in one language, from the title back to it."""
+    lessons(walker)
+    options(walker)
+    for game in games():
+        play(walker, game, every_arena=everything)
+    ladder(walker)
+    events(walker)
+    lab(walker)
+    home(walker)
+    if everything:
+        editor(walker)
+    replays(walker)
 
 
 def lessons(walker: TourWalker) -> None:
