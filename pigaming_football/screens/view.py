@@ -89,8 +89,13 @@ class FootballView(SimpleView):
         return FootballHud(self.background, state, self.players, self.words)
 
     def sprites(self) -> Iterator[Job]:
+        for color in (ICE, *TEAMS, FOCUS):  # of the kick-off, of goals, of a golden ball
+            for stage in range(effects.WAVE_STEPS):
+                yield partial(effects.wave, color, stage)
         for side in (0, 1):
             yield partial(self.announcement, side)
+            for level in range(effects.LIGHT_LEVELS, 0, -1):
+                yield partial(effects.light, TEAMS[side], level)
         yield sprites.shadow
         for level in range(1, sprites.TRAIL + 1):
             yield partial(sprites.trail, level, False)
