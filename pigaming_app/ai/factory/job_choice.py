@@ -11,7 +11,7 @@ from pigaming_app.ai.factory.mind import AVOID_TICKS
 from pigaming_app.ai.factory.schedule import cheapest_schedule, look, promised
 from pigaming_app.ai.factory.task_allocation import cheapest_place, distance_to, waiting_place
 from pigaming_app.games.factory.observation import OTHERS
-from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, MACHINE_SLOTS, MACHINES
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, MACHINE_SLOTS, MACHINES
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
 
@@ -29,6 +29,7 @@ def plan_job(obs: Any, mind: Any) -> None:
     best = -1
     if obs.carries - 1 != DAMAGED:
         look(obs, mind.plan)
+        keep_exit(obs, mind)
         best = best_place(obs, mind) if obs.carries else best_lot(obs, mind)
     if best >= 0 and obs.carries and not obs.slots[best].put and obs.goal_distance < STAND_OFF:
         mind.waiting += 1
@@ -42,6 +43,19 @@ def plan_job(obs: Any, mind: Any) -> None:
         return
     mind.waiting += 1
     mind.near, mind.target = 1, waiting_place(obs, mind) if obs.carries else parking_place(obs)
+
+
+@kernel
+def keep_exit(obs: Any, mind: Any) -> None:
+    """Stay with the slot of the exit that it drives to, as long as it can be reached and used.
+
+    The nearest one may change with every turn round an obstacle, and with it the way round.
+    """
+    if mind.target < 0 or (mind.avoid_ticks > 0 and mind.avoided == mind.target):
+        return
+    slot = obs.slots[mind.target]
+    if slot.kind == EXIT and slot.put:
+        mind.plan.exit = mind.target
 
 
 @kernel
