@@ -1,14 +1,35 @@
 """The watchdog: it ends foreign code that does not come back, and nothing else."""
 
+import subprocess
+import sys
 from contextlib import suppress
 from time import monotonic, sleep
 from weakref import ref
 
 import pytest
 
+from pigaming_app import ROOT
 from pigaming_app.storage.plugins.time_limit import TookTooLong, Watchdog
 
 LIMIT = 0.05  # s
+PROFILED = """
+import cProfile
+from contextlib import suppress
+from time import monotonic
+from pigaming_app.storage.plugins.time_limit import TookTooLong, Watchdog, time_limit
+
+with suppress(TimeoutError), time_limit({limit}):
+    end = monotonic() + {seconds}
+    while monotonic() < end:
+        pass
+with Watchdog({limit}, lambda frame: True) as watchdog:
+    with suppress(TookTooLong):
+        end = monotonic() + {seconds}
+        while monotonic() < end:
+            pass
+    watchdog.beat()
+    cProfile.run("sum(map(abs, range(9)))")
+"""
 
 
 def endless(seconds: float = 30.0) -> None:
@@ -54,3 +75,11 @@ def test_it_keeps_no_variable_of_a_frame_alive() -> None:
     with Watchdog(10 * LIMIT, lambda frame: True):
         for _ in range(3):
             assert painted()() is None
+
+
+@pytest.mark.parametrize(("limit", "seconds"), [(60.0, 0.0), (0.02, 30.0)])
+def test_nothing_stays_pending_which_would_keep_a_profiler_in_one_instruction(limit: float, seconds: float) -> None:
+    code = PROFILED.format(limit=limit, seconds=seconds)
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "function calls" in done.stdout
