@@ -118,7 +118,6 @@ def test_rewards_are_those_of_the_own_side():
 
 @needs_numba
 @pytest.mark.long
-@pytest.mark.again
 def test_both_bodies_play_the_same_match_to_the_last_bit():
     one, two = (brain_of(random_network(seed, "football", handicap=Handicap(0.1, 0.1, 0.8))) for seed in (1, 2))
     setups = [setup(arena, variant=variant) for arena, variant in (("bumpers", "party"), ("small_goals", "cup"))]

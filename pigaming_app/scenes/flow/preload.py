@@ -71,7 +71,7 @@ class Preloader:
         for arena in all_arenas:
             self._try(arena_preload.prepare, *arena)
             self._ready.add(arena)
-        for game in games():  # 0.1 s each; cached for the first saved robot, ghost or replay
+        for game in games():  # 0.4 s each; cached for the first saved robot, ghost or replay
             self._try(lambda game, _: engine_hash(game), game, "rules")
         if not self._ended:
             self.on_done()

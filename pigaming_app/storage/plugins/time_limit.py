@@ -101,8 +101,8 @@ def time_limit(seconds: float) -> Iterator[None]:
 def _raise_here() -> NoReturn:
     """Raise the pending exception, or another one, so that none is pending afterwards.
 
-    Withdrawing it by NULL would leave the interpreter looking for one at every jump: a sixth slower, and endless under
-    a profiler.
+    Withdrawing it by NULL would leave the interpreter looking for one at every jump and call: up to a sixth
+    slower, and endless under a profiler.
     """
     _raise_in(threading.get_ident())
     while True:

@@ -155,7 +155,7 @@ class Controls:
         return device.kind != "pad" or device.number in self._pads.plugged
 
     def driver(self, device: Device) -> Device:
-        """The device if it can drive now; in place of a mouse or of a pad unplugged since, the one used last."""
+        """The device; in place of a mouse, or of a pad or phone that is gone, the one used last."""
         return device if device.kind != "mouse" and self.connected(device) else self.last
 
     def pads(self) -> list[Device]:

@@ -15,7 +15,7 @@ from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.editor.artist import Artist, Gamer, Mouse, Typist, checked
 from tests.scenes.screens import seats
@@ -120,6 +120,14 @@ def test_a_game_without_tools_has_no_editor(arcade: Arcade) -> None:
     assert Button.X not in page.navigation.prompts.buttons
     arcade.press(Button.X)
     assert arcade.stack.top is page
+
+
+@pytest.mark.parametrize("asked", [Device("pad", 7), Device("phone", 7), Device("mouse"), KEYS[1]])
+def test_a_match_on_a_drawing_is_driven_by_a_device_that_is_there(arcade: Arcade, asked: Device) -> None:
+    """The others: a pad and a phone that are gone, and a mouse, which cannot drive."""
+    arcade.context.controls.last = KEYS[0]
+    test = PlayTest(arcade.context, "pitanks", load("pitanks", "classic"), asked)
+    assert test.devices[0] == (asked if asked in KEYS else KEYS[0])
 
 
 @pytest.mark.parametrize(("game", "name"), [("pitanks", "islands"), ("factory", "hall"), ("race", "classic")])
