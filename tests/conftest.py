@@ -1,6 +1,7 @@
 """Fixtures. Tests use no display, no sound card and none of the user's files except the cache of compiled code."""
 
 import compileall
+import gc
 import os
 import pickle
 import random
@@ -62,6 +63,7 @@ def _one_process_for_many_arcades() -> Iterator[None]:
     from pigaming_app.ui import memory
     from pigaming_app.ui.draw.surface_cache import surfaces
 
+    gc.set_threshold(20_000, 20, 50)  # a collection takes 0.1 s among the objects of so many tests
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(arenas, "parse_arena", lru_cache(64)(arenas.parse_arena))
         patch.setattr(memory, "return_large_blocks", lambda: None)

@@ -5,14 +5,12 @@ of whole arcades see `outside`.
 """
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import NamedTuple
 
 from pigaming_app.hardware.proof.trials import FigureEight
 from pigaming_app.sim.world import DT, HZ
 
 ENOUGH = 0.6  # s of observation after the fault is reported
-ROOT = Path(__file__).resolve().parents[3]
 
 
 class Emergency(NamedTuple):

@@ -51,14 +51,14 @@ def _robots(arcade: bool) -> dict[str, Any]:
     """The proof of the robot loop; its findings go to standard error as they come."""
     require("hardware")
     from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
-    from pigaming_app.jobs.bench.robots import Unproven, measure, reached, stops_outside
+    from pigaming_app.jobs.bench.robots import Unproven, arcade_figures, measure, reached, stops_outside
 
     def note(line: str) -> None:
         print(line, file=sys.stderr, flush=True)
 
     with refused(OpenCVMissing, Unproven):
         opencv()
-        figures = stops_outside(note) if arcade else measure(note)
+        figures = arcade_figures(*stops_outside(note)) if arcade else measure(note)
     missed = [key for key, good in reached(figures).items() if not good]
     note(f"not reached: {', '.join(missed)}" if missed else "everything is reached")
     return figures

@@ -21,6 +21,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.emulator.radio import RadioChannel
+from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython
 from pigaming_app.hardware.proof import emergencies, things
 from pigaming_app.hardware.proof import trials as proving
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, StopResult
@@ -95,9 +96,11 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         matches = [_match(job, future, note) for job, future in played]
         boards = [_result(future, "calibrating") for future in calibrated]
     try:
-        wifi_figures = wifi.collect(on_wifi, note)
+        wifi_stops = wifi.collect(on_wifi, note)
     except RuntimeError as reason:
         raise Unproven(f"Wi-Fi robots: {reason}") from reason
+    serial, wifi_arcades = stops_outside(note)
+    wifi_stops |= wifi_arcades
     return {
         "pose_rmse_mm": max(run.rmse_mm for run in tracks.values()),
         "pose_rmse_deg": max(run.rmse_deg for run in tracks.values()),
@@ -108,9 +111,9 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         "wall_entry_mm": max(run.deepest_mm for run in matches),
         "worst_stop_ms": 1e3 * max(stops.values()),
         "false_alarms": float(sum(run.alarms for run in matches)),
-        **stops_outside(note),
+        **arcade_figures(serial, wifi_arcades),
         **scans,
-        **wifi_figures,
+        **({"wifi_worst_stop_ms": 1e3 * max(wifi_stops.values())} if wifi_stops else {}),
     }
 
 
@@ -232,20 +235,36 @@ def _match(job: Job, future: Future[MatchResult], note: Callable[[str], None]) -
     return run
 
 
-def stops_outside(note: Callable[[str], None]) -> dict[str, float]:
-    """The stopping time of the worst failure of a whole arcade; none where this cannot be tried. Raises Unproven."""
+def stops_outside(note: Callable[[str], None]) -> tuple[dict[str, float], dict[str, float]]:
+    """Stopping times by failure of a whole arcade, s: by a serial line, and on Wi-Fi; {} if it cannot be tried.
+
+    Raises Unproven.
+    """
     from pigaming_app.jobs.bench import robots_arcade
 
-    if find_spec("serial") is None:
-        note("whole arcades were not tried: pyserial is not installed")
-        return {}
+    serial, on_wifi = dict[str, float](), dict[str, float]()
     try:
-        return {"arcade_worst_stop_ms": 1e3 * max(robots_arcade.measure(note).values())}
+        if find_spec("serial") is not None:
+            serial = robots_arcade.by_serial_line(note)
+        else:
+            note("whole arcades were not tried: pyserial is not installed")
     except OSError as reason:
         note(f"whole arcades were not tried: {reason}")
-        return {}
     except (RuntimeError, CalibrationError) as reason:
         raise Unproven(f"arcade: {reason}") from reason
+    try:
+        on_wifi = robots_arcade.by_wifi(note)
+    except NoMicroPython as reason:
+        note(f"whole arcades with Wi-Fi robots were not tried: {reason}")
+    except (OSError, RuntimeError, CalibrationError) as reason:
+        raise Unproven(f"arcade on Wi-Fi: {reason}") from reason
+    return serial, on_wifi
+
+
+def arcade_figures(serial: Mapping[str, float], on_wifi: Mapping[str, float]) -> dict[str, float]:
+    """The figure of the worst failure of a whole arcade, from stopping times in s; none without any."""
+    stops = [*serial.values(), *on_wifi.values()]
+    return {"arcade_worst_stop_ms": 1e3 * max(stops)} if stops else {}
 
 
 def _result(future: Future[Result], name: str) -> Result:

@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -12,6 +11,7 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from select import select
+from tempfile import TemporaryDirectory
 
 from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.proof.outside import OutsideArena
@@ -28,13 +28,12 @@ PLAY = ("play", "pitanks", "--seats", "level5,level5,level5,level5", "--real", "
 class Arcade:
     """A running arcade; a context manager."""
 
-    def __init__(self, home: Path, feed: Path, port: str) -> None:
+    def __init__(self, home: Path, feed: Path, radio: tuple[str, ...]) -> None:
         sabotaged = [sys.executable, "-X", "pigaming", "-m", "pigaming_app.jobs.bench.sabotage", str(feed)]
-        radio = ["--port", port, "--radio", "api2", "--camera", "0"]
         self.log = home / "data" / FILE
         with (home / "arcade.log").open("ab") as log:
             self.process = subprocess.Popen(
-                [*sabotaged, *PLAY, *radio],
+                [*sabotaged, *PLAY, "--camera", "0", *radio],
                 cwd=ROOT,
                 env=environment(home),
                 stdin=subprocess.PIPE,
@@ -76,70 +75,100 @@ class Arcade:
         self.process.send_signal(number)
 
 
-def measure(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
+class Trials:
+    """Faults of arcades that play a match on an arena outside. `radio`: arguments that choose its radio.
+
+    `stops` are the stopping times by fault, s.
+    """
+
+    def __init__(
+        self, outside: OutsideArena, folder: Path, radio: tuple[str, ...], note: Callable[[str], None]
+    ) -> None:
+        self.outside, self.stops = outside, dict[str, float]()
+        self._home, self._radio, self._note = folder, radio, note
+        _set_up(outside, folder)
+
+    def run(self, *trials: Callable[[Arcade], None]) -> None:
+        """Play a match and try these faults on it. Raises RuntimeError if the robots do not drive."""
+        with Arcade(self._home, self.outside.feed, self._radio) as arcade:
+            arcade.await_match()
+            for trial in trials:
+                trial(arcade)
+
+    def fault(
+        self,
+        name: str,
+        begin: Callable[[Arcade], None],
+        end: Callable[[Arcade], None] = lambda _: None,
+        report: str = "",
+        raised: bool = False,
+    ) -> Callable[[Arcade], None]:
+        """A trial. `report`: the fault that the arcade must show and log. `raised`: it must log an error."""
+
+        def trial(arcade: Arcade) -> None:
+            self.outside.settle(lambda: arcade.alive)
+            before = Counter(self._logged())
+            self.stops[name] = self.outside.stopping(lambda: begin(arcade))
+            self._note(f"arcade, {name}: motors stood after {1e3 * self.stops[name]:.0f} ms")
+            news = "\n".join(Counter(self._logged()) - before)
+            if report and english()(f"faults.{report}") not in news:
+                raise RuntimeError(f"{name}: the fault was not reported")
+            if raised and Sabotage.__name__ not in news:
+                raise RuntimeError(f"{name}: the exception was not logged")
+            end(arcade)
+
+        return trial
+
+    def _logged(self) -> list[str]:
+        """Lines of the arcade's log and of its standard error."""
+        files = (self._home / "data" / FILE, self._home / "arcade.log")
+        return [line for file in files for line in file.read_text(encoding="utf-8").splitlines()]
+
+
+def by_serial_line(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
     """Stopping times by fault, s. Raises OSError without pseudo-terminals, RuntimeError if the robots do not drive."""
-    stops: dict[str, float] = {}
-    with tempfile.TemporaryDirectory(dir=_memory()) as folder:
-        home, feed = Path(folder), Path(folder, "camera")
+    with TemporaryDirectory(dir=_memory()) as folder, OutsideArena(seed, Path(folder, "camera")) as outside:
 
-        def logged() -> list[str]:
-            """Lines of the arcade's log and of its standard error."""
-            files = (home / "data" / FILE, home / "arcade.log")
-            return [line for file in files for line in file.read_text(encoding="utf-8").splitlines()]
+        def freeze(on: bool) -> None:
+            outside.arena.faults.switch("camera_frozen", on, 0)
 
-        with OutsideArena(seed, feed) as outside:
-            _set_up(outside, home)
+        trials = Trials(outside, Path(folder), ("--radio", "api2", "--port", outside.port), note)
+        run, fault = trials.run, trials.fault
+        run(
+            fault("SIGSTOP", lambda one: one.signal(signal.SIGSTOP), lambda one: one.signal(signal.SIGCONT)),
+            fault("lock held", lambda one: one.order("lock"), lambda one: time.sleep(1.5)),
+            fault("camera frozen", lambda one: freeze(True), lambda one: freeze(False), "camera"),
+            fault(
+                "exception in the tracker",
+                lambda one: one.order("tracker"),
+                lambda one: one.order("mend"),
+                "camera",
+                raised=True,
+            ),
+            fault("kill -9", lambda one: one.signal(signal.SIGKILL)),
+        )
+        run(fault("exception in the link", lambda one: one.order("link"), report="radio", raised=True))
+        run(fault("exception in a scene", lambda one: one.order("scene"), raised=True))
+        run(fault("port pulled", lambda one: outside.pull(), report="radio"))
+        return trials.stops
 
-            def run(*trials: Callable[[Arcade], None]) -> None:
-                """Play a match and try these faults on it."""
-                with Arcade(home, feed, outside.terminal.name) as arcade:
-                    arcade.await_match()
-                    for trial in trials:
-                        trial(arcade)
 
-            def fault(
-                name: str,
-                begin: Callable[[Arcade], None],
-                end: Callable[[Arcade], None] = lambda _: None,
-                report: str = "",
-                raised: bool = False,
-            ) -> Callable[[Arcade], None]:
-                """A trial. `report`: the fault that the arcade must show and log. `raised`: it must log an error."""
+def by_wifi(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
+    """The same with four Wi-Fi robots that run their own program, over a network that loses 5 %.
 
-                def trial(arcade: Arcade) -> None:
-                    outside.settle(lambda: arcade.alive)
-                    before = Counter(logged())
-                    stops[name] = outside.stopping(lambda: begin(arcade))
-                    note(f"arcade, {name}: motors stood after {1e3 * stops[name]:.0f} ms")
-                    news = "\n".join(Counter(logged()) - before)
-                    if report and english()(f"faults.{report}") not in news:
-                        raise RuntimeError(f"{name}: the fault was not reported")
-                    if raised and Sabotage.__name__ not in news:
-                        raise RuntimeError(f"{name}: the exception was not logged")
-                    end(arcade)
-
-                return trial
-
-            def freeze(on: bool) -> None:
-                outside.arena.faults.switch("camera_frozen", on, 0)
-
-            run(
-                fault("SIGSTOP", lambda one: one.signal(signal.SIGSTOP), lambda one: one.signal(signal.SIGCONT)),
-                fault("lock held", lambda one: one.order("lock"), lambda one: time.sleep(1.5)),
-                fault("camera frozen", lambda one: freeze(True), lambda one: freeze(False), "camera"),
-                fault(
-                    "exception in the tracker",
-                    lambda one: one.order("tracker"),
-                    lambda one: one.order("mend"),
-                    "camera",
-                    raised=True,
-                ),
-                fault("kill -9", lambda one: one.signal(signal.SIGKILL)),
-            )
-            run(fault("exception in the link", lambda one: one.order("link"), report="radio", raised=True))
-            run(fault("exception in a scene", lambda one: one.order("scene"), raised=True))
-            run(fault("port pulled", lambda one: outside.pull(), report="radio"))
-    return stops
+    Raises NoMicroPython, or RuntimeError if the robots do not drive.
+    """
+    with (
+        TemporaryDirectory(dir=_memory()) as folder,
+        OutsideArena(seed, Path(folder, "camera"), bytes(range(100, 116))) as outside,
+    ):
+        trials = Trials(outside, Path(folder), ("--radio", "udp"), note)
+        fault = trials.fault
+        trials.run(
+            fault("Wi-Fi, SIGSTOP", lambda one: one.signal(signal.SIGSTOP), lambda one: one.signal(signal.SIGCONT)),
+            fault("Wi-Fi, kill -9", lambda one: one.signal(signal.SIGKILL)),
+        )
+        return trials.stops
 
 
 def environment(home: Path) -> dict[str, str]:
@@ -150,9 +179,9 @@ def environment(home: Path) -> dict[str, str]:
 
 
 def _set_up(outside: OutsideArena, home: Path) -> None:
-    """Save the arena number of the robots, and the calibration for the projection of the arcade's window."""
+    """Save number and key of the arena, and the calibration for the projection of the arcade's window."""
     (home / "config").mkdir(parents=True, exist_ok=True)
-    Settings(arena_id=outside.arena.arena_id).save(home / "config")
+    Settings(arena_id=outside.arena.arena_id, wifi_key=outside.key.hex()).save(home / "config")
     code = (
         "from pigaming_app.storage.settings import Settings\nfrom pigaming_app.ui.window import Canvas\n"
         "print(Canvas.open(Settings(), None, None, False).projection)"

@@ -4,17 +4,13 @@ All ends are UDP sockets on loopback. A robot has an address of its own towards 
 """
 
 import socket
-import threading
-import time
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from random import Random
-from typing import Self
 
 LOOPBACK = "127.0.0.1"
-PERIOD = 0.001  # s between two looks of the thread
 
 
 @dataclass(frozen=True)
@@ -28,7 +24,7 @@ class WifiChannel:
 
 
 class Air:
-    """The network of some robots. Owners of a clock call `pump`; `start` does so in a thread, in real time."""
+    """The network of some robots. Owners of a clock call `pump`."""
 
     def __init__(self, robots: int, arcade: int, channel: WifiChannel, seed: int) -> None:
         self.channel, self.arcade = channel, arcade
@@ -42,8 +38,6 @@ class Air:
         self._random = Random(f"air {seed}")
         self._events: list[tuple[float, int, bool, int, bytes]] = []  # s, order, towards a robot, robot, datagram
         self._order = 0
-        self._ended = threading.Event()
-        self._thread: threading.Thread | None = None
 
     def port(self, robot: int) -> int:
         """The UDP port at which a robot finds the arcade."""
@@ -75,23 +69,10 @@ class Air:
         self.delivered[robot] += 1
         self._to_robot[robot].sendto(datagram, (LOOPBACK, self.robots[robot]))
 
-    def start(self) -> Self:
-        """Pump in a thread until `close`, by `time.monotonic`."""
-        self._thread = threading.Thread(target=self._run, name="air", daemon=True)
-        self._thread.start()
-        return self
-
     def close(self) -> None:
-        """End the thread, close all sockets. Idempotent."""
-        self._ended.set()
-        if self._thread is not None:
-            self._thread.join(1.0)
+        """Close all sockets. Idempotent."""
         for end in (*self._to_arcade, *self._to_robot):
             end.close()
-
-    def _run(self) -> None:
-        while not self._ended.wait(PERIOD):
-            self.pump(time.monotonic())
 
     def _carry(self, datagram: bytes, robot: int, down: bool, now: float) -> None:
         channel, random = self.channel, self._random

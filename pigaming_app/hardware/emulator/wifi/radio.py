@@ -1,4 +1,4 @@
-"""Wi-Fi robots of an emulated arena: their boards drive its motors, in the arena's time.
+"""Wi-Fi robots of an emulated arena: their boards drive its motors.
 
 It takes the place of the arena's radio, so the same faults can be injected.
 """
@@ -15,10 +15,13 @@ BOARDS = ("board_esp32", "board_pico_w")  # in turn
 class WifiRadio(EmulatedRadio):
     """Four boards, the network to an arcade at UDP port `arcade`, and their wires to motors and batteries.
 
-    `number` and `key` are those of the arena. Raises NoMicroPython.
+    `number` and `key` are those of the arena. The boards' time is the arena's if `paced`, else the system's. Raises
+    NoMicroPython.
     """
 
-    def __init__(self, arena: EmulatedArena, channel: WifiChannel, arcade: int, number: int, key: bytes) -> None:
+    def __init__(
+        self, arena: EmulatedArena, channel: WifiChannel, arcade: int, number: int, key: bytes, paced: bool = True
+    ) -> None:
         super().__init__(arena.firmwares, RadioChannel(), arena.clock, number)
         self._arena = arena
         self._powered = [True] * len(arena.robots)
@@ -29,11 +32,11 @@ class WifiRadio(EmulatedRadio):
             BoardConfig(i + 1, number, key, self.air.port(i), f"Robot {i + 1}", BOARDS[i % len(BOARDS)])
             for i in range(len(arena.robots))
         ]
-        self.boards = Boards(configs, paced=True)
+        self._paced, self.boards = paced, Boards(configs, paced)
         self.air.robots = self.boards.ports
 
     def step(self) -> None:
-        """Advance the boards to the arena's time and apply their outputs."""
+        """Advance paced boards to the arena's time and apply the outputs of all."""
         arena, now = self._arena, self._arena.clock()
         self.air.dead, self.air.extra_loss = self.dead, self.extra_loss
         self.air.mute = {robot for robot, firmware in enumerate(arena.firmwares) if firmware.mute}
@@ -41,7 +44,8 @@ class WifiRadio(EmulatedRadio):
         if now >= self._cells_at:
             self._cells_at = now + CELLS_EVERY
             self._supply()
-        self.boards.advance(now - arena.begin, self.air.delivered)
+        if self._paced:
+            self.boards.advance(now - arena.begin, self.air.delivered)
         for robot, body in enumerate(arena.robots):
             body.left, body.right = self.boards.motors(robot) if body.alive else (0.0, 0.0)
 
