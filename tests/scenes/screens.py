@@ -90,6 +90,7 @@ FACTS = {
     "factory": {"delivered": 9, "steps": 18, "bumps": 112, "stolen": 99, "stars": 3},
     "race": {"laps": 9, "best": 75.12, "total": 599.99},
 }
+RADIO_REFUSALS = ("mute", "refused", "unsaved")
 TEAMS = (0, 1, 0, 1)
 ALONE = (0, 1, 2, 3)
 
@@ -493,6 +494,8 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
         robots_drawn.arena_page, fault=OperatorMessage("not_allowed", node="/dev/v4l/by-id/video-index0")
     ),
     "things in the way": robots_drawn.unplayable,
+    "arena and radio": robots_drawn.radio_page,
+    **{f"radio {reason}": partial(robots_drawn.radio_page, message=f"setup_{reason}") for reason in RADIO_REFUSALS},
     "event podium": event_podium,
     "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
     "ladder resumed": ladder("", rung=5, wins=1, losses=1, beaten=4, lost=999),
