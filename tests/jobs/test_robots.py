@@ -2,15 +2,20 @@
 
 import json
 import sys
+from argparse import Namespace
 from math import cos, sin
 
 import pytest
 
 from pigaming_app.cli import main
+from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
 from pigaming_app.hardware.emulator.xbee import Module
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
+from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session.store import save_radios
+from pigaming_app.hardware.signals import ExposureState
 from pigaming_app.jobs import fidelity, robots
 from pigaming_app.jobs.robots import radio_setup
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
@@ -101,6 +106,7 @@ def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
     pytest.importorskip("cv2")
     found = output(capsys, "robots", "--emulate", "--pair")
     assert found["radio"] is None
+    assert found["picture"] is None
     for one in found["robots"]:
         assert one["heard"]
         assert one["seen"]
@@ -127,6 +133,33 @@ class Session:
 
     def open(self):
         return self.rig
+
+
+@pytest.mark.parametrize(
+    ("exposure", "warning"),
+    [(1 / 60, "Calibrated anyway: about 60 % of the markers are found."), (1 / 30, "smear at 1/30\u00a0s")],
+)
+def test_flags_of_reports_and_a_warning_about_the_picture_are_printed(monkeypatch, capsys, exposure, warning):
+    session, wished = Session(), Namespace(pair=False, latency=False, emulate=None)
+    session.quality, session.network = CameraQuality(detection=0.6, anyway=True), None
+    mat = session.mat
+    mat.exposure = ExposureState(exposure)
+    mat.quality = lambda robot: LinkQuality(1.0, None, None)
+    for robot, flags in zip(mat.robots, (EMPTY, PARKED, DEADMAN, DEADMAN | RESTARTED), strict=True):
+        robot.flags = flags
+    status = robots._full_status(session, wished)
+    assert warning in status["picture"]
+    assert [[name for name in robots.STATES if one[name]] for one in status["robots"]] == [
+        ["empty"],
+        ["parked"],
+        ["deaf"],
+        ["deaf", "restarted"],
+    ]
+    robots._print({"ports": (), "cameras": (), "arena": 7, **status})
+    printed = capsys.readouterr().out
+    assert warning in printed
+    for state in robots.STATES.values():
+        assert f", {state}" in printed
 
 
 @pytest.mark.long

@@ -82,6 +82,7 @@ from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable
 from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.calibration import drawn as calibration_drawn
 from tests.scenes.events import drawn
 from tests.scenes.robots import drawn as robots_drawn
 
@@ -90,6 +91,7 @@ FACTS = {
     "factory": {"delivered": 9, "steps": 18, "bumps": 112, "stolen": 99, "stars": 3},
     "race": {"laps": 9, "best": 75.12, "total": 599.99},
 }
+RADIO_REFUSALS = ("mute", "refused", "unsaved")
 TEAMS = (0, 1, 0, 1)
 ALONE = (0, 1, 2, 3)
 
@@ -493,6 +495,15 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
         robots_drawn.arena_page, fault=OperatorMessage("not_allowed", node="/dev/v4l/by-id/video-index0")
     ),
     "things in the way": robots_drawn.unplayable,
+    **{
+        f"calibration {name}": partial(calibration_drawn.result_page, picture=name)
+        for name in calibration_drawn.PICTURES
+    },
+    "calibration inaccurate": partial(calibration_drawn.result_page, picture="sharp", mm=123.4),
+    "calibration of a wrong width": partial(calibration_drawn.result_page, picture="small", marker=148.8),
+    "calibration failed": calibration_drawn.failed_page,
+    "arena and radio": robots_drawn.radio_page,
+    **{f"radio {reason}": partial(robots_drawn.radio_page, message=f"setup_{reason}") for reason in RADIO_REFUSALS},
     "event podium": event_podium,
     "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
     "ladder resumed": ladder("", rung=5, wins=1, losses=1, beaten=4, lost=999),

@@ -13,7 +13,8 @@ from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.screens import SCREENS
 
-LISTS = ("options", "operator", "robots menu", "setup", "added games")  # each of their rows is checked
+# Each row of these is checked.
+LISTS = ("options", "operator", "robots menu", "setup", "added games", "arena and radio")
 
 
 @pytest.fixture

@@ -176,6 +176,6 @@ class CameraDriver:
         if name == cv.CAP_PROP_AUTO_EXPOSURE and traits.units:
             camera.manual, camera.automatic = camera.shutter, value == self._on
         elif traits.units:
-            wanted = value * 1e-4 if traits.units == "V4L2" else 2.0**value
+            wanted = value * 1e-4 if traits.units == "V4L2" else 2.0 ** min(0.0, value)
             camera.manual, camera.automatic = max(traits.shortest, wanted), False
         return bool(traits.units)

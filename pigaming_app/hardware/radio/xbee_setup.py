@@ -73,6 +73,7 @@ class XBeeSetup:
         self._carrier, self._wanted, self._baud = carrier, wanted, baud
         self._port: SerialPort | None = None
         self._api: int | None = None  # API mode of the radio; None: text
+        self._entered = False  # true while the radio takes text commands, and so nothing else
         self._number = 0  # of the last command in an API mode
 
     def steps(self) -> Steps[None]:
@@ -90,9 +91,13 @@ class XBeeSetup:
                     raise self._error("setup_unsaved", f"{name} {value:X}")
             if self._api is None:
                 yield from self._command("CN")
+                self._entered = False
         except FAILURES:
             raise self._error("unplugged") from None
         finally:
+            if self._entered:
+                with suppress(*FAILURES):
+                    self._write(b"ATCN\r")  # else it would answer no further attempt for 10 s
             self._close()
 
     def _find(self) -> Steps[None]:
@@ -123,7 +128,8 @@ class XBeeSetup:
             yield
         self._read()
         self._write(b"+++")
-        return (yield from self._line(ENTER)) == b"OK"
+        self._entered = (yield from self._line(ENTER)) == b"OK"
+        return self._entered
 
     def _command(self, name: str, value: int | None = None) -> Steps[int]:
         """Write a parameter, or query it; its value. Raises OperatorError when refused or unanswered."""

@@ -16,13 +16,13 @@ from pigaming_app.hardware.signals import ExposureKept, ExposureState, Image
 
 LONGEST = 1 / 60  # s; at 1/30 s, moving markers smear: 52-61 % of them are found
 TOLERANCE = 1.03  # drivers round
-COARSEST = (
-    -3.0
-)  # exponent above which a driver's power of two is no exposure: such a camera sends few pictures a second
+IMPLAUSIBLE = 1 / 8  # s, from which a driver's figure is no exposure: such a camera sends few pictures a second
+HIGHEST_GAIN = 1e6  # units of the driver, beyond which its figure is no gain
 BRIGHT = 70.0  # grey level of the brightest 5 % of a picture, below which the calibration raises the gain
 DELAYED = 7  # pictures until a change of exposure or gain shows
 GAIN_FACTOR, GAIN_STEP = 1.5, 8.0  # of one increase of the gain: the larger one
 PICTURES = 30  # of which the interval is measured
+CHECK = 1.0  # s between two readings of a settled exposure, which drivers and other programs change
 
 
 def warning_of(state: ExposureState) -> OperatorMessage | None:
@@ -45,6 +45,7 @@ class ExposureControl:
 
     After `settle` s all automatics are locked; `unlocked` names those that refused. `fresh`: restart them first, then
     limit the exposure to LONGEST and raise the gain if that is too dark. `kept` is set at once and again when locking.
+    A locked exposure is read every CHECK s, and set again if it has become longer.
     """
 
     def __init__(
@@ -57,6 +58,8 @@ class ExposureControl:
         self.state = ExposureState()
         self._times: deque[float] = deque(maxlen=PICTURES)
         self._waiting: int | None = None  # pictures until the brightness is judged; None: not locked yet
+        self._locked: float | None = None  # s, exposure when it was locked; None: no figure
+        self._check_at = 0.0  # s, time of the next reading
         if fresh:
             restore_automatic(cv, capture)
         elif kept is not None:
@@ -72,12 +75,13 @@ class ExposureControl:
         if self._waiting is None:
             if now >= self._lock_at:
                 self._lock()
-            elif len(self._times) % PICTURES == 0:
-                self._read()
         elif not self.state.settled:
             self._waiting -= 1
             if self._waiting <= 0:
                 self._brighten(image)
+        if now >= self._check_at:
+            self._check_at = now + CHECK
+            self._check()
 
     def _lock(self) -> None:
         self.unlocked, self._waiting = lock_exposure(self._cv, self._capture), DELAYED
@@ -87,7 +91,16 @@ class ExposureControl:
         if self._fresh and not (self.state.seconds or 1.0) <= LONGEST * TOLERANCE:
             self._set_exposure(LONGEST)
             self._read()
+        self._locked = self.state.seconds
         self.state = self.state._replace(settled=not self._fresh)
+
+    def _check(self) -> None:
+        """Read the exposure; shorten it again if it is longer than it was locked."""
+        self._read()
+        if self._locked is not None and (self.state.seconds or 0.0) > self._locked * TOLERANCE:
+            self._capture.set(self._cv.CAP_PROP_AUTO_EXPOSURE, _automatic(self._capture)[0])
+            self._set_exposure(self._locked)
+            self._read()
 
     def _brighten(self, image: Image) -> None:
         """Raise the gain by one step if the picture is too dark; settled if it is not, or cannot be raised."""
@@ -116,11 +129,11 @@ class ExposureControl:
     def _read(self) -> None:
         raw, gain = (float(self._capture.get(name)) for name in (self._cv.CAP_PROP_EXPOSURE, self._cv.CAP_PROP_GAIN))
         seconds = None
-        if self._power and -20.0 < raw < COARSEST:
+        if self._power and -20.0 < raw < log2(IMPLAUSIBLE):
             seconds = 2.0**raw
-        elif self._counts and raw >= 1.0:
+        elif self._counts and 1.0 <= raw < IMPLAUSIBLE * 1e4:
             seconds = raw * 1e-4
-        self.state = self.state._replace(seconds=seconds, gain=max(0.0, gain))
+        self.state = self.state._replace(seconds=seconds, gain=gain if 0.0 < gain <= HIGHEST_GAIN else 0.0)
 
 
 def brightness(image: Image) -> float:

@@ -6,9 +6,9 @@ from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.packets import DEADMAN, PARKED
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.robot_files import set_up_command
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, camera_warning
 from pigaming_app.jobs.robots import radio_setup, wifi_setup
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import mat_settings, shared
@@ -35,6 +35,12 @@ MISFITS = {
     "no_arena": "no arena number",
     "foreign": "no signal, only from another arena's robot",
     "key": "another key",
+}
+STATES = {  # flags of a robot's reports
+    "parked": "stopped by its button",
+    "empty": "battery empty, motors off",
+    "deaf": "receives no commands",
+    "restarted": "restarted by its watchdog",
 }
 STATUS = {**MISFITS, "ours": "ready", "foreign": "of another arena", "taken": "another robot has its number"}
 
@@ -120,6 +126,7 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
         rig.pump()
     seen = rig.sense()
     status["radio"], status["eyes"] = _sentence(rig.link.fault), _sentence(rig.camera.fault)
+    status["picture"] = _sentence(camera_warning(session, rig))
     status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     status["network"] = wifi_setup.network(session)
     movable = [i for i in range(4) if status["robots"][i]["heard"]]
@@ -139,14 +146,16 @@ def _sentence(message: OperatorMessage | None) -> str | None:
 def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
     """One robot: its radio, battery (V), share of reports received, and pose (px, px, rad) if it is seen."""
     report, quality, misfit = link.telemetry.get(channel), link.quality(channel), link.misfit(channel)
-    visible = seen is not None and seen.age < 1.0
+    visible, flags = seen is not None and seen.age < 1.0, report.flags if report else 0
     return {
         "robot": robot + 1,
         "radio": channel + 1,
         "heard": report is not None and quality.share > 0.0,
         "misfit": misfit.reason if misfit else None,
-        "deaf": report is not None and bool(report.flags & DEADMAN),
-        "parked": report is not None and bool(report.flags & PARKED),
+        "deaf": bool(flags & DEADMAN),
+        "parked": bool(flags & PARKED),
+        "empty": bool(flags & EMPTY),
+        "restarted": bool(flags & RESTARTED),
         "battery": round(report.battery, 2) if report else None,
         "share": round(quality.share, 2),
         "strength": quality.strength,
@@ -197,6 +206,8 @@ def _print(status: dict[str, Any]) -> None:
     print(f"arena     {status['arena']} ({_set_up(1, status)})")
     for name in ("radio", "eyes"):
         print(f"{name:9} {status.get(name) or 'ok'}")
+    if status.get("picture"):
+        print(f"picture   {status['picture']}")
     for robot in status["network"] or ():
         volts = f", {robot['battery']:.2f} V" if robot["battery"] else ""
         about = f"{robot['name']}, {robot['kind']}, at {robot['address']}{volts}, arena {robot['arena']}"
@@ -226,5 +237,5 @@ def _described(robot: dict[str, Any], status: dict[str, Any]) -> str:
     strength = "" if robot["strength"] is None else f" at {robot['strength']} dBm"
     echo = "" if robot["echo_ms"] is None else f", answers in {robot['echo_ms']} ms"
     where = f", seen at {robot['at'][0]:.0f}, {robot['at'][1]:.0f}" if robot["seen"] else ", not seen"
-    deaf = ", stopped by its button" if robot["parked"] else ", receives no commands" if robot["deaf"] else ""
-    return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}{deaf}"
+    states = "".join(f", {state}" for name, state in STATES.items() if robot[name])
+    return f"{robot['battery']:.2f} V, {robot['share']:.0%} of its reports{strength}{echo}{where}{states}"

@@ -36,6 +36,7 @@ KIND_ROWS = ("robot", "kind")
 IDLE = 600.0  # s without input before the return to the title
 MESSAGE_SECONDS = 12.0  # s, display time of a message
 FACT_X, FACT_Y = dials.spots(("",))[0].rect.x + 40, 830  # px, start of the line with the command or the network
+MESSAGE_Y, MESSAGE_PITCH = 796, 48  # px, of the message in its place
 
 log = logging.getLogger("pigaming")
 
@@ -116,10 +117,11 @@ class RadioPage:
         frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
         sketch(name, (self.robot if name in KIND_ROWS else self.module) - 1).draw(screen, *dials.CENTRE)
         dials.describe(screen, words(f"arena_radio.{name}"), words(f"arena_radio.{name}_line"))
-        text(self._fact(), LABEL, ICE, "body", "l", dials.W - 80).draw(screen, FACT_X, FACT_Y)
         sentence = words("arena_radio.writing") if self._steps is not None else self.navigation.sentence
-        for i, line in enumerate(paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else ()):
-            line.draw(screen, 960, 904 + 44 * i)
+        if not sentence:
+            text(self._fact(), LABEL, ICE, "body", "l", dials.W - 80).draw(screen, FACT_X, FACT_Y)
+        for i, line in enumerate(paragraph(sentence, dials.W - 40, 3, FOCUS) if sentence else ()):
+            line.draw(screen, FACT_X, MESSAGE_Y + MESSAGE_PITCH * i)
         self.navigation.prompts.draw(screen)
 
     # ---- inside

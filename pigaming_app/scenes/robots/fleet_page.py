@@ -236,6 +236,8 @@ class FleetPage:
         if health.deaf:
             return words("fleet.deaf"), ALARM, seen, MIST
         weak = 0.0 < health.battery < health.kind.warn_mv / 1000 or health.share < WEAK
+        if health.restarted:
+            return heard, ALARM if weak else ICE, f"{seen}  ·  {words('fleet.restarted')}", FOCUS
         if self.check.session.radio:
             seen += f"  ·  {health.kind.name}"
         return heard, ALARM if weak else ICE, seen, GREEN if health.seen else MIST

@@ -9,7 +9,7 @@ from pigaming_app.hardware.commissioning.latency import LatencyTest
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, PairingFinding
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
@@ -29,7 +29,7 @@ log = logging.getLogger("pigaming")
 class RobotStatus:
     """Status of one robot: battery in V (0: not measured), share of reports received (0..1), visible, latency in s if
     measured; its kind, why it cannot be driven, and whether it reports that no commands arrive, that it refuses its
-    motors because of its battery, or that its button was pressed.
+    motors because of its battery, that its button was pressed, or that its watchdog has restarted it.
     """
 
     battery: float | None
@@ -41,6 +41,7 @@ class RobotStatus:
     deaf: bool
     empty: bool
     parked: bool
+    restarted: bool
     name: str  # announced by a Wi-Fi robot; empty if it is only its number
 
 
@@ -148,10 +149,10 @@ class FleetState:
         misfit = self.link.misfit(robot) if self.link is not None else None
         battery, latency = report.battery if report else None, self.latencies.get(robot)
         flags = report.flags if report else 0
-        deaf, parked = bool(flags & DEADMAN), bool(flags & PARKED)
+        deaf, parked, restarted = bool(flags & DEADMAN), bool(flags & PARKED), bool(flags & RESTARTED)
         empty = bool(flags & EMPTY) or 0.0 < (battery or 0.0) < kind.stop_mv / 1000
         seen, name = self._seen(robot), self._name(robot)
-        return RobotStatus(battery, share, seen, latency, kind, misfit, deaf, empty, parked, name)
+        return RobotStatus(battery, share, seen, latency, kind, misfit, deaf, empty, parked, restarted, name)
 
     # ---- inside
 

@@ -1,5 +1,6 @@
 """Homing brings robots to their places round walls and other robots."""
 
+from itertools import combinations
 from math import hypot, pi
 
 import pytest
@@ -8,9 +9,11 @@ from pigaming_app.games.arenas import load
 from pigaming_app.hardware.control.path_planner import distance, find_path, inflated_floor
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.sweep import offset_from_wall
 from tests.floor import floor
-from tests.hardware.mat import STARTS, Mat
+from tests.hardware.mat import NOMINAL_MM, STARTS, Mat
 
+MIDDLE = ((800.0, 250.0, 800.0, 650.0),)
 YARD = [(wall.ax, wall.ay, wall.bx, wall.by) for wall in load("pitanks", "courtyard").walls]
 GATE = ((600.0, 0.0, 600.0, 380.0), (600.0, 520.0, 600.0, 900.0))  # walls with a gap of 110 px, 1.5 robot diameters
 
@@ -60,6 +63,27 @@ def test_a_wider_robot_takes_the_way_that_its_body_fits():
     mat.pass_time = lambda: (push(), lowest.append(mat.robots[0].y))
     assert gathered(mat, {0: (900.0, 200.0, 0.0)}, walls) is not None
     assert max(lowest) > 590.0
+
+
+def test_wider_robots_change_places_without_touching_each_other_or_a_wall():
+    """All four have a radius of 60 mm, 9 px more than a 3pi, and pass a wall in the middle."""
+    mat = Mat()
+    mat.boards = dict.fromkeys(range(4), 1)
+    world, radius = floor(MIDDLE), 60.0 / NOMINAL_MM
+    nearest, at_wall, push = [], [], mat.pass_time
+
+    def watched():
+        push()
+        at = [(one.x, one.y) for one in mat.robots]
+        nearest.append(min(hypot(a - x, b - y) for (a, b), (x, y) in combinations(at, 2)))
+        walls = [world.walls[i] for i in range(world.wall_count)]
+        at_wall.append(min(hypot(*offset_from_wall(wall, x, y)) - wall.half for wall in walls for x, y in at))
+
+    mat.pass_time = watched
+    goals = {i: STARTS[(i + 1) % 4] for i in range(4)}
+    assert gathered(mat, goals, MIDDLE) is not None
+    assert min(nearest) > 2.0 * radius
+    assert min(at_wall) > radius
 
 
 def test_two_robots_pass_a_gate_one_after_the_other():

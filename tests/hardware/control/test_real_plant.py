@@ -9,11 +9,12 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, LOW, PARKED
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.sim.robot import RADIUS
 from tests.cases import one_in
 from tests.floor import floor
-from tests.hardware.mat import EVEN, STARTS, Mat
+from tests.hardware.mat import EVEN, NOMINAL_MM, STARTS, Mat
 
 ALL = range(4)
 
@@ -96,11 +97,15 @@ def test_a_real_robot_comes_to_rest_before_a_virtual_wall():
     assert 800.0 - 15.0 - RADIUS - 12.0 < mat.robots[0].x < 800.0 - 15.0 - RADIUS
 
 
-def test_two_real_robots_that_race_at_each_other_do_not_touch():
+@pytest.mark.parametrize("boards", [{}, {0: 1}, {0: 1, 1: 2}])
+def test_two_real_robots_that_race_at_each_other_do_not_touch(boards):
+    """ESP32 and Pico W robots have a radius of 60 mm."""
     mat = Mat([(300.0, 450.0, 0.0), (1300.0, 450.0, pi), *STARTS[2:]], EVEN)
+    mat.boards = boards
     plant = on_floor(mat)
     drive(plant, mat, [(422.0, 0.0), (422.0, 0.0), (0.0, 0.0), (0.0, 0.0)], 5.0)
-    gap = mat.robots[1].x - mat.robots[0].x - 2.0 * RADIUS
+    bodies = sum(60.0 / NOMINAL_MM if robot in boards else RADIUS for robot in (0, 1))
+    gap = mat.robots[1].x - mat.robots[0].x - bodies
     assert 0.0 < gap < 25.0
 
 
@@ -142,6 +147,43 @@ def test_what_concerns_one_stops_that_one(what, value, name, seconds):
     assert stands(mat, 1)
     assert not any(stands(mat, other) for other in (0, 2, 3))
     assert (name, 1) in [(fault.name, fault.robot) for fault in plant.faults]
+
+
+@pytest.mark.parametrize(
+    ("flags", "battery", "name"),
+    [(LOW | EMPTY, 4.2, "empty"), (EMPTY, 0.0, "empty"), (PARKED, 5.0, "parked"), (DEADMAN, 5.0, "deadman")],
+)
+def test_a_report_that_names_a_stop_stops_the_robot_and_pauses_and_is_said(flags, battery, name):
+    """A robot that refuses its motors or was parked is off at once; one without commands after 0.5 s of reports."""
+    mat = Mat()
+    plant = on_floor(mat)
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.8)
+    assert not plant.faults
+    mat.robots[1].flags, mat.robots[1].battery = flags, battery
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.1 if name != "deadman" else 0.7)
+    assert stands(mat, 1)
+    assert not any(stands(mat, other) for other in (0, 2, 3))
+    assert [(fault.name, fault.robot, fault.pauses) for fault in plant.faults] == [(name, 1, True)]
+    mat.robots[1].flags, mat.robots[1].battery = 0, 5.0
+    for _ in range(40):
+        plant.watch()
+        mat.pass_time()
+    assert not plant.faults
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.1)
+    assert not stands(mat, 1)
+
+
+def test_a_battery_counts_by_the_limits_of_its_kind():
+    """At 4.3 V a micro:bit robot is empty; a 3pi's battery is low."""
+    mat = Mat()
+    mat.boards = {1: 4}
+    plant = on_floor(mat)
+    for robot in mat.robots[:2]:
+        robot.battery = 4.3
+    drive(plant, mat, [(0.0, 2.0)] * 4, 0.1)
+    assert {(fault.name, fault.robot) for fault in plant.faults} == {("empty", 1), ("low", 0)}
+    assert stands(mat, 1)
+    assert not stands(mat, 0)
 
 
 def test_an_unseen_robot_coasts_then_drives_at_half_speed_then_stops():

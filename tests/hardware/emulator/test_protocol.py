@@ -56,6 +56,35 @@ def test_two_arenas_on_one_channel_neither_obey_nor_feed_each_other():
     assert not any(other[1].misfit(robot) for robot in range(4)), "robots of this arena report too"
 
 
+def test_a_robot_that_falls_silent_is_not_replaced_by_that_of_another_arena():
+    """Telemetry of the neighbours, whose batteries are full, never counts for our own robots."""
+    one, other = pairs = [linked(11), linked(12)]
+    one[0].radio.neighbours, other[0].radio.neighbours = [other[0].radio], [one[0].radio]
+    for robot in one[0].robots:
+        robot.battery = 4.2
+    run(pairs, 1.0, [AHEAD, AHEAD])
+    assert {round(report.battery, 2) for report in one[1].telemetry.values()} == {4.2}
+    assert all(report.battery > 4.5 for report in other[1].telemetry.values())
+    last = one[1].telemetry
+    for firmware in one[0].firmwares:
+        firmware.mute = True
+    run(pairs, 2.5, [AHEAD, AHEAD])
+    for robot in range(4):
+        assert one[1].telemetry[robot].received < last[robot].received + 0.25
+        assert one[1].quality(robot).share == 0.0
+        assert one[1].misfit(robot)[:2] == ("foreign", 12)
+
+
+def test_sequence_numbers_wrap_without_a_gap_at_the_motors():
+    """128 numbers last 2.56 s; robots would ignore one that stood still."""
+    pair = arena, _ = linked(11)
+    run([pair], 0.2, [AHEAD])
+    (share,) = run([pair], 6.0, [AHEAD])
+    assert share == 1.0
+    assert all(firmware.ignored == 0 for firmware in arena.firmwares)
+    assert all(firmware.packets > 300 for firmware in arena.firmwares)
+
+
 def test_a_repeated_packet_neither_drives_nor_feeds_the_deadman():
     arena = EmulatedArena(1, channel=RadioChannel(mode=TRANSPARENT))
     arena.camera.due = float("inf")

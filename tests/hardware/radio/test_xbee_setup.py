@@ -15,11 +15,31 @@ from tests.hardware.wire import Time
 NETWORK = network_of(4711)
 
 
-def set_up(module, number, mode="api2", network=NETWORK, baud=57600):
+class Cable(EmulatedCarrier):
+    """The carrier on a cable that is pulled after so many accesses."""
+
+    accesses = 10**9
+
+    @property
+    def in_waiting(self):
+        self._access()
+        return super().in_waiting
+
+    def write(self, data):
+        self._access()
+        return super().write(data)
+
+    def _access(self):
+        self.accesses -= 1
+        if self.accesses < 0:
+            raise OSError(5, "Input/output error")
+
+
+def set_up(module, number, mode="api2", network=NETWORK, baud=57600, cable=None):
     """Write a module in simulated time; returns the seconds needed."""
-    time = Time()
-    carrier = Carrier(EmulatedCarrier(module, time).open, time, "COM3")
-    begun = time.now
+    cable = cable or Cable(module, Time())
+    time, begun = cable.clock, cable.clock.now
+    carrier = Carrier(cable.open, time, "COM3")
     for _ in XBeeSetup(carrier, parameters(number, network, mode, baud), baud).steps():
         time.now += 0.01
         assert time.now < begun + 10.0
@@ -57,6 +77,58 @@ def test_a_refused_channel_is_one_sentence_and_nothing_is_saved(mode):
         "The radio at COM3 refuses CH 1A: choose another value. An XBee-PRO takes channels C to 17."
     )
     assert module.saved[b"CH"] == 0x0C
+
+
+@pytest.mark.parametrize("mode", [0, 1, 2])
+def test_after_a_refusal_another_value_is_taken_at_once(mode):
+    module = Module(mode, 0, top_channel=0x17)
+    cable = Cable(module, Time())
+    with pytest.raises(OperatorError):
+        set_up(module, 0, network=Network(0x1A, 1), cable=cable)
+    set_up(module, 0, network=Network(0x12, 1), cable=cable)
+    assert (module.saved[b"CH"], module.saved[b"ID"]) == (0x12, 1)
+
+
+@pytest.mark.parametrize("name", [b"CH", b"ID", b"MY", b"DL", b"BD", b"AP"])
+def test_a_value_that_is_taken_but_not_kept_is_named(name):
+    """Every wanted value differs from the one that the radio keeps."""
+    module = Module(0, 9, baud=9600)
+    command, kept = module.command, module.values[name]
+
+    def forgetful(asked, given):
+        answer = command(asked, given)
+        if asked == b"WR":
+            module.values[name] = kept
+        return answer
+
+    module.command = forgetful
+    module.values[b"DH"] = 1
+    with pytest.raises(OperatorError) as refusal:
+        set_up(module, 0, "transparent" if name == b"DL" else "api2")
+    assert refusal.value.message.key == "radio_setup_unsaved"
+    assert name.decode() in sentence(refusal.value)
+
+
+@pytest.mark.parametrize(("mode", "number"), [(0, 3), (2, 0)])
+def test_a_radio_unplugged_at_any_time_is_one_sentence_and_can_be_written_again(mode, number):
+    keys: list[str] = []
+    for accesses in range(0, 10**4, 3 if mode else 7):
+        module = Module(mode, number)
+        before, cable = dict(module.saved), Cable(module, Time())
+        cable.accesses = accesses
+        try:
+            set_up(module, number, cable=cable)
+        except OperatorError as trouble:
+            keys.append(trouble.message.key)
+        else:
+            break
+        wanted = {name.encode(): value for name, value in parameters(number, NETWORK, "api2", 57600).items()}
+        assert module.saved in (before, wanted), "all or nothing"
+        module.power_up()
+        set_up(module, number)
+        assert module.saved == wanted
+    assert len(keys) > 5
+    assert set(keys) == {"radio_unplugged"}
 
 
 def test_no_radio_and_a_lost_one_are_one_sentence():

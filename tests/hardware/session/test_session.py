@@ -1,12 +1,17 @@
 """Sessions: opening, closing, and the operator message for each missing part."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from pigaming_app.hardware.calibration.quality import assessed
+from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.emulated import EmulatedSession
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable
+from pigaming_app.hardware.session.real import SizedCamera
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable, camera_warning
+from pigaming_app.hardware.signals import ExposureKept, ExposureState
 from pigaming_app.storage.settings import Settings, folders
 from tests.hardware.sentences import sentence
 from tests.hardware.session.opened import HERE, calibrate, real_mat, soon, threads
@@ -64,10 +69,10 @@ def test_a_computer_without_opencv_says_so(home: Path, monkeypatch: pytest.Monke
         assert "opencv" in sentence(refused.value).lower()
 
 
-def test_a_computer_without_pyserial_says_so_and_without_a_camera_too(
+def test_without_pyserial_or_camera_it_says_so_and_what_the_calibration_kept_is_set_and_warned_about(
     home: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    calibrate(HERE)
+    calibrate(HERE, replace(assessed(28.0, 2.4, ExposureState(0.0166, gain=120.0)), anyway=True))
     monkeypatch.setitem(sys.modules, "serial", None)
     mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     try:
@@ -76,7 +81,11 @@ def test_a_computer_without_pyserial_says_so_and_without_a_camera_too(
         assert soon(lambda: link.fault is not None)
         assert sentence(mat.fault) == "The Python package pyserial is missing: install it to use a radio."
         mat.close()
-        mat.open()
+        rig = mat.open()
+        assert isinstance(rig.camera, SizedCamera)
+        assert rig.camera.camera.kept == ExposureKept(0.0166, 120.0)  # type: ignore[attr-defined]
+        assert mat.quality is not None
+        assert camera_warning(mat, rig) == OperatorMessage("used_anyway", share=round(100 * mat.quality.detection))
         assert soon(lambda: mat.fault is not None and "camera 63" in sentence(mat.fault))
     finally:
         mat.end()

@@ -250,8 +250,7 @@ def test_check_calibration_sets_the_exposure_again_and_shows_exposure_and_blur(c
     assert checking.quality.blur_px == pytest.approx(0.85, abs=0.2)
     camera.traits = TRAITS["stubborn"]  # a driver that forgets, and a lens that was knocked
     camera.manual, camera.painter._blur = 1 / 30, 2.2
-    checking._camera._control._read()
-    for _ in range(20):
+    for _ in range(40):
         arcade.picture()
     assert not checking.quality.sufficient
     assert checking.quality.exposure == pytest.approx(1 / 30, rel=0.01)

@@ -1,6 +1,7 @@
 """The drift page: no text overlaps the spot for a robot, in either language."""
 
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -17,6 +18,7 @@ from pigaming_app.scenes.calibration.height_page import DISC
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
 from pigaming_app.ui.input.controls import Controls
+from tests.scenes.calibration.drawn import PICTURES
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.operated import Operated
 
@@ -33,11 +35,15 @@ def longest(language: str) -> OperatorMessage:
 
 OFF = SimpleNamespace(ground=SimpleNamespace(marker=45.0))
 STATES: dict[str, dict[str, Any]] = {
-    "looking": {"mm": None, "trouble": None},
-    "still": {"mm": 0.1, "trouble": None},
-    "moved a little": {"mm": 9.9, "trouble": None, "marker_mm": 45.1, "drift": OFF},
-    "moved": {"mm": 123.4, "trouble": None, "marker_mm": 149.9, "drift": OFF},
-    "trouble": {"trouble": "longest"},
+    "looking": {"mm": None},
+    "still": {"mm": 0.1},
+    "moved a little": {"mm": 9.9, "marker_mm": 45.1, "drift": OFF},
+    "moved": {"mm": 123.4, "marker_mm": 149.9, "drift": OFF},
+    "trouble": {"fault": "longest"},
+    **{
+        f"{name} picture": {"mm": 9.9, "quality": PICTURES[name][0]} for name in ("blurred", "smeared", "tiny", "small")
+    },
+    "used anyway": {"mm": 9.9, "quality": replace(PICTURES["sharp"][0], anyway=True)},
 }
 
 

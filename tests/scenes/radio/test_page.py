@@ -60,7 +60,7 @@ def test_number_channel_and_kinds_change_and_are_kept(arcade: Arcade) -> None:
     go(arcade, "kind")
     arcade.press(Button.RIGHT)
     arcade.press(Button.RIGHT)
-    assert page._fact() == "ESP32:  Ø 120 mm,  battery ≥ 4.4 V"
+    assert page._fact() == "ESP32:  Ø 120 mm,  battery above 4.4 V"
     kept = Settings.load(folders().config)[0]
     assert (kept.arena_id, kept.radio_channel, kept.kinds) == (4712, 0x0B, ["", "esp32", "", ""])
 

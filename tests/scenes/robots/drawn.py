@@ -8,9 +8,13 @@ import pygame
 
 from pigaming_app.hardware.control.safety import RULES, Fault, SafetyRule
 from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.radio.packets import LAST_ARENA
+from pigaming_app.hardware.radio.serial_line import radio_message
+from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.scan.things import Layout, Thing, ThingKind
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.radio.page import RadioPage
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.things.arena_page import ArenaPage
 from pigaming_app.scenes.things.unplayable_page import UnplayablePage
@@ -52,6 +56,18 @@ def arena_page(arcade: Arcade, things: Sequence[Thing] = (), fault: OperatorMess
     page = ArenaPage(arcade.context)
     page._take(Layout(tuple(things)), False)
     page.fault = fault
+    return page
+
+
+def radio_page(arcade: Arcade, message: str = "") -> RadioPage:
+    """Arena and radio, with the longest arena number, the longest kind of robot, and a message about a radio."""
+    session = SimpleNamespace(emulated=False, arena_id=LAST_ARENA, advance=lambda seconds: seconds)
+    arcade.context.session = session  # type: ignore[assignment]
+    arcade.context.settings.kinds = [max(KINDS, key=lambda kind: len(kind.name)).key, "", "", ""]
+    page = RadioPage(arcade.context)
+    page.arena, page.module = LAST_ARENA, 4
+    if message:
+        page._show(radio_message(message, WHERE, "CH 1A"))
     return page
 
 

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.hardware.emulator.camera import TRAITS
+from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
@@ -66,11 +68,12 @@ def test_the_exposure_is_shown_and_a_long_one_or_a_poor_calibration_warned_about
     assert quality is not None
     mat.quality = replace(quality, detection=0.6, anyway=True)
     assert page._message() == "Calibrated anyway: about 60 % of the markers are found."
-    mat.arena.camera.manual = 1 / 30  # the driver has forgotten it
-    page.check.rig.camera._control._read()  # type: ignore[union-attr]
+    camera = mat.arena.camera
+    camera.traits, camera.manual = TRAITS["stubborn"], 1 / 30  # the driver has forgotten it
+    arcade.wait(1.2, fps=50)
     assert page._state().endswith("1/30 s")
     assert "smear at 1/30\u00a0s" in page._message()
-    mat.quality, mat.arena.camera.manual = quality, 0.006
+    mat.quality, camera.traits, camera.manual = quality, TRAITS["good"], 0.006
 
 
 def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSession) -> None:
@@ -103,9 +106,30 @@ def test_why_a_robot_cannot_drive_is_shown_with_its_remedy(
     states = [(replace(fine, misfit=Misfit(reason, 78, 0.0)), shown) for reason, shown in lines.items()]
     states.append((replace(fine, battery=3.9, empty=True), ("battery empty: 3.9 V", "change it")))
     states.append((replace(fine, deaf=True), ("receives no commands", "seen")))
+    states.append((replace(fine, parked=True), ("stopped by its button", "press the button again")))
     for state, shown in states:
         monkeypatch.setattr(page.check, "health", lambda robot, state=state: state)
         assert page._read(0)[::2] == shown
+
+
+@pytest.mark.parametrize(
+    ("flags", "first", "second"),
+    [
+        (EMPTY, "battery empty: 4.2 V", "change it"),
+        (PARKED, "stopped by its button", "press the button again"),
+        (DEADMAN, "receives no commands", "seen"),
+        (RESTARTED, "4.2 V", "seen  ·  restarted by its watchdog"),
+    ],
+)
+def test_every_flag_of_a_report_is_shown(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, flags: int, first: str, second: str
+) -> None:
+    page = arcade.shown(FleetPage)
+    report = page.check.link.telemetry[0]._replace(flags=flags, battery=4.2)
+    monkeypatch.setattr(page.check.link._protocol, "_telemetry", {0: report})
+    line = page._read(0)
+    assert line[0].startswith(first)
+    assert line[2] == second
 
 
 def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSession) -> None:
