@@ -36,7 +36,13 @@ MISFITS = {
     "foreign": "no signal, only from another arena's robot",
     "key": "another key",
 }
-STATUS = {**MISFITS, "ours": "ready", "foreign": "of another arena", "taken": "another robot has its number"}
+STATUS = {
+    **MISFITS,
+    "ours": "ready",
+    "foreign": "of another arena",
+    "taken": "another robot has its number",
+    "number": "its number is not 1 to 4",
+}
 
 
 def options(parser: ArgumentParser) -> None:
