@@ -127,7 +127,6 @@ class Rig:
         self.camera, self.tracker, self.link, self.clock = camera, tracker, link, clock
         self.kinematics = [Kinematics(drivetrain) for drivetrain in drivetrains]
         self.motion_check = MotionCheck(drivetrains)
-        self._dead_times = [drivetrain.dead_time for drivetrain in drivetrains]
         self._channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # drift of the corner markers, mm
         self.recorder: Recorder | None = None
@@ -166,7 +165,8 @@ class Rig:
         """One prediction of all robots for one tick, shared by safety, clipping and steering."""
         with self._lock:
             now = self.clock()
-            return RobotSnapshot(now, self.tracker.last_captured, *self.tracker.predict(now, self._dead_times))
+            ahead = [kinematics.drivetrain.dead_time + kinematics.correction.late for kinematics in self.kinematics]
+            return RobotSnapshot(now, self.tracker.last_captured, *self.tracker.predict(now, ahead))
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
         """Poses of the robots, predicted `ahead` s with the commands in force."""

@@ -15,6 +15,7 @@ DRIVE, REPORT, ANNOUNCE = b"D", b"T", b"A"  # kinds: arcade to robot, robot to a
 NONCE, CODE, HEAD = 8, 8, 12  # bytes
 FIELDS = struct.Struct(">HBBB8sQHB")  # of an announcement, see there; the name follows
 NAME = 16  # bytes, at most
+LAST_COUNTER = (1 << 64) - 1  # after it only a restart of the robot helps
 
 
 class Announcement(NamedTuple):
@@ -50,7 +51,7 @@ def announcement_from(datagram: bytes) -> Announcement | None:
     body = datagram[HEAD:-CODE]
     if datagram[:4] != MAGIC + ANNOUNCE or not FIELDS.size <= len(body) <= FIELDS.size + NAME:
         return None
-    name = body[FIELDS.size :].decode("utf-8", "replace")
+    name = body[FIELDS.size :].decode("utf-8", "ignore")  # a robot may have cut it within a letter
     shown = "".join(letter for letter in name if letter.isprintable())
     arena, address, board, version, nonce, counter, millivolts, flags = FIELDS.unpack_from(body)
     return Announcement(arena, address, board, version, nonce, counter, millivolts, flags, shown)

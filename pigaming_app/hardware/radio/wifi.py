@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import NamedTuple, Self
 
 from pigaming_app.hardware.radio import envelope
-from pigaming_app.hardware.radio.envelope import ANNOUNCE, DRIVE, REPORT, Announcement
+from pigaming_app.hardware.radio.envelope import ANNOUNCE, DRIVE, LAST_COUNTER, REPORT, Announcement
 from pigaming_app.hardware.radio.packets import LENGTHS, NO_ARENA, ROBOTS, VERSION
 from pigaming_app.hardware.radio.packets import REPORT as REPORT_HEAD
 from pigaming_app.hardware.radio.protocol import Misfit
@@ -24,6 +24,7 @@ SILENT = 0.5  # s without a report after which another robot may take over a num
 GONE = 4.0  # s without a datagram after which a robot is forgotten
 BUFFER = 1 << 16  # bytes that the system keeps for a late reader
 MOST = 64  # robots remembered, and datagrams handled at once
+LARGEST = 1 << 16  # bytes; a shorter buffer is an error on Windows when a longer datagram comes
 NO_NETWORK = (errno.ENETDOWN, errno.ENETUNREACH, errno.EADDRNOTAVAIL)
 
 Address = tuple[str, int]
@@ -34,7 +35,8 @@ class WifiRobot(NamedTuple):
 
     announced: Announcement
     address: str
-    status: str  # "ours", or why it cannot be driven: "foreign" arena, "no_arena", "key", "old", "taken" number
+    status: str  # "ours", or why it cannot be driven: "foreign" arena, "no_arena", "key", "old", "taken" number, or a
+    # "number" that no robot has
 
 
 @dataclass
@@ -63,7 +65,7 @@ class WifiNetwork:
         self._clock, self._host = clock, host
         self._socket: socket.socket | None = None
         self._sessions: dict[int, Session] = {}  # by address of the robot, 1 to 4
-        self._strangers: dict[Address, tuple[WifiRobot, float]] = {}  # robots that are not driven, and when they called
+        self._strangers: dict[Address, tuple[WifiRobot, float]] = {}  # robots not driven, in order of their calls, s
         self._void: set[bytes] = set()  # nonces of robots that have restarted since
         self._reports = bytearray()
 
@@ -122,7 +124,7 @@ class WifiNetwork:
         assert self._socket is not None
         now, faults, reached = self._clock(), list[int | None](), False
         for session in [*self._sessions.values()]:
-            if now - session.heard >= GONE:
+            if now - session.heard >= GONE or session.sent == LAST_COUNTER:
                 continue
             session.sent += 1
             datagram = envelope.seal(self.key, session.announced.nonce, DRIVE, session.sent, data)
@@ -147,7 +149,7 @@ class WifiNetwork:
         assert self._socket is not None
         for _ in range(MOST):
             try:
-                datagram, sender = self._socket.recvfrom(256)
+                datagram, sender = self._socket.recvfrom(LARGEST)
             except BlockingIOError:
                 return
             except ConnectionError:
@@ -178,9 +180,17 @@ class WifiNetwork:
         reason = self._reason(robot, genuine=opened is not None)
         if reason is None and opened is not None:
             return self._meet(robot, opened[0], sender)
-        if len(self._strangers) < MOST or sender in self._strangers:
-            self._strangers[sender] = WifiRobot(robot, sender[0], reason or "key"), self._clock()
+        self._note_stranger(robot, sender, reason or "key")
         return True
+
+    def _note_stranger(self, robot: Announcement, sender: Address, status: str) -> None:
+        """List a robot; the one that called longest ago makes room, but none of this arena for one of another."""
+        strangers = self._strangers
+        strangers.pop(sender, None)
+        strangers[sender] = WifiRobot(robot, sender[0], status), self._clock()
+        if len(strangers) > MOST:
+            others = (address for address, (known, _) in strangers.items() if known.announced.arena != self.arena)
+            del strangers[next(others, next(iter(strangers)))]
 
     def _reason(self, robot: Announcement, genuine: bool) -> str | None:
         """Why a robot is not ours; None if it is."""
@@ -188,7 +198,9 @@ class WifiNetwork:
             return "no_arena" if robot.arena == NO_ARENA else "foreign"
         if not genuine:
             return "key"
-        return "old" if robot.version < VERSION or not 1 <= robot.address <= ROBOTS else None
+        if robot.version < VERSION:
+            return "old"
+        return None if 1 <= robot.address <= ROBOTS else "number"
 
     def _meet(self, robot: Announcement, counter: int, sender: Address) -> bool:
         """Begin or refresh a session. A recorded announcement, of now or of before a restart, changes nothing."""
@@ -198,7 +210,7 @@ class WifiNetwork:
             return False
         if known is None or known.announced.nonce != robot.nonce:
             if known is not None and now - known.reported < SILENT:
-                self._strangers[sender] = WifiRobot(robot, sender[0], "taken"), now
+                self._note_stranger(robot, sender, "taken")
                 return True
             before = known.announced.nonce if known is not None else b""
             self._sessions[robot.address] = Session(robot, sender, robot.counter, counter, now, before)

@@ -42,7 +42,13 @@ STATES = {  # flags of a robot's reports
     "deaf": "receives no commands",
     "restarted": "restarted by its watchdog",
 }
-STATUS = {**MISFITS, "ours": "ready", "foreign": "of another arena", "taken": "another robot has its number"}
+STATUS = {
+    **MISFITS,
+    "ours": "ready",
+    "foreign": "of another arena",
+    "taken": "another robot has its number",
+    "number": "its number is not 1 to 4",
+}
 
 
 def options(parser: ArgumentParser) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.control.motion_model import WheelCorrection
-from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.signals import CameraFrame, WheelCommand
 from tests.hardware.mat import Mat
@@ -190,3 +190,16 @@ def test_commands_that_are_lost_on_the_air_explain_a_robot_that_stands():
     held.flags = 0
     assert stuck(0.3) == (0.0, 0.0)
     assert free.x > 200.0
+
+
+def test_predictions_reach_as_far_ahead_as_commands_are_measured_to_take(monkeypatch):
+    mat, ahead = Mat(), []
+    late = [0.0, 0.05, 0.1, -0.01]
+    monkeypatch.setattr(
+        mat, "wheel_correction", lambda robot: WheelCorrection(1.0, 1.0, 1.0, late[robot], 0.0), raising=False
+    )
+    monkeypatch.setattr(mat, "predict", lambda now, more: ahead.append(more) or ([], []))
+    mat.pass_time(0.1)
+    mat.rig.pump()
+    mat.rig.snapshot()
+    assert ahead[-1] == pytest.approx([UNMEASURED.dead_time + more for more in late])

@@ -4,22 +4,12 @@ import socket
 
 import pytest
 
-from pigaming_app.hardware.emulator.wifi.boards import WIRING, BoardConfig, Boards, NoMicroPython, Wheel, interpreter
-from pigaming_app.hardware.radio.envelope import DRIVE, REPORT, announcement_from, seal, unseal
+from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
+from pigaming_app.hardware.radio.envelope import REPORT, unseal
 from pigaming_app.hardware.radio.packets import DEADMAN, PARKED, RESTARTED, drive_packet, report_from, with_crc
-from pigaming_app.hardware.signals import WheelCommand
+from tests.hardware.emulator.one_board import ARENA, KEY, ON, Arcade
 
 pytestmark = pytest.mark.long
-ARENA, KEY = 1234, bytes(range(16))
-GO = [WheelCommand(1.0, -0.5), WheelCommand(-1.0, 0.5)]
-ON, BACK = (1.0, -32 / 63), (-1.0, 32 / 63)
-TB6612 = "\n".join(
-    [
-        "from motors import Enable",
-        "KIND, TIMER, WATCHDOG_MS, LED, BATTERY_PIN, BUTTON = 1, 0, 500, None, None, None",
-        "left, right = Enable(25, 26, 27), Enable(14, 32, 33)",
-    ]
-)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -28,74 +18,6 @@ def _micropython():
         interpreter()
     except NoMicroPython as reason:
         pytest.skip(str(reason))
-
-
-class Arcade:
-    """A UDP socket that drives one board in steps of 2 ms."""
-
-    def __init__(self, **about):
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.bind(("127.0.0.1", 0))
-        self.socket.settimeout(2.0)
-        self.config = BoardConfig(1, ARENA, KEY, self.socket.getsockname()[1], "Ruby")._replace(**about)
-        wiring = {**WIRING, "board_tb6612": (Wheel(26, 27, 25), Wheel(32, 33, 14))}
-        self.boards = Boards([self.config], paced=True, boards={"board_tb6612": TB6612}, wiring=wiring)
-        self.to, self.now, self.delivered = ("127.0.0.1", self.boards.ports[0]), 0.0, 0
-        self.counter = self.seq = 0
-        self.nonce = b""
-
-    def run(self, seconds):
-        for _ in range(round(seconds / 0.002)):
-            self.now += 0.002
-            self.boards.advance(self.now, [self.delivered])
-
-    def meet(self):
-        """Wait for an announcement."""
-        self.run(1.5)
-        datagram = self.received(b"PG2A")[-1]
-        found = announcement_from(datagram)
-        assert unseal(KEY, found.nonce, b"A", datagram) is not None
-        self.nonce = found.nonce
-        return found
-
-    def received(self, head):
-        found = []
-        self.socket.settimeout(0.05)
-        try:
-            while True:
-                found.append(self.socket.recv(256))
-        except TimeoutError:
-            return [datagram for datagram in found if datagram.startswith(head)]
-
-    def packet(self, arena=ARENA):
-        self.seq += 1
-        return drive_packet(arena, self.seq, GO)
-
-    def sealed(self, packet=None, key=KEY, nonce=None, kind=DRIVE, counter=None):
-        self.counter += 1
-        counter = self.counter if counter is None else counter
-        return seal(key, self.nonce if nonce is None else nonce, kind, counter, packet or self.packet())
-
-    def send(self, datagram, by=None):
-        (by or self.socket).sendto(datagram, self.to)
-        self.delivered += 1
-
-    def moves(self, datagram, by=None):
-        """True if the datagram sets a standing robot in motion; it stands again after."""
-        assert not any(self.motors)
-        self.send(datagram, by)
-        self.run(0.004)
-        moving = any(self.motors)
-        self.run(0.22)
-        return moving
-
-    @property
-    def motors(self):
-        return self.boards.motors(0)
-
-    def close(self):
-        self.boards.close()
-        self.socket.close()
 
 
 @pytest.fixture
@@ -194,21 +116,6 @@ def test_a_hanging_chip_is_restarted_by_the_watchdog(arcade):
     arcade.boards.disturb(0, do="hang board")
     arcade.run(1.1)
     assert arcade.boards.resets == [(0, 3)]
-    assert arcade.motors == (0.0, 0.0)
-
-
-@pytest.mark.parametrize(
-    ("arcade", "share"), [({"board": "board_pico_w"}, ON), ({"board": "board_tb6612"}, ON)], indirect=["arcade"]
-)
-def test_every_motor_driver_turns_ahead_and_back_and_brakes(arcade, share):
-    arcade.meet()
-    arcade.send(arcade.sealed())
-    arcade.run(0.004)
-    assert arcade.motors == pytest.approx(share, abs=1e-3)
-    arcade.send(arcade.sealed(drive_packet(ARENA, 77, GO[1:])))
-    arcade.run(0.004)
-    assert arcade.motors == pytest.approx(BACK, abs=1e-3)
-    arcade.run(0.3)
     assert arcade.motors == (0.0, 0.0)
 
 

@@ -4,11 +4,13 @@ import pytest
 
 pytest.importorskip("cv2")
 
+from pigaming_app.hardware.emulator.wifi import boards
+from pigaming_app.hardware.emulator.wifi.air import WifiChannel
 from pigaming_app.hardware.proof import testbed
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, hang, leave, settle, stop
 from pigaming_app.hardware.proof.trials import FigureEight, entered, follow
 from pigaming_app.jobs.bench.robots import TARGETS
-from pigaming_app.sim.world import World
+from pigaming_app.sim.world import ROBOTS, World
 from tests.cases import one_in
 
 
@@ -42,6 +44,24 @@ def test_in_every_emergency_motors_stand_and_it_is_said_why(trail, name):
 
 def test_when_the_game_hangs_the_link_stops_the_robots(trail):
     assert hang(trail) < 0.3
+
+
+@pytest.mark.long
+def test_the_dead_time_of_a_slow_network_is_measured_while_robots_drive_and_they_are_followed_through_it(trail):
+    """Robots on Wi-Fi, 60 to 80 ms each way: about 50 ms more than an XBee has."""
+    try:
+        boards.interpreter()
+    except boards.NoMicroPython as reason:
+        pytest.skip(str(reason))
+    bed = testbed.Testbed(5, 30.0, ground=trail.bed.ground, wifi=WifiChannel(0.060, 0.080))
+    try:
+        run = follow(FigureEight(bed), 4.0)
+        late = [bed.tracker.wheel_correction(robot).late for robot in range(ROBOTS)]
+    finally:
+        bed.session.end()
+    assert all(0.04 < more < 0.07 for more in late), late
+    assert run.rmse_mm < TARGETS["pose_rmse_mm"]
+    assert run.rmse_deg < TARGETS["pose_rmse_deg"]
 
 
 def test_how_deep_a_robot_is_in_a_wall():

@@ -43,6 +43,9 @@ def test_an_announcement_carries_the_state_of_a_robot_and_a_printable_name():
     assert envelope.announcement_from(datagram) == ROBOT
     assert unseal(KEY, NONCE, ANNOUNCE, datagram) is not None
     assert envelope.announcement_from(announce(KEY, 5, ROBOT._replace(name="a\x1b\nb"))).name == "ab"
+    cut = announce(KEY, 5, ROBOT._replace(name="é" * 15 + "x"))
+    assert envelope.announcement_from(cut).name == "é" * 8
+    assert envelope.announcement_from(announce(KEY, 5, ROBOT._replace(name="x" + "é" * 15))).name == "x" + "é" * 7
 
 
 @pytest.mark.parametrize("datagram", OTHERS)

@@ -2,13 +2,14 @@
 
 import errno
 import socket
+from random import Random
 
 import pytest
 
 from pigaming_app.hardware.radio.envelope import DRIVE, REPORT, Announcement, announce, seal, unseal
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.packets import VERSION, RobotReport
-from pigaming_app.hardware.radio.wifi import SILENT, WifiNetwork, WifiProtocol
+from pigaming_app.hardware.radio.wifi import GONE, MOST, SILENT, WifiNetwork, WifiProtocol
 from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.robot_packets import report_packet
 
@@ -259,3 +260,81 @@ def test_a_port_in_use_is_a_fault():
     link.pump()
     assert link.fault.key == "radio_busy"
     held.close()
+
+
+def test_robots_of_this_arena_are_listed_and_driven_amid_a_hundred_strangers_that_announce_themselves(site):
+    flood = [site.add(address=1 + i % 4, arena=78, nonce=b"%08d" % i) for i in range(100)]
+    ours, other = site.add(address=2), site.add(address=3, key=KEY[::-1])
+    for robots in (flood[:80], [ours, other], flood[80:]):
+        for robot in robots:
+            robot.announce()
+        for _ in range(3):
+            site.tick()
+    ours.receive()
+    assert ours.obeyed
+    assert site.status()[0] == ("R2", "ours")
+    assert ("R3", "key") in site.status()
+    assert len(site.status()) == 1 + MOST
+
+
+def test_strangers_that_have_gone_make_room_for_others(site):
+    for i in range(MOST + 1):
+        site.add(arena=78, nonce=b"%08d" % i).announce()
+    for _ in range(3):
+        site.tick()
+    site.tick(GONE + 1.0)
+    site.add(address=4, arena=0).announce()
+    site.tick()
+    assert site.status() == [("R4", "no_arena")]
+
+
+def test_no_datagram_of_a_stranger_disturbs_the_link_or_what_robots_obey(site):
+    """Of every length and kind, and everything that a robot and the arcade have sent, damaged."""
+    chance = Random(1)
+    robot = site.add()
+    robot.announce()
+    site.tick()
+    recorded = [robot.last, robot.socket.recv(256)]
+    robot.report()
+    recorded.append(robot.last)
+    stranger = site.add(address=4, arena=78)
+    for size in [*range(0, 80), 255, 256, 257, 1500, 60000]:
+        for kind in (b"PG2A", b"PG2D", b"PG2T", b"\0\0\0\0"):
+            stranger.send((kind + chance.randbytes(max(0, size - 4)))[:size])
+    for datagram in recorded:
+        for place in range(len(datagram)):
+            stranger.send(datagram[:place] + bytes([datagram[place] ^ 1 << place % 8]) + datagram[place + 1 :])
+            stranger.send(datagram[:place])
+    robot.obeyed = []
+    for _ in range(12):
+        site.tick()
+        robot.receive()
+    assert len(robot.obeyed) == 12
+    assert [status for _, status in site.status() if status == "ours"] == ["ours"]
+    assert site.link.fault is None
+    assert list(site.link.telemetry) == [0]
+
+
+@pytest.mark.parametrize("counter", [2**64 - 2, 2**64 - 1])
+def test_a_robot_at_the_end_of_its_counter_does_not_end_the_link(site, counter):
+    robot, other = site.add(), site.add(address=2, nonce=b"12345678")
+    robot.about = robot.about._replace(counter=counter)
+    for one in (robot, other):
+        one.announce()
+    for _ in range(5):
+        site.tick()
+    other.receive()
+    assert len(other.obeyed) == 5
+    assert site.link.fault is None
+
+
+@pytest.mark.parametrize("address", [0, 5, 255])
+def test_a_robot_with_a_number_that_no_robot_has_is_listed_only(site, address):
+    robot = site.add(address=address)
+    robot.announce()
+    site.tick()
+    site.tick()
+    robot.receive()
+    assert not robot.obeyed
+    assert site.status() == [(f"R{address}", "number")]
+    assert not any(site.link.misfit(robot) for robot in range(4))

@@ -131,7 +131,7 @@ class Boards:
     ) -> None:
         self.pins: list[Mapping[str, int]] = [{} for _ in configs]
         self.powered_until = [float("-inf")] * len(configs)  # s, when the motors were last switched off
-        self.resets: list[tuple[int, int]] = []  # robot and cause (1 power, 3 watchdog), in order
+        self.resets: list[tuple[int, int]] = []  # robot and cause (1 power, 2 program, 3 watchdog), in order
         self._wiring = [wiring[config.board] for config in configs]
         files = {file.name: file.read_text("utf-8") for file in HERE.glob("*.py")}
         files |= {f"{name}.py": text for name, text in boards.items()}
@@ -155,7 +155,11 @@ class Boards:
         self._await("now")
 
     def disturb(self, robot: int, **order: Any) -> None:
-        """`do`: "reboot", "off", "hang loop" (the timer runs on) or "hang board"; `battery`: mV; `button`: 1 or 0."""
+        """Disturb a board.
+
+        `do`: "reboot", "off", "hang loop" (the timer runs on), "hang board", or in the main loop "error" or "interrupt"
+        (Ctrl-C); `battery`: mV; `button`, `offline`: 1 or 0; `pulses`: totals of the left and the right encoder.
+        """
         self._tell({"robot": robot, **order})
 
     def motors(self, robot: int) -> Shares:

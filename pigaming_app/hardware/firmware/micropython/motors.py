@@ -11,7 +11,7 @@ class Motor:
     def drive(self, speed):
         self.set(speed * TOP // FULL)
 
-    def regulate(self):
+    def regulate(self, ms):
         """Only motors with an encoder are regulated, see Regulated."""
 
 
@@ -59,7 +59,10 @@ class Regulated:
         self.motor, self.top = motor, top
         self.speed = self.count = self.trim = 0
         pin = Pin(pulses, Pin.IN, Pin.PULL_UP)
-        pin.irq(handler=self._pulse, trigger=Pin.IRQ_RISING)
+        try:
+            pin.irq(handler=self._pulse, trigger=Pin.IRQ_RISING, hard=True)
+        except (TypeError, ValueError):  # ESP32
+            pin.irq(handler=self._pulse, trigger=Pin.IRQ_RISING)
 
     def _pulse(self, pin):
         self.count += 1
@@ -71,10 +74,13 @@ class Regulated:
         duty = speed * TOP // FULL + (self.trim if speed > 0 else -self.trim if speed else 0)
         self.motor.set(max(-TOP, min(TOP, duty)) if duty * speed > 0 else 0)
 
-    def regulate(self):
-        """Every 20 ms: correct the voltage by a part of the missing speed, at most a quarter of full voltage."""
+    def regulate(self, ms):
+        """Correct the voltage, about every 20 ms, by a part of the speed missing in the last `ms`.
+
+        The correction is at most a quarter of full voltage, with a dead encoder too.
+        """
         count, self.count = self.count, 0
         if self.speed:
-            missing = abs(self.speed) * TOP // FULL - count * 50 * TOP // self.top
+            missing = abs(self.speed) * TOP // FULL - count * 1000 // ms * TOP // self.top
             self.trim = max(-TOP // 4, min(TOP // 4, self.trim + missing // 32))
             self.drive(self.speed)

@@ -2,14 +2,16 @@
 
 On the robot: this file as `main.py`, `config.py`, `motors.py`, the board file and the radio file that `config` names.
 A hardware timer stops the motors 200 ms after the last new command, whatever the main loop does; the watchdog restarts
-a robot whose main loop or timer hangs. docs/hardware.md, section Protocol, has the packets.
+a robot whose main loop or timer hangs. Any error stops the motors at once and restarts the robot. docs/hardware.md,
+section Protocol, has the packets.
 """
 
+import sys
 import time
 from binascii import crc32
 
 import config
-from machine import ADC, WDT, WDT_RESET, Pin, Timer, reset_cause
+from machine import ADC, WDT, WDT_RESET, Pin, Timer, reset, reset_cause
 
 DRIVE, REPORT, VERSION = 0xD1, 0xD5, 2
 BODY = 13  # bytes of a drive packet before its check
@@ -17,6 +19,7 @@ MIDDLE = 63  # speed code of a wheel at rest
 DEADMAN, LOW, EMPTY, RESTARTED, PARKED = 1, 2, 4, 8, 16  # flags of a report
 DEADMAN_MS, TIMER_MS, REPORT_MS, SLOT_MS, BATTERY_MS = 200, 10, 200, 10, 20
 LONELY_MS = 3000  # ms without a command after which the reports end
+RESTART_MS = 3000  # until a restart after an error, unless the watchdog is earlier
 
 
 def checked(packet):
@@ -29,6 +32,8 @@ class Robot:
     """Motors, battery and lamp of a board, and the rules for when the motors may run."""
 
     def __init__(self, board, restarted=False):
+        if not 1 <= config.ROBOT <= 4 or not 0 <= config.ARENA < 1 << 14:
+            raise ValueError("config.py: ROBOT is 1 to 4, ARENA 0 to 16383")
         self.board, self.restarted = board, restarted
         self.arena, self.address = config.ARENA, config.ROBOT
         self.seq = -1  # sequence number of the last command
@@ -40,15 +45,20 @@ class Robot:
         self.button = Pin(board.BUTTON, Pin.IN, Pin.PULL_UP) if board.BUTTON is not None else None
         self.lamp = Pin(board.LED, Pin.OUT) if board.LED is not None else None
         self.sensor = ADC(Pin(board.BATTERY_PIN)) if board.BATTERY_PIN is not None else None
+        if hasattr(ADC, "ATTN_11DB") and self.sensor is not None:  # ESP32
+            self.sensor.atten(ADC.ATTN_11DB)
         self.millivolts = self.read_battery()  # 0 without a divider
         self.halt()
         self.timer = Timer(board.TIMER)
-        self.timer.init(mode=Timer.PERIODIC, period=TIMER_MS, callback=self.watch)
+        try:
+            self.timer.init(mode=Timer.PERIODIC, period=TIMER_MS, callback=self.watch, hard=True)
+        except (TypeError, ValueError):  # ESP32 and older MicroPython: between two steps of the program
+            self.timer.init(mode=Timer.PERIODIC, period=TIMER_MS, callback=self.watch)
 
     def watch(self, timer):
-        """Deadman, called by the timer; allocates no memory."""
+        """Deadman, called by the timer; allocates no memory. It repeats itself: it may have interrupted a command."""
         self.ticked = time.ticks_ms()
-        if not self.stopped and time.ticks_diff(self.ticked, self.driven) >= DEADMAN_MS:
+        if time.ticks_diff(self.ticked, self.driven) >= DEADMAN_MS:
             self.halt()
 
     def halt(self):
@@ -57,8 +67,10 @@ class Robot:
         self.brake()
 
     def brake(self):
-        self.board.left.drive(0)
-        self.board.right.drive(0)
+        try:
+            self.board.left.drive(0)
+        finally:
+            self.board.right.drive(0)
 
     def obey(self, packet, now):
         """Carry out a drive packet; True if it is a new command of this arena."""
@@ -77,7 +89,8 @@ class Robot:
 
     def work(self, now):
         """Read button and battery, regulate the wheels, light the lamp."""
-        if time.ticks_diff(now, self.measured) < BATTERY_MS:
+        since = time.ticks_diff(now, self.measured)
+        if since < BATTERY_MS:
             return
         self.measured = now
         before, self.down = self.down, self.button is not None and not self.button.value()
@@ -88,8 +101,8 @@ class Robot:
             self.empty = self.millivolts < (self.board.LOW_MV if self.empty else self.board.EMPTY_MV)
         if self.empty or self.parked:
             self.brake()
-        self.board.left.regulate()
-        self.board.right.regulate()
+        self.board.left.regulate(since)
+        self.board.right.regulate(since)
         if self.lamp is not None:
             self.lamp.value(now % 200 < 100 if self.parked else not self.stopped or now % 1000 < 100)
 
@@ -115,12 +128,12 @@ class Robot:
         return checked(head + bytes([mv & 127, mv >> 7 & 127]))
 
 
-def main():
-    """Run until the power is switched off."""
-    board = __import__(config.BOARD)
-    robot = Robot(board, reset_cause() == WDT_RESET)
-    radio = __import__(config.RADIO).Radio(robot)
-    watchdog = WDT(timeout=board.WATCHDOG_MS)
+def run(robot, radio):
+    """Drive and report until the power is switched off. The watchdog starts with the first command.
+
+    Until then nothing turns, and the robot's files can be changed by USB.
+    """
+    watchdog = None
     while True:
         now = time.ticks_ms()
         packet = radio.receive()
@@ -132,9 +145,25 @@ def main():
         if report is not None:
             radio.send(report)
         radio.work(now)
-        if time.ticks_diff(now, robot.ticked) < 10 * TIMER_MS:
+        if watchdog is None and not robot.stopped:
+            watchdog = WDT(timeout=robot.board.WATCHDOG_MS)
+        if watchdog is not None and time.ticks_diff(now, robot.ticked) < 10 * TIMER_MS:
             watchdog.feed()
         time.sleep_ms(2)
+
+
+def main():
+    """Run; after an error, but not after Ctrl-C, restart."""
+    try:
+        robot = Robot(__import__(config.BOARD), reset_cause() == WDT_RESET)
+        try:
+            run(robot, __import__(config.RADIO).Radio(robot))
+        finally:
+            robot.halt()
+    except Exception as error:
+        sys.print_exception(error)
+        time.sleep_ms(RESTART_MS)
+        reset()
 
 
 if __name__ == "__main__":

@@ -69,7 +69,10 @@ class Radio:
         if not self.station.isconnected():
             if time.ticks_diff(now, self.tried) >= RECONNECT_MS:
                 self.tried = now
-                self.station.connect(config.NETWORK, config.PASSWORD)
+                try:
+                    self.station.connect(config.NETWORK, config.PASSWORD)
+                except OSError as error:
+                    print("an ESP32 goes on trying by itself:", error)
         elif self.robot.stopped and time.ticks_diff(now, self.announced) >= ANNOUNCE_MS:
             self.announced, robot = now, self.robot
             numbers = struct.pack(">HBBB", robot.arena, robot.address, robot.board.KIND, 2)

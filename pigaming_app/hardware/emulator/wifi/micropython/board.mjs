@@ -2,7 +2,8 @@
 import { randomBytes } from "node:crypto";
 import { parentPort, receiveMessageOnPort, workerData } from "node:worker_threads";
 
-const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7; // as in boards.mjs
+const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7, FAULT = 8, OFFLINE = 9,
+  PULSES = 10; // as in boards.mjs
 const { numbers, inbox, files, interpreter, paced } = workerData;
 const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
 const pins = {};
@@ -16,11 +17,18 @@ globalThis.bridge = {
   battery: () => numbers[BATTERY],
   button: () => numbers[BUTTON],
   hangs: () => numbers[HANG] === 1,
+  fault: () => Atomics.exchange(numbers, FAULT, 0),
+  offline: () => numbers[OFFLINE] === 1,
+  pulses: (encoder) => numbers[PULSES + encoder],
   watch(ms) {
     numbers[FED] = time() | 0;
     numbers[TIMEOUT] = ms;
   },
   feed() { numbers[FED] = time() | 0; },
+  reset() {
+    parentPort.postMessage(["reset"]);
+    Atomics.wait(numbers, HANG, numbers[HANG]); // until this thread is ended
+  },
   pin(name, value) {
     changed ||= pins[name] !== value;
     pins[name] = value;
@@ -54,4 +62,9 @@ const micropython = await loadMicroPython({
 micropython.FS.mkdir("/robot");
 for (const [name, text] of Object.entries(files)) micropython.FS.writeFile(`/robot/${name}`, text);
 micropython.runPython("import sys\nsys.path.insert(0, '/robot')\nimport standins");
-micropython.runPython(files["main.py"]);
+try {
+  micropython.runPython(files["main.py"]);
+} catch (error) {
+  console.error(String(error));
+}
+micropython.runPython("standins.prompt()");

@@ -2,15 +2,16 @@
 //
 // Standard input: one JSON object a line. The first configures: {"robots": [{file: text}, ...], "interpreter": path,
 // "paced": bool}. Then {"now": ms, "received": [number, ...]} advances the clock of paced boards once each has received so
-// many datagrams, and {"robot": index, "do": "reboot" | "off" | "hang loop" | "hang board", "battery": mV, "button": 0 | 1}
-// disturbs one.
+// many datagrams, and {"robot": index, "do": "reboot" | "off" | "hang loop" | "hang board" | "error" | "interrupt",
+// "battery": mV, "button": 0 | 1, "offline": 0 | 1, "pulses": [left, right]} disturbs one.
 // Standard output: {"ports"}, {"robot", "at", "pins"}, {"robot", "reset"}, {"now"}. Times are ms: of the clock if paced,
 // else of the system's monotonic clock.
 import dgram from "node:dgram";
 import { createInterface } from "node:readline";
 import { MessageChannel, Worker } from "node:worker_threads";
 
-export const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7, SIZE = 8;
+export const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7, FAULT = 8, OFFLINE = 9,
+  PULSES = 10, SIZE = 12;
 const lines = createInterface({ input: process.stdin })[Symbol.asyncIterator]();
 const first = JSON.parse((await lines.next()).value);
 const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
@@ -41,7 +42,8 @@ class Robot {
     const { port1, port2 } = new MessageChannel();
     this.inbox = port1;
     this.inbox.unref();
-    this.numbers[HANG] = this.numbers[TIMEOUT] = 0;
+    this.numbers[HANG] = this.numbers[TIMEOUT] = this.numbers[FAULT] = 0;
+    this.numbers[PULSES] = this.numbers[PULSES + 1] = 0;
     this.numbers[CAUSE] = cause;
     this.idle = -1;
     const worker = this.worker = new Worker(new URL("board.mjs", import.meta.url), {
@@ -55,6 +57,7 @@ class Robot {
   hear([kind, ...values]) {
     if (kind === "pins") say({ robot: this.index, at: values[0], pins: values[1] });
     if (kind === "idle") { this.idle = values[0]; settle(); }
+    if (kind === "reset") this.reset(2);
     if (kind === "send") {
       sending++;
       this.socket.send(Buffer.from(values[0], "hex"), values[2], values[1], () => { sending--; settle(); });
@@ -112,6 +115,9 @@ async function advance(order) {
 function disturb(robot, order) {
   if (order.battery !== undefined) robot.numbers[BATTERY] = order.battery;
   if (order.button !== undefined) robot.numbers[BUTTON] = order.button;
+  if (order.offline !== undefined) robot.numbers[OFFLINE] = order.offline;
+  order.pulses?.forEach((total, encoder) => { robot.numbers[PULSES + encoder] = total; });
+  if (order.do === "error" || order.do === "interrupt") robot.numbers[FAULT] = order.do === "error" ? 1 : 2;
   if (order.do === "reboot") robot.reset(1);
   if (order.do === "off") robot.off();
   if (order.do === "hang loop" || order.do === "hang board") robot.numbers[HANG] = order.do === "hang loop" ? 1 : 2;

@@ -1,10 +1,63 @@
-"""Stand-in of the module `machine`: pins, PWM, ADC, timers and watchdog of an emulated board."""
+"""Stand-in of the module `machine`: pins, PWM, ADC, timers and watchdog of an emulated board.
+
+Timers and interrupts of an RP2040 may be hard: their callbacks must not allocate memory. An ESP32 refuses that.
+"""
 
 import js
+from micropython import heap_lock, heap_unlock
 
+try:
+    from config import BOARD
+except ImportError:
+    BOARD = "microbit"
+
+ESP32 = BOARD.startswith("board_esp32")
 PWRON_RESET, WDT_RESET = 1, 3
-FULL_MV = {"34": 9300, "26": 9900}  # of the battery at the end of the ADC: divider by 3 on an ESP32, a Pico W
+FULL_MV = 9900  # of the battery at the end of the ADC, behind a divider by 3
+FULL_MV_ESP32 = (2850, 9300)  # the same for the attenuations of 0 and 11 dB
 timers = []
+interrupts = []
+_locked = False  # in a hard callback
+
+
+def outside(function):
+    """The function, of the emulator itself, may allocate memory in a hard callback; it has at most two arguments."""
+
+    def free(one=None, two=None):
+        if _locked:
+            heap_unlock()
+        try:
+            return function() if one is None else function(one, two)
+        finally:
+            if _locked:
+                heap_lock()
+
+    return free
+
+
+@outside
+def put(name, value):
+    """Set a pin."""
+    js.bridge.pin(name, int(value))
+
+
+@outside
+def ticks():
+    return js.bridge.ticks()
+
+
+def call(function, argument, hard):
+    """Call back, without memory if `hard`."""
+    global _locked
+    if hard:
+        _locked = True
+        heap_lock()
+    try:
+        function(argument)
+    finally:
+        if hard:
+            _locked = False
+            heap_unlock()
 
 
 class Pin:
@@ -16,22 +69,34 @@ class Pin:
     def value(self, value=None):
         if value is None:
             return int(not js.bridge.button())  # to ground, with a pull-up
-        js.bridge.pin(self.name, int(value))
+        put(self.name, value)
+
+    def irq(self, handler, trigger, **hard):
+        if hard and ESP32:
+            raise TypeError("extra keyword arguments given")
+        interrupts.append([self, handler, hard.get("hard"), 0])
 
 
 class PWM:
     def __init__(self, pin, freq):
         self.name = pin.name
+        put("hertz" + self.name, freq)
 
     def duty_u16(self, duty):
         if not 0 <= duty <= 65535:
             raise ValueError(duty)
-        js.bridge.pin(self.name, duty)
+        put(self.name, duty)
 
 
 class ADC:
+    if ESP32:
+        ATTN_11DB = 3
+
+        def atten(self, attenuation):
+            self.full = FULL_MV_ESP32[attenuation == self.ATTN_11DB]
+
     def __init__(self, pin):
-        self.full = FULL_MV[pin.name]
+        self.full = FULL_MV_ESP32[0] if ESP32 else FULL_MV
 
     def read_u16(self):
         return min(65535, js.bridge.battery() * 65536 // self.full)
@@ -96,18 +161,25 @@ class Timer:
     def __init__(self, number):
         pass
 
-    def init(self, mode, period, callback):
-        self.period, self.callback = period, callback
+    def init(self, mode, period, callback, hard=False):
+        if hard and ESP32:
+            raise ValueError("hard Timers are not implemented")
+        self.period, self.callback, self.hard = period, callback, hard
         self.due = js.bridge.ticks() + period
         timers.append(self)
 
 
 def fire():
-    """Call back the timers that are due."""
+    """Call back the timers that are due, and the interrupts of encoders' pulses."""
+    for place, (pin, handler, hard, counted) in enumerate(interrupts):
+        pulses = js.bridge.pulses(place)
+        for _ in range(pulses - counted):
+            call(handler, pin, hard)
+        interrupts[place][3] = pulses
     for timer in timers:
         if js.bridge.ticks() >= timer.due:
             timer.due += timer.period * ((js.bridge.ticks() - timer.due) // timer.period + 1)
-            timer.callback(timer)
+            call(timer.callback, timer, timer.hard)
 
 
 def next_timer():
@@ -116,3 +188,7 @@ def next_timer():
 
 def reset_cause():
     return js.bridge.cause()
+
+
+def reset():
+    js.bridge.reset()

@@ -1,4 +1,7 @@
-"""Completes the WebAssembly build of MicroPython by what boards have: a clock that sleeps, random bytes, Ctrl-C."""
+"""Completes the WebAssembly build of MicroPython by what boards have: a clock that sleeps, random bytes, Ctrl-C.
+
+A sleep also runs timers and interrupts, and raises the errors that the emulator's owner orders.
+"""
 
 import os
 import sys
@@ -12,11 +15,14 @@ BEGUN = js.bridge.ticks()
 
 
 def ticks_ms():
-    return js.bridge.ticks() - BEGUN - 3000 & PERIOD
+    return machine.ticks() - BEGUN - 3000 & PERIOD
 
 
 def sleep_ms(ms):
     end = js.bridge.ticks() + ms
+    fault = js.bridge.fault()
+    if fault:
+        raise MemoryError if fault == 1 else KeyboardInterrupt
     while True:
         machine.fire()
         now = js.bridge.ticks()
@@ -27,6 +33,12 @@ def sleep_ms(ms):
 
 time.ticks_ms, time.sleep_ms = ticks_ms, sleep_ms
 os.urandom = lambda size: bytes.fromhex(js.bridge.random(size))
+
+
+def prompt():
+    """The prompt of the interpreter after the program: timers and interrupts go on."""
+    while True:
+        sleep_ms(1000)
 
 
 class Interpreter:

@@ -104,6 +104,8 @@ class Robot:
         left, right = packet[3 + 2 * ROBOT], packet[4 + 2 * ROBOT]
         drive(LEFT, left - MIDDLE if enabled and left <= 2 * MIDDLE else 0)
         drive(RIGHT, right - MIDDLE if enabled and right <= 2 * MIDDLE else 0)
+        if self.stopped:  # the timer has stopped it between two of these lines
+            self.brake()
         return True
 
     def work(self, now):

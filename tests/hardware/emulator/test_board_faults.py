@@ -1,0 +1,237 @@
+"""Motor drivers and encoders of the board files, and errors in the robots' program: no motor runs on by itself."""
+
+import re
+
+import pytest
+
+from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, Wheel, interpreter
+from pigaming_app.hardware.radio.packets import RESTARTED, drive_packet
+from pigaming_app.hardware.robot_files import PROGRAM
+from pigaming_app.hardware.signals import WheelCommand
+from tests.hardware.emulator.one_board import ARENA, BACK, GO, ON, Arcade
+
+DRIVERS = ("DRV8833", "TB6612", "L298N")
+IN_IN = {"board_esp32": (Wheel(25, 26), Wheel(32, 33)), "board_pico_w": (Wheel(10, 11), Wheel(12, 13))}
+ENABLE = {"board_esp32": (Wheel(26, 27, 25), Wheel(32, 33, 14)), "board_pico_w": (Wheel(11, 12, 10), Wheel(14, 15, 13))}
+HERTZ = {"DRV8833": 20000, "TB6612": 20000, "L298N": 2000}
+TOP = 1200  # pulses a second of the board files' encoders
+STALLS = """
+import time
+from motors import InIn
+
+class Stalls(InIn):
+    stalled = False
+    def set(self, duty):
+        if duty and not self.stalled:
+            self.stalled = True
+            time.sleep_ms(300)
+        super().set(duty)
+
+KIND, TIMER, WATCHDOG_MS, LED, BATTERY_PIN, BUTTON = 1, 0, 1000, None, None, None
+left, right = Stalls(25, 26), InIn(32, 33)
+"""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _micropython():
+    try:
+        interpreter()
+    except NoMicroPython as reason:
+        pytest.skip(str(reason))
+
+
+@pytest.fixture
+def arcade(request):
+    arcade = Arcade(**getattr(request, "param", {}))
+    yield arcade
+    arcade.close()
+
+
+def board_file(board, choice):
+    """A board file with a line of its comments in force: that of another driver, or that of the encoders."""
+    text = (PROGRAM / f"{board}.py").read_text("utf-8")
+    if choice != "encoders":
+        text = re.sub("^left, right = .*$", "", text, flags=re.MULTILINE)
+    return "from motors import Enable, Regulated\n" + text.replace(f"# {choice}: ", "")
+
+
+def of(board, driver):
+    """A robot with this driver on a board."""
+    if driver == "DRV8833":
+        return {"board": board}
+    return {"board": f"{board}_{driver.lower()}", "text": board_file(board, driver), "wheels": ENABLE[board]}
+
+
+def drive(arcade, seconds, command=GO[0]):
+    for _ in range(round(seconds / 0.02)):
+        arcade.send(arcade.sealed(drive_packet(ARENA, arcade.seq, [command])))
+        arcade.seq += 1
+        arcade.run(0.02)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("board", IN_IN)
+@pytest.mark.parametrize("driver", DRIVERS)
+def test_every_driver_in_a_board_file_turns_ahead_and_back_and_brakes(board, driver):
+    arcade = Arcade(**of(board, driver))
+    try:
+        arcade.meet()
+        arcade.send(arcade.sealed())
+        arcade.run(0.004)
+        assert arcade.motors == pytest.approx(ON, abs=1e-3)
+        arcade.send(arcade.sealed(drive_packet(ARENA, 77, GO[1:])))
+        arcade.run(0.004)
+        assert arcade.motors == pytest.approx(BACK, abs=1e-3)
+        arcade.run(0.3)
+        assert arcade.motors == (0.0, 0.0)
+        brake = [value for name, value in arcade.boards.pins[0].items() if name.isdigit() and int(name) not in (2, 34)]
+        assert {bool(value) for value in brake} == {True}, "all inputs of a driver that brakes are high"
+        assert {value for name, value in arcade.boards.pins[0].items() if "hertz" in name} == {HERTZ[driver]}
+    finally:
+        arcade.close()
+
+
+class Wheels:
+    """Two motors that lag, each with an encoder whose pulses a board counts; `gains`: speed at full voltage."""
+
+    def __init__(self, arcade, gains):
+        self.arcade, self.gains = arcade, gains
+        self.speeds, self.pulses, self.counted = [0.0, 0.0], [0.0, 0.0], [1.0, 1.0]
+
+    def drive(self, seconds, command):
+        """Drive for a while; returns the voltages at the motors meanwhile."""
+        shares = []
+        for step in range(round(seconds / 0.002)):
+            if step % 10 == 0:
+                self.arcade.seq += 1
+                self.arcade.send(self.arcade.sealed(drive_packet(ARENA, self.arcade.seq, [command])))
+            self.arcade.run(0.002)
+            shares.append(self.arcade.motors)
+            for i, gain in enumerate(self.gains):
+                self.speeds[i] += (gain * shares[-1][i] - self.speeds[i]) * 0.002 / 0.08
+                self.pulses[i] += abs(self.speeds[i]) * TOP * 0.002 * self.counted[i]
+            self.arcade.boards.disturb(0, pulses=[int(total) for total in self.pulses])
+        return shares
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("board", IN_IN)
+def test_encoders_hold_the_speed_and_never_run_away(board):
+    arcade = Arcade(board=f"{board}_encoders", text=board_file(board, "encoders"), wheels=IN_IN[board])
+    try:
+        arcade.meet()
+        wheels = Wheels(arcade, (0.8, 1.1))
+        code = 32 / 63
+        for command in (WheelCommand(0.5, -0.5), WheelCommand(-0.5, 0.5)):
+            wheels.drive(3.0, command)
+            assert [abs(speed) for speed in wheels.speeds] == pytest.approx([code, code], rel=0.03)
+        wheels.counted = [0.0, 30.0]  # a dead encoder, and one that counts noise
+        shares = wheels.drive(3.0, WheelCommand(-0.5, 0.5))
+        assert all(-code - 0.2501 <= left <= -code and 0.0 <= right <= code for left, right in shares[200:])
+        assert shares[-1] == pytest.approx((-code - 0.25, code - 0.25), abs=0.01)
+        wheels.drive(0.1, WheelCommand(0.0, 0.0))
+        assert arcade.motors == (0.0, 0.0)
+        wheels.drive(0.1, WheelCommand(0.5, 0.5))
+        arcade.run(0.21)
+        for _ in range(50):
+            assert arcade.motors == (0.0, 0.0)
+            arcade.run(0.01)
+    finally:
+        arcade.close()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("arcade", [{"board": "board_esp32"}, {"board": "board_pico_w"}], indirect=True)
+def test_an_error_in_the_program_stops_the_motors_and_restarts_the_robot(arcade):
+    arcade.meet()
+    drive(arcade, 0.2)
+    assert any(arcade.motors)
+    began = arcade.now
+    arcade.boards.disturb(0, do="error")
+    arcade.run(1.2)
+    assert arcade.boards.powered_until[0] - began <= 0.01
+    assert arcade.boards.resets == [(0, 3)]
+    assert arcade.meet().flags & RESTARTED
+    arcade.seq += 1
+    drive(arcade, 0.1)
+    assert any(arcade.motors)
+
+
+@pytest.mark.long
+def test_an_error_before_the_first_command_restarts_the_robot_too(arcade):
+    arcade.meet()
+    arcade.boards.disturb(0, do="error")
+    arcade.run(3.5)
+    assert arcade.boards.resets == [(0, 2)]
+    assert arcade.meet()
+
+
+@pytest.mark.long
+def test_a_robot_without_commands_can_be_interrupted_to_change_its_files(arcade):
+    arcade.meet()
+    arcade.boards.disturb(0, do="interrupt")
+    arcade.run(4.0)
+    assert not arcade.boards.resets
+    assert not arcade.received(b"PG2A")[4:], "the program has ended"
+
+
+@pytest.mark.long
+def test_ctrl_c_during_a_drive_stops_the_motors(arcade):
+    arcade.meet()
+    drive(arcade, 0.1)
+    began = arcade.now
+    arcade.boards.disturb(0, do="interrupt")
+    arcade.run(0.05)
+    assert arcade.motors == (0.0, 0.0)
+    assert arcade.boards.powered_until[0] - began <= 0.01
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "arcade", [{"board": "board_esp32_stalls", "text": STALLS, "wheels": IN_IN["board_esp32"]}], indirect=True
+)
+def test_a_command_that_stalls_until_after_the_deadman_is_braked(arcade):
+    arcade.meet()
+    arcade.send(arcade.sealed())
+    arcade.run(0.32)
+    for _ in range(20):
+        assert arcade.motors == (0.0, 0.0)
+        arcade.run(0.02)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("board", IN_IN)
+def test_a_robot_switched_on_before_its_network_joins_it_later(board):
+    arcade = Arcade(board=board)
+    try:
+        arcade.boards.disturb(0, offline=1)
+        arcade.run(20.0)
+        assert not arcade.received(b"PG2A")
+        assert not arcade.boards.resets
+        arcade.boards.disturb(0, offline=0)
+        arcade.meet()
+        drive(arcade, 0.1)
+        assert any(arcade.motors)
+    finally:
+        arcade.close()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("wrong", [{"robot": 0}, {"robot": 5}, {"arena": 16384}])
+def test_a_robot_with_a_wrong_number_does_not_start(wrong):
+    arcade = Arcade(**wrong)
+    try:
+        arcade.run(4.0)
+        assert not arcade.received(b"PG2A")
+        assert arcade.boards.resets == [(0, 2)]
+        assert not any(arcade.motors)
+    finally:
+        arcade.close()
+
+
+def test_the_program_of_a_robot_has_at_most_400_lines():
+    boards = [path.name for path in PROGRAM.glob("board_*.py")]
+    for board in boards:
+        for radio in ("wifi.py", "serial_radio.py"):
+            files = ("robot.py", "motors.py", "config_example.py", board, radio)
+            assert sum(len((PROGRAM / file).read_text("utf-8").splitlines()) for file in files) <= 400
