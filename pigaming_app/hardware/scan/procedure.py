@@ -6,6 +6,7 @@ does the same with a camera of its own. Robots may stand on the mat, but must no
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from math import hypot, inf
 
 import numpy as np
@@ -33,7 +34,12 @@ NOISE = 4.0  # grey levels by which frames of the same picture may always differ
 DARK = 8.0  # grey levels, least mean difference between white and black
 SPARSE = 8  # px between the samples of these comparisons
 PATIENCE = 4.0  # s for each picture
-MOVED, SOME = 14.0, 0.002  # grey levels by which the mean of fringes may vary, and the share of px that may do so
+MOVED, SOME = 6.0, 9  # grey levels by which the mean of fringes may vary, and connected samples beyond them
+BRIGHT, GLARE = (
+    250.0,
+    0.02,
+)  # grey levels of the white picture, and the share of its px beyond them, that are too bright
+AROUND = 41  # samples, window of the gradients that changing room light leaves
 BAND = 60  # rows of a slice of the computation
 
 
@@ -52,6 +58,7 @@ class Scan:
         self.layout: Layout | None = None
         self.expected: ExpectedLight | None = None  # of the scanned mat, for `ThingsWatch`
         self.robots: list[Place] = []  # arena px, on the mat during the scan
+        self.left_out = 0  # things found beyond those that an arena has room for
         self._projector, self._known = before.projector if before else None, known
         self._pictures: list[Map] = []
         self._sum: Map | None = None
@@ -142,7 +149,8 @@ class Scan:
 
     def _computation(self) -> Iterator[None]:
         if _has_moved(self._pictures):
-            self.fault = OperatorMessage("scan_moved")
+            bright = (self._pictures[0][::SPARSE, ::SPARSE] > BRIGHT).mean() > GLARE
+            self.fault = OperatorMessage("scan_bright" if bright else "scan_moved")
             return
         yield
         seen = _robots(self._pictures[0], self.ground)
@@ -162,6 +170,7 @@ class Scan:
             found = things
             yield
         layout = Layout(largest(found), projector)
+        self.left_out = len(found) - len(layout.things)
         covered = robot_shadows(self.robots, self.ground, projector)
         self.expected = ExpectedLight(pictures, whole, projector, covered)
         self.layout, self._pictures = layout, []  # 120 MB
@@ -216,12 +225,30 @@ def _difference(one: Map, other: Map) -> float:
 
 
 def _has_moved(pictures: Sequence[Map]) -> bool:
-    """True if something moved meanwhile: the mean of three phases of any fringes is the same even grey."""
-    few = [picture[::SPARSE, ::SPARSE] for picture in pictures[2:]]
-    means = [np.mean(few[STEPS * i : STEPS * (i + 1)], axis=0) for i in range(len(SETS))]
-    level = [float(mean.mean()) for mean in means]
-    even = np.stack([mean * np.float32(level[0] / max(own, 1.0)) for mean, own in zip(means, level, strict=True)])
-    return float((even.max(axis=0) - even.min(axis=0) > MOVED).mean()) > SOME
+    """True if something moved meanwhile, such as a hand, a robot or a thing.
+
+    The mean of three phases of any fringes is the same even grey, between black and white. Each is compared with the
+    sum of two others, each times a factor, that fits best: room light and exposure may change meanwhile.
+    """
+    cv = opencv()
+    wide, high = pictures[0].shape[1] // SPARSE, pictures[0].shape[0] // SPARSE
+    small = [cv.resize(picture, (wide, high), interpolation=cv.INTER_AREA) for picture in pictures]
+    white, black = small[:2]
+    means = [np.mean(small[2 + STEPS * i : 2 + STEPS * (i + 1)], axis=0) for i in range(len(SETS))]
+    grey = np.mean(means, axis=0)
+    pairs = [(grey, white), *pairwise(means), *pairwise(means[::-1])]
+    return any(_differs_at_a_place(one, other, black) for one, other in pairs)
+
+
+def _differs_at_a_place(one: Map, other: Map, black: Map) -> bool:
+    """True if a picture is no such sum of two others at some place; wide gradients do not count."""
+    cv = opencv()
+    parts = np.column_stack([other.ravel(), black.ravel()])
+    factors, *_ = np.linalg.lstsq(parts, one.ravel(), rcond=None)
+    off = one - (parts @ factors).reshape(one.shape)
+    off = np.asarray(off - cv.blur(off, (AROUND, AROUND)), dtype=np.float32)
+    _, _, stats, _ = cv.connectedComponentsWithStats((np.abs(off) > MOVED).astype(np.uint8), connectivity=4)
+    return int(stats[1:, 4].max(initial=0)) >= SOME
 
 
 def _robots(white: Map, ground: GroundPlane) -> list[Place]:

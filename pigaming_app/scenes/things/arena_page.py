@@ -24,6 +24,7 @@ from pigaming_app.scenes.things.playable import PlayableArenas
 from pigaming_app.scenes.things.steps import draw_steps
 from pigaming_app.scenes.things.sweep_page import SweepPage
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.sim.things.spec import MOST
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST
 from pigaming_app.ui.draw.text import text, wrap
@@ -169,6 +170,8 @@ class ArenaPage:
     def _scanned(self, work: RigScan, layout: Layout | None) -> None:
         """Take over the result of a scan."""
         self.fault = work.scan.fault
+        if work.scan.left_out:
+            self.fault = OperatorMessage("scan_many", count=MOST)
         if layout is not None:
             self._take(layout, True)
 

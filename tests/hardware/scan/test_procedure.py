@@ -7,21 +7,24 @@ cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.scan.expected import Light  # noqa: E402
 from pigaming_app.hardware.scan.patterns import PATTERNS  # noqa: E402
-from pigaming_app.hardware.scan.procedure import Scan  # noqa: E402
+from pigaming_app.hardware.scan.procedure import Scan, _has_moved  # noqa: E402
 from pigaming_app.hardware.scan.watch import PATIENCE, ThingsWatch  # noqa: E402
 from pigaming_app.hardware.signals import CameraFrame  # noqa: E402
 from tests.hardware.grounds import nominal  # noqa: E402
 from tests.hardware.sentences import sentence  # noqa: E402
 
-SIZE = (320, 180)
+SIZE = (640, 360)
 TICK = 1 / 30  # s
 
 
 class Mat:
-    """A flat mat under a projector whose light comes `late` pictures after it was drawn, of a strength."""
+    """A flat mat under a projector whose light comes `late` pictures after it was drawn, of a strength.
 
-    def __init__(self, late, light=0.6):
-        self.now, self.late, self.light = 0.0, late, light
+    `hand`: pictures of the scan for which a hand is over the mat, of grey levels as a share of the mat's.
+    """
+
+    def __init__(self, late, light=0.6, hand=(), grey=0.5):
+        self.now, self.late, self.light, self.hand, self.grey = 0.0, late, light, hand, grey
         self.scan = Scan(nominal(SIZE), lambda: self.now)
         self.shown, self.used = [], []
         self.cards = {id(p): cv2.resize(p.picture(), SIZE, interpolation=cv2.INTER_AREA) for p in PATTERNS}
@@ -36,7 +39,10 @@ class Mat:
             self.shown.append(pattern)
             self.now += TICK
             card = self.cards[id(self.shown[max(0, len(self.shown) - 1 - self.late)])]
-            image = (40 + self.light * card + noise[number % 7]).clip(0, 255).astype(np.uint8)
+            seen = 40 + self.light * card + noise[number % 7]
+            if len(self.scan._pictures) in self.hand:
+                seen[160:256, 320:384] *= self.grey
+            image = seen.clip(0, 255).astype(np.uint8)
             self.scan.process(CameraFrame(image, self.now, number))
         return self.scan
 
@@ -49,6 +55,25 @@ def test_every_picture_is_taken_when_its_light_has_come(late):
     for pattern, picture in zip(PATTERNS, scan._pictures, strict=True):
         assert np.abs(picture - 40 - 0.6 * mat.cards[id(pattern)]).max() < 9.0
     assert mat.now < 6.0 + 0.5 * late
+
+
+@pytest.mark.parametrize(
+    ("hand", "grey"),
+    [((0, 1), 0.5), (range(8, 14), 0.9), ((4,), 0.6), (range(5, 8), 1.15)],
+    ids=["in white and black", "a pale thing put down", "in one picture", "in one set of fringes"],
+)
+def test_something_that_moves_during_a_scan_is_noticed(hand, grey):
+    scan = Mat(1, hand=hand, grey=grey).run()
+    scan.compute()
+    assert scan.fault is not None
+    assert "moved" in sentence(scan.fault)
+
+
+def test_what_stays_is_no_motion_and_a_glaring_picture_is_named():
+    assert not _has_moved(Mat(1, hand=range(14)).run()._pictures)
+    glaring = Mat(1, light=1.5, hand=range(14)).run()
+    glaring.compute()
+    assert "bright" in sentence(glaring.fault)
 
 
 def test_without_projected_light_the_projector_is_named():
