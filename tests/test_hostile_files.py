@@ -165,6 +165,19 @@ def test_a_run_with_a_line_that_no_robot_drives_is_refused(tmp_path, line):
         runs.load(path)
 
 
+@pytest.mark.parametrize("tail", [b"[" + b"[]," * 4_000 + b"1]", b'{"kind":"pose"}\n' * 31, b"\n" * 2_000])
+def test_a_run_takes_little_memory(tmp_path, monkeypatch, tail):
+    monkeypatch.setattr(runs, "MAX_LINES", 180)
+    path = tmp_path / "run.jsonl"
+    path.write_bytes("".join(f"{json.dumps(one)}\n" for one in run_lines(50)).encode() + tail)
+    with pytest.raises(RecordingError):
+        runs.load(path)
+    monkeypatch.setattr(runs, "MAX_FIXES", 49)
+    path.write_text("".join(f"{json.dumps(one)}\n" for one in run_lines(55)))
+    with pytest.raises(RecordingError, match="poses"):
+        runs.load(path)
+
+
 def test_what_is_accepted_as_a_run_is_measured_and_replayed(tmp_path):
     path, chance = tmp_path / "run.jsonl", random.Random(5)
     lines = run_lines(400)

@@ -23,6 +23,9 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.parsing import describe_error, one_line, parse_json, quote, read
 
 MAX_BYTES = 400_000_000  # of a file; an hour has about 100 million
+MAX_LINE = 10_000  # bytes
+MAX_LINES = 2_000_000  # two hours have about 1.2 million
+MAX_FIXES = 1_000_000  # of a robot
 MAX_TIME = 1e10  # s of a clock
 MAX_DURATION = 7200.0  # s of a run
 MAX_COORDINATE = 100_000.0  # px from the corner of the arena, or rad
@@ -66,17 +69,19 @@ def load(path: Path, min_observations: int = 50) -> Recording:
     """Read a run; robots with fewer than `min_observations` are left out. Raises RecordingError."""
     try:
         raw = read(path, MAX_BYTES)
-        lines = (_run_of_match(raw) if raw.startswith(b"PK") else raw).splitlines()
+        raw = _run_of_match(raw) if raw.startswith(b"PK") else raw
     except OSError as error:
         raise RecordingError(f"{path.name}: cannot be read ({describe_error(error)})") from None
     except ValueError as error:
         raise RecordingError(f"{path.name}: {error}") from None
-    run = _RecordingLines()
-    for number, line in enumerate(lines, 1):
+    run, lines = _RecordingLines(), BytesIO(raw)
+    for number, line in enumerate(iter(lambda: lines.readline(MAX_LINE), b""), 1):
+        if number > MAX_LINES:
+            raise RecordingError(f"{path.name}: more than {MAX_LINES:,} lines")
         try:
             run.add(parse_json(line))
         except (ValueError, KeyError, TypeError) as error:
-            if number == len(lines) and number > 1:
+            if lines.tell() == len(raw) and number > 1:
                 break  # the recording stopped in the middle of a line
             reason = f"{type(error).__name__} {error}" if isinstance(error, KeyError) else str(error)
             raise RecordingError(one_line(f"{path.name}: line {number}: not a line of a run ({reason})")) from None
@@ -132,6 +137,8 @@ class _RecordingLines:
                     robot, x, y, heading = _list(fix, 4)
                     if robot not in range(ROBOTS) or not isinstance(robot, int) or isinstance(robot, bool):
                         raise ValueError(f"{quote(robot)} is no robot; there are 0 to {ROBOTS - 1}")
+                    if len(self.observations[robot]) >= MAX_FIXES:
+                        raise ValueError(f"more than {MAX_FIXES:,} poses of a robot")
                     self.observations[robot].append((captured, _coordinate(x), _coordinate(y), _coordinate(heading)))
 
 

@@ -14,6 +14,7 @@ from pigaming_app.storage.safe_files import AtomicFile
 FORMAT = "pigaming-run-1"
 RUN_PART = "run.jsonl.gz"  # a run in the file of a match
 BLOCK = 1 << 16  # bytes of lines that are compressed together
+LONGEST = 7000.0  # s of a run in memory, less than recordings.MAX_DURATION: a match may wait for hours
 
 
 class RunWriter:
@@ -31,9 +32,10 @@ class RunWriter:
         self._write({"kind": "sent", "time": time, "seq": self._seq, "wheels": pairs})
 
     def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
-        """Record the fixes of a picture taken at `captured` and processed at `now` (s)."""
-        raw = [[fix.robot, fix.x, fix.y, fix.heading] for fix in fixes]
-        self._write({"kind": "seen", "captured": captured, "time": now, "fixes": raw})
+        """Record the fixes of a picture taken at `captured` and processed at `now` (s); those of ROS have own times."""
+        for time in sorted({fix.captured for fix in fixes}) or [captured]:
+            raw = [[fix.robot, fix.x, fix.y, fix.heading] for fix in fixes if fix.captured == time]
+            self._write({"kind": "seen", "captured": time, "time": now, "fixes": raw})
 
     def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
         """Record the tracker's estimates."""
@@ -60,7 +62,7 @@ class RecordingWriter(RunWriter):
 
 
 class RunInMemory(RunWriter):
-    """A run in memory, compressed while it is recorded. For use from several threads.
+    """A run in memory, compressed while it is recorded; it ends after LONGEST. For use from several threads.
 
     Estimates are left out: the recording of a match has them tick by tick.
     """
@@ -69,6 +71,7 @@ class RunInMemory(RunWriter):
         self._blocks: list[bytes] = []
         self._open = bytearray()
         self._lock = Lock()
+        self._end = float("inf")
         super().__init__(self._add, mm, emulated)
 
     def compressed(self) -> bytes:
@@ -78,6 +81,13 @@ class RunInMemory(RunWriter):
 
     def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
         pass
+
+    def _write(self, line: dict[str, Any]) -> None:
+        if "time" in line:
+            self._end = min(self._end, line["time"] + LONGEST)
+            if line["time"] > self._end:
+                return
+        super()._write(line)
 
     def _add(self, line: bytes) -> None:
         with self._lock:

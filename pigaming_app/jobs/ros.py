@@ -7,7 +7,7 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable, setti
 from pigaming_app.jobs.sessions import new_session
 from pigaming_app.jobs.terminal.options import decimal, mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
-from pigaming_app.sim.world import DT, WIDTH
+from pigaming_app.sim.world import DT, ROBOTS, WIDTH
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
@@ -24,7 +24,7 @@ def run(arguments: Namespace) -> int:
         raise Refusal(english().long_sentence(problem))
     require("hardware")
     from pigaming_app.hardware.ros.bridge import Bridge
-    from pigaming_app.hardware.ros.node import RosNode, RosUnavailable, require_roscore
+    from pigaming_app.hardware.ros.node import RosNode, RosUnavailable, require_roscore, topic_of
 
     with refused(RosUnavailable):
         require_roscore()
@@ -34,7 +34,7 @@ def run(arguments: Namespace) -> int:
     try:
         with refused(RobotsUnavailable, RosUnavailable):
             rig = session.open()
-            node = RosNode("pigaming_mat")
+            node = RosNode("pigaming_mat", [topic_of(robot, "pose") for robot in range(ROBOTS)])
         bridge, faults = Bridge(rig, node, session.mm, time.monotonic), set[tuple[str, int | None]]()
         print(f"/robot_1 to /robot_4; the arena is {1e-3 * session.mm * WIDTH:.3f} m wide", flush=True)
         end = time.monotonic() + (arguments.seconds or float("inf"))

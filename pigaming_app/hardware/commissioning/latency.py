@@ -92,7 +92,7 @@ class LatencyTest:
 
     def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
         """Recorder: a frame was processed."""
-        self._seen += [(captured, now, fix.heading) for fix in fixes if fix.robot == self.robot]
+        self._seen += [(fix.captured, now, fix.heading) for fix in fixes if fix.robot == self.robot]
 
     def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
         """Recorder: predictions are not used."""

@@ -5,16 +5,19 @@ right and y up, headings and turns counter-clockwise (REP 103).
 """
 
 import sys
-import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from http.client import HTTPConnection, HTTPException
 from math import atan2, cos, sin
 from typing import Any
+from xmlrpc.client import Error, ServerProxy, Transport
 
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 
 SYSTEM = "/usr/lib/python3/dist-packages"  # where Debian installs rospy
 FRAME = "arena"
+STATE = "/game/state"
 QUEUE = 1  # messages: only the newest counts
+ANSWER = 3.0  # s, timeout of the roscore
 
 Pose = tuple[float, float, float]  # m, m, rad
 PoseHandler = Callable[[int, Pose, float], None]  # robot, pose, age in s
@@ -37,14 +40,36 @@ def require_roscore() -> None:
         import std_msgs.msg  # noqa: F401
     except ImportError as error:
         raise RosUnavailable(OperatorMessage("ros_missing", package=error.name or "rospy")) from None
-    if not rosgraph.is_master_online():
-        raise RosUnavailable(OperatorMessage("ros_master", address=rosgraph.get_master_uri()))
+    address = rosgraph.get_master_uri()
+    if not _answers(address):
+        raise RosUnavailable(OperatorMessage("ros_master", address=address or '""'))
+
+
+def _answers(address: str) -> bool:
+    """True if a roscore answers there within ANSWER s."""
+    try:
+        ServerProxy(address, transport=_Impatient()).getPid("/pigaming")
+    except (OSError, ValueError, HTTPException, Error):
+        return False
+    return True
+
+
+class _Impatient(Transport):
+    """HTTP with a timeout."""
+
+    def make_connection(self, host: Any) -> HTTPConnection:
+        connection = super().make_connection(host)
+        connection.timeout = ANSWER
+        return connection
 
 
 class RosNode:
-    """A node named `name` with a suffix of its own. Raises RosUnavailable."""
+    """A node named `name` with a suffix of its own, which publishes `topics`. Raises RosUnavailable.
 
-    def __init__(self, name: str) -> None:
+    All topics are registered here: without a roscore, a registration blocks its thread until one is back.
+    """
+
+    def __init__(self, name: str, topics: Iterable[str]) -> None:
         require_roscore()  # without one, init_node would wait for ever
         import geometry_msgs.msg as geometry
         import rospy
@@ -54,8 +79,7 @@ class RosNode:
         self._ros, self._geometry, self._sensors, self._standard = rospy, geometry, sensors, standard
         if not rospy.core.is_initialized():
             rospy.init_node(name, anonymous=True, disable_signals=True)
-        self._lock = threading.Lock()
-        self._publishers: dict[str, Any] = {}
+        self._publishers = {topic: self._publisher(topic) for topic in topics}
         self._subscribers: list[Any] = []
 
     @property
@@ -78,12 +102,12 @@ class RosNode:
                 flat = self._geometry.Pose2D().deserialize(raw._buff)
                 handle(robot, (flat.x, flat.y, flat.theta), 0.0)
 
-        self._subscribe(_topic(robot, "pose"), self._ros.AnyMsg, take)
+        self._subscribe(topic_of(robot, "pose"), self._ros.AnyMsg, take)
 
     def on_twist(self, robot: int, handle: Callable[[int, Twist], None]) -> None:
         """Call `handle` for every command to a robot: geometry_msgs Twist."""
         self._subscribe(
-            _topic(robot, "cmd_vel"),
+            topic_of(robot, "cmd_vel"),
             self._geometry.Twist,
             lambda twist: handle(robot, (twist.linear.x, twist.angular.z)),
         )
@@ -101,17 +125,17 @@ class RosNode:
         message.header.stamp = self._ros.Time.now() - self._ros.Duration.from_sec(age)
         message.pose.position.x, message.pose.position.y = pose[0], pose[1]
         message.pose.orientation.z, message.pose.orientation.w = sin(0.5 * pose[2]), cos(0.5 * pose[2])
-        self._publish(_topic(robot, "pose"), message)
+        self._publish(topic_of(robot, "pose"), message)
 
     def publish_twist(self, robot: int, twist: Twist) -> None:
         """Publish a command."""
         message = self._geometry.Twist()
         message.linear.x, message.angular.z = twist
-        self._publish(_topic(robot, "cmd_vel"), message)
+        self._publish(topic_of(robot, "cmd_vel"), message)
 
     def publish_state(self, text: str) -> None:
         """Publish the state of the match, JSON."""
-        self._publish("/game/state", self._standard.String(text))
+        self._publish(STATE, self._standard.String(text))
 
     def close(self) -> None:
         """Leave all topics; a node of the same process may join again."""
@@ -123,15 +147,17 @@ class RosNode:
     def _subscribe(self, topic: str, kind: type, handle: Callable[[Any], None]) -> None:
         self._subscribers.append(self._ros.Subscriber(topic, kind, handle, queue_size=QUEUE, tcp_nodelay=True))
 
+    def _publisher(self, topic: str) -> Any:
+        kinds = {"pose": self._geometry.PoseStamped, "cmd_vel": self._geometry.Twist, "state": self._standard.String}
+        kind = kinds[topic.rpartition("/")[2]]
+        return self._ros.Publisher(topic, kind, queue_size=5, tcp_nodelay=True)
+
     def _publish(self, topic: str, message: Any) -> None:
-        with self._lock:
-            if topic not in self._publishers:
-                self._publishers[topic] = self._ros.Publisher(topic, type(message), queue_size=5, tcp_nodelay=True)
         if not self._ros.is_shutdown():
             self._publishers[topic].publish(message)
 
 
-def _topic(robot: int, name: str) -> str:
+def topic_of(robot: int, name: str) -> str:
     """Topic of a robot, counted from 0 here and from 1 there."""
     return f"/robot_{robot + 1}/{name}"
 

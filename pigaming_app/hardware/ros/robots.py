@@ -157,14 +157,21 @@ class RosLink:
             return
         self._closing.set()
         atexit.unregister(self.close)
-        if self._thread is not None:
+        if self._thread is None:
+            self._farewell()
+        else:
             self._thread.join(timeout=1.0)
+
+    def _run(self) -> None:
+        try:
+            while not self._closing.wait(BEAT):
+                self.pump()
+        finally:
+            self._farewell()
+
+    def _farewell(self) -> None:
         pause = threading.Event()
         for _ in range(FAREWELLS):
             self._mail = (float("-inf"), self._mail[1])
             self.pump()
             pause.wait(BEAT)  # a topic is sent by a thread of its own
-
-    def _run(self) -> None:
-        while not self._closing.wait(BEAT):
-            self.pump()

@@ -32,9 +32,13 @@ class ReplayFaults:
         self.faults: Sequence[RecordedFault] = replay.recording.faults if isinstance(replay, RealReplay) else ()
 
     def draw(self, screen: pygame.Surface, tick: int) -> None:
-        """Draw the plates of the faults that began within the last seconds before a tick."""
+        """Draw the plates of the faults that began within the last seconds before a tick.
+
+        First those of all robots, which explain those of one, then those that stopped the match, then the newest.
+        """
         shown = [fault for fault in self.faults if fault.tick <= tick < fault.tick + SHOWN]
-        for i, fault in enumerate(shown[-MOST:]):
+        shown.sort(key=lambda fault: (fault.robot is not None, not fault.pauses, -fault.tick))
+        for i, fault in enumerate(shown[:MOST]):
             number = 1 if fault.robot is None else fault.robot + 1
             waited = round(fault.seconds) if fault.pauses else 0
             sentence = self.words(f"replay.fault_{fault.name}", robot=number)

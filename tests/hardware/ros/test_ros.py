@@ -2,7 +2,9 @@
 
 import json
 import signal
+import socket
 import sys
+import threading
 import time
 from math import pi
 from pathlib import Path
@@ -12,6 +14,7 @@ import pytest
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.ros import node as node_module
 from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
 from pigaming_app.hardware.ros.robots import RosLink, RosPoses
 from pigaming_app.hardware.ros.units import ArenaFrame
@@ -50,6 +53,77 @@ def test_a_package_that_is_missing_is_named_in_one_line(monkeypatch, missing):
     with pytest.raises(RosUnavailable) as refusal:
         require_roscore()
     assert refusal.value.message.values["package"].startswith(missing)
+
+
+class Registrations(ModuleType):
+    """rospy and the messages: a registration is noted, as it waits for a roscore that has gone."""
+
+    def __init__(self, address: str = "") -> None:
+        super().__init__("rospy")
+        self.registered: list[str] = []
+        self.sent: list[str] = []
+        self.core = self.msg = self
+        self.AnyMsg = self.Joy = self.String = self.PoseStamped = self.Twist = lambda *values: self
+        self.linear = self.angular = ModuleType("vector")
+        self.get_master_uri = lambda: address
+        self.is_initialized = lambda: True
+        self.is_shutdown = lambda: False
+
+    def Publisher(self, topic: str, *rest: object, **more: object) -> "Registrations":  # noqa: N802
+        self.registered.append(topic)
+        return self
+
+    Subscriber = Publisher
+
+    def publish(self, message: object) -> None:
+        self.sent.append(self.registered[-1])
+
+
+@pytest.fixture
+def no_ros(monkeypatch):
+    """Stands in for rospy, at an address of a roscore."""
+
+    def install(address=""):
+        fake = Registrations(address)
+        monkeypatch.setattr(sys, "path", [*sys.path])
+        for package in ("rosgraph", "rospy", "geometry_msgs", "sensor_msgs", "std_msgs"):
+            for name in (package, f"{package}.msg"):
+                monkeypatch.setitem(sys.modules, name, fake)
+        return fake
+
+    return install
+
+
+@pytest.mark.parametrize(
+    "address", ["", "garbage", "http://", "http://localhost:99999", "ftp://localhost:1", "http://["]
+)
+def test_an_address_that_is_none_is_refused_in_one_line(no_ros, address):
+    no_ros(address)
+    with pytest.raises(RosUnavailable) as refusal:
+        require_roscore()
+    assert refusal.value.message.values["address"] == (address or '""')
+
+
+def test_a_roscore_that_does_not_answer_is_not_awaited_for_ever(no_ros, monkeypatch):
+    monkeypatch.setattr(node_module, "ANSWER", 0.05)
+    with socket.create_server(("localhost", 0)) as mute:
+        no_ros(f"http://localhost:{mute.getsockname()[1]}")
+        with pytest.raises(RosUnavailable):
+            require_roscore()
+
+
+def test_no_topic_is_registered_while_robots_drive(no_ros, monkeypatch):
+    fake = no_ros()
+    monkeypatch.setattr(node_module, "require_roscore", lambda: None)
+    session = RosSession()
+    rig = session.open()
+    rig.link._closing.set()
+    rig.link._thread.join()
+    at_first = len(fake.registered)
+    rig.link.node.publish_twist(3, (0.0, 0.0))
+    session.publish({})
+    assert len(fake.sent) == 2
+    assert len(fake.registered) == at_first == 4 + 1 + 4 + 1, "speeds, state; poses, joystick"
 
 
 def test_units_are_those_of_rep_103_and_come_back():
@@ -95,6 +169,29 @@ def test_without_poses_the_speeds_become_zero_and_at_the_end_they_are_zero_five_
     rig.close()
     assert node.twists == [(0, (0.0, 0.0))] * 5
     assert node.closed
+
+
+def test_a_link_thread_that_fails_leaves_zero_speeds(monkeypatch):
+    node = Node()
+    poses = RosPoses(node, ArenaFrame.of_width(2112.0), time.monotonic, TRAINS)
+    link = RosLink(node, poses, TRAINS)
+    link.send([(0.5, 0.5), None, None, None])
+    failures = iter([OSError])
+    pump = link.pump
+
+    def failing_pump():
+        for failure in failures:
+            raise failure
+        pump()
+
+    monkeypatch.setattr(link, "pump", failing_pump)
+    monkeypatch.setattr(threading, "excepthook", lambda failed: None)
+    link.start()
+    link._thread.join(5.0)
+    assert node.twists == [(0, (0.0, 0.0))] * 5
+    assert link.fault.key == "ros_gone"
+    link.close()
+    assert len(node.twists) == 5
 
 
 def test_a_joystick_drives_the_seat_it_names_or_the_first_person():

@@ -1,5 +1,6 @@
 """Identification of robots from recordings, and the simulator's prediction errors before and after."""
 
+import gzip
 import json
 
 import numpy as np
@@ -7,8 +8,8 @@ import pytest
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import UNMEASURED
-from pigaming_app.hardware.recordings import Recording, RecordingError, RobotRecording, load
-from pigaming_app.hardware.run_writer import RecordingWriter
+from pigaming_app.hardware.recordings import MAX_DURATION, Recording, RecordingError, RobotRecording, load
+from pigaming_app.hardware.run_writer import LONGEST, RecordingWriter, RunInMemory
 from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, errors, measure, predictions, replay
 from pigaming_app.hardware.sysid.excitation import ExcitationPattern
@@ -190,3 +191,20 @@ def test_a_run_that_broke_off_in_the_middle_of_a_line_is_still_good(tmp_path):
     recorder.close()
     file.write_text(file.read_text() + json.dumps({"kind": "seen"})[:9])
     assert list(load(file).courses) == [1]
+
+
+def test_a_run_in_memory_ends_before_it_is_too_long_to_be_read_and_fixes_keep_their_own_times():
+    run = RunInMemory(1.3)
+    fixes = [Fix(1, 5.0, 5.0, 0.0, 999.9), Fix(0, 5.0, 5.0, 0.0, 999.8), Fix(1, 5.0, 5.0, 0.0, 999.8)]
+    run.record_fixes(1000.0, 1000.0, fixes)
+    run.record_commands(1000.0 + LONGEST, [None] * 4)
+    size = len(run.compressed())
+    run.record_commands(1001.0 + LONGEST, [None] * 4)
+    run.record_fixes(1001.0 + LONGEST, 1001.0 + LONGEST, [])
+    assert len(run.compressed()) == size
+    assert LONGEST < MAX_DURATION
+    lines = [json.loads(line) for line in gzip.decompress(run.compressed()).splitlines()]
+    assert [(line["captured"], len(line["fixes"])) for line in lines if line["kind"] == "seen"] == [
+        (999.8, 2),
+        (999.9, 1),
+    ]

@@ -5,18 +5,24 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.ai.registry import new_match
+from pigaming_app.games import replay as replays
 from pigaming_app.games.replay import ReplayError
 from pigaming_app.hardware import recordings
 from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.scenes.files import load_replay, save_replay
+from pigaming_app.scenes.play import replay_faults
 from pigaming_app.scenes.play.replay import ReplayScene
+from pigaming_app.scenes.play.replay_faults import ReplayFaults
 from pigaming_app.scenes.real_replays import RealReplay, timeline_of, verify
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.widgets.caption import caption
 from tests.hardware.mat import Mat
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import match_for, play, started, until
@@ -109,3 +115,15 @@ def test_a_recorded_match_ends_as_it_did_and_shows_its_faults(
             load_replay(bad)
     (edited := tmp_path / "edited").write_bytes(match_recording.pack(plain, match_recording.MatchRecording(later)))
     assert not verify(load_replay(edited))
+
+
+def test_the_cause_is_among_the_faults_that_a_replay_shows(monkeypatch: pytest.MonkeyPatch, controls: Controls) -> None:
+    """A frozen camera loses all robots at once; there is room for three plates."""
+    arcade, shown = Arcade(controls), list[str]()
+    monkeypatch.setattr(replay_faults, "plate", lambda name, *rest: shown.append(name) or caption("", (0, 0, 0)))
+    faults = ReplayFaults(replays.recorded(new_match(match_for("pitanks", "easy easy off off", 1.0))), Words("en"))
+    fault = match_recording.RecordedFault
+    faults.faults = [fault("camera", None, 9, True), *(fault("lost", i, 9, True) for i in range(3))]
+    faults.faults += [fault("deadman", i, 10, False) for i in range(3)]
+    faults.draw(arcade.screen, 20)
+    assert shown == ["camera", "lost", "lost"]
