@@ -39,17 +39,35 @@ def corrupted(good, count, seed=1):
         shifted = np.where(np.arange(length) >= at[:, None], np.roll(broken, -1, axis=1), broken)
         shifted[:, -1] = value
         broken = np.where((kind == LOSS)[:, None], shifted, broken).astype(np.uint8)
-    places, begin = np.arange(length), random.integers(1, length - 1, count)[:, None]
-    after = places >= begin
-    burst = after & (places < begin + random.integers(2, 9, count)[:, None])
-    broken = np.where((way == BURST)[:, None] & burst, random.integers(0, 128, broken.shape), broken)
-    bits = random.integers(1, 7, count)[:, None]
-    slipped = (broken >> bits | np.roll(broken, 1, axis=1) << 7 - bits) & 0x7F
-    broken = np.where((way == STEP)[:, None] & after, slipped, broken)
+    for kind, spoilt in ((BURST, _burst), (STEP, _out_of_step)):
+        broken[way == kind] = spoilt(broken[way == kind], random)
     end = packets[random.integers(0, len(good), count)]
-    late = np.where(random.random((count, 1)) < 0.5, 0, random.integers(-3, 4, (count, 1)))  # bytes lost between them
-    joined = np.take_along_axis(end, np.clip(places + late, 1, length - 1), axis=1)
-    broken = np.where((way == SPLICE)[:, None] & after, joined, broken).astype(np.uint8)
+    broken[way == SPLICE] = _spliced(broken[way == SPLICE], end[way == SPLICE], random)
     same = (broken == packets[chosen]).all(axis=1) | (broken == end).all(axis=1)
     broken[same, 5] ^= 1
     return broken
+
+
+def _burst(packets, random):
+    """Two to eight neighbouring bytes replaced by others."""
+    count, length = packets.shape
+    begin, size = random.integers(1, length - 1, (count, 1)), random.integers(2, 9, (count, 1))
+    hit = (np.arange(length) >= begin) & (np.arange(length) < begin + size)
+    return np.where(hit, random.integers(0, 128, packets.shape), packets)
+
+
+def _out_of_step(packets, random):
+    """From some byte on, every bit some places late."""
+    count, length = packets.shape
+    begin, bits = random.integers(1, length - 1, (count, 1)), random.integers(1, 7, (count, 1))
+    late = (packets >> bits | np.roll(packets, 1, axis=1) << 7 - bits) & 0x7F
+    return np.where(np.arange(length) >= begin, late, packets)
+
+
+def _spliced(packets, others, random):
+    """The beginning of one packet and the end of another, half of them with bytes lost or repeated between."""
+    count, length = packets.shape
+    begin, late = random.integers(1, length - 1, (count, 1)), random.integers(-3, 4, (count, 1))
+    late[: count // 2] = 0
+    end = np.take_along_axis(others, np.clip(np.arange(length) + late, 1, length - 1), axis=1)
+    return np.where(np.arange(length) >= begin, end, packets)

@@ -1,7 +1,8 @@
 """Fault page: the match waits while a real robot has a fault; shows the fault in one sentence and the available
 actions.
 
-The page closes as soon as the fault is gone. The person who pressed the stop button holds FIRE to release it. If robots
+The page closes as soon as the fault is gone. While a robot is out of sight, floodlight takes its place now and then:
+in a dark room nothing else lights a marker. The person who pressed the stop button holds FIRE to release it. If robots
 do not follow their commands because a thing was pushed in their way, the page of moved things takes its place.
 """
 
@@ -9,8 +10,10 @@ import pygame
 
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
+from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.pause import Pause, sheet_title
+from pigaming_app.scenes.robots.flood_light import FloodLight, hint_line
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.things.moved_page import MovedPage
@@ -27,6 +30,7 @@ from pigaming_app.ui.widgets.dialog import FOOT, HEAD, ICON, PROMPTS, ROOM, TEXT
 IDLE = 600.0  # s without input before the return to the title
 GAP = 8  # px between two sentences
 HOLD = 1.0  # s, hold time of FIRE to release the stop
+READ, SEARCH = 2.5, 1.5  # s for which the page is shown, then floodlight, while a robot is out of sight
 RING = X + 150, FOOT - 96
 
 
@@ -38,6 +42,7 @@ class FaultPage:
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
+        self.flood, self.searched = FloodLight(), 0.0  # s for which a robot has been out of sight
         hints = [(Button.X, "mat.hint_simulate"), (Button.START, "pause.hint_menu")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: match.access.hint_device)
         repair_prompts = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]
@@ -50,6 +55,7 @@ class FaultPage:
         self.context.hush()
         self.context.sounds.play("error")
         self.held, self.picture, self.faults = 0.0, None, []
+        self.flood.level = self.searched = 0.0
 
     def handle(self, event: InputEvent) -> StackOperation:
         """X replaces the robots concerned with simulated ones; START and BACK open the menu. After disobedience, FIRE
@@ -98,12 +104,20 @@ class FaultPage:
             self.faults, self.picture = now, None
             if self._blocked:
                 self.match.watch.examine()
+        lost = any(fault.name == "lost" for fault in now)
+        self.searched = self.searched + seconds if lost else 0.0
+        self.flood.update(seconds, self.searched % (READ + SEARCH) > READ)
         if self.context.idle > IDLE:
             return Home()
         return None if now or safety.stopped else Pop()
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Draw the page, then the discs on top, so that the markers stay visible."""
+        """Draw the page, then the discs on top, so that the markers stay visible; or the floodlight."""
+        if self.flood.full and self.faults:
+            sentence = fault_sentence(self.faults[0], self.context.words, "")
+            self.flood.draw(screen, sentence, hint_line(self.prompts.labels))
+            draw_corners(screen)
+            return
         if self.picture is None:
             robot = self.faults[0].robot if self.faults else None
             color = ALARM if robot is None else PLAYERS[robot]
@@ -116,6 +130,7 @@ class FaultPage:
         self.prompts.draw(screen)
         if self.match.plant.safety.latched:
             self.repair_prompts.draw(screen)
+        self.flood.draw(screen, "")
         self.match.draw_overlay(screen)
         self.match.watch.note(screen)
 

@@ -57,6 +57,11 @@ def dark_text(screen: pygame.Surface, caption: str, size: int, y: int) -> None:
     screen.blit(lit.image, (960 + lit.at[0], y + lit.at[1]), special_flags=pygame.BLEND_RGB_SUB)
 
 
+def hint_line(labels: Sequence[tuple[str, str]]) -> str:
+    """Buttons and their actions (`Prompts.labels`) in one line of text."""
+    return "   ·   ".join(f"{label}: {action}" for label, action in labels)
+
+
 def looking(words: Words, missing: Sequence[int]) -> str:
     """Names the robots being searched for, with advice."""
     return words("mat.looking", robots=", ".join(words("mat.robot", robot=robot + 1) for robot in missing))

@@ -15,7 +15,7 @@ from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.robots.fault_page import fault_caption, fault_sentence
 from pigaming_app.scenes.robots.flood_light import UNSEEN as UNSEEN_AFTER
-from pigaming_app.scenes.robots.flood_light import FloodLight, looking
+from pigaming_app.scenes.robots.flood_light import FloodLight, hint_line, looking
 from pigaming_app.scenes.robots.marker_discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.things.outlines import frame
 from pigaming_app.scenes.views.background import LEFT, TOP
@@ -76,7 +76,7 @@ class TakePlaces:
         """Draw outlines, paths and captions; the discs are drawn on top by the caller."""
         words, places = self.context.words, self.plant.places
         if self.flood.full:
-            hints = "   ·   ".join(f"{label}: {action}" for label, action in self.prompts.labels)
+            hints = hint_line(self.prompts.labels)
             faults = [fault_sentence(fault, words, "") for fault in self._faults()]
             self.flood.draw(screen, " ".join(faults[:1]) or looking(words, self.missing), hints)
             return

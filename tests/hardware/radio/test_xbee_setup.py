@@ -16,14 +16,15 @@ NETWORK = network_of(4711)
 
 
 class Cable(EmulatedCarrier):
-    """The carrier on a cable that is pulled after so many accesses."""
+    """The carrier on a cable that is pulled after so many accesses; `late`: s until an answer arrives."""
 
-    accesses = 10**9
+    accesses, late = 10**9, 0.0
 
     @property
     def in_waiting(self):
         self._access()
-        return super().in_waiting
+        waiting = super().in_waiting
+        return waiting if self.clock() - self._last >= self.late else 0
 
     def write(self, data):
         self._access()
@@ -87,6 +88,21 @@ def test_after_a_refusal_another_value_is_taken_at_once(mode):
         set_up(module, 0, network=Network(0x1A, 1), cable=cable)
     set_up(module, 0, network=Network(0x12, 1), cable=cable)
     assert (module.saved[b"CH"], module.saved[b"ID"]) == (0x12, 1)
+
+
+def test_who_gives_up_midway_can_begin_again_at_once():
+    module = Module(0, 0)
+    cable = Cable(module, Time())
+    cable.late = 0.015
+    carrier = Carrier(cable.open, cable.clock, "COM3")
+    steps = XBeeSetup(carrier, parameters(2, NETWORK, "api2", 57600), 57600).steps()
+    while module.values[b"ID"] != NETWORK.pan:
+        next(steps)
+        cable.clock.now += 0.01
+    steps.close()
+    assert module.saved[b"ID"] != NETWORK.pan
+    assert set_up(module, 2, cable=cable) < 4.0
+    assert module.saved[b"ID"] == NETWORK.pan
 
 
 @pytest.mark.parametrize("name", [b"CH", b"ID", b"MY", b"DL", b"BD", b"AP"])

@@ -87,3 +87,13 @@ def test_radios_are_written_one_after_another_and_refusals_are_said(arcade: Arca
     arcade.press(Button.FIRE)
     arcade.press(Button.BACK)
     assert arcade.stack.top is arcade.setup
+
+
+def test_a_rate_that_no_xbee_has_is_said_before_anything_is_written(arcade: Arcade) -> None:
+    page, session = go(arcade, "write"), arcade.context.session
+    assert isinstance(session, Session)
+    arcade.context.settings.baud = 230400
+    arcade.press(Button.FIRE)
+    assert page._steps is None
+    assert page.navigation.sentence == arcade.context.words("arena_radio.no_rate")
+    assert session.module.saved[b"ID"] != page.network.pan

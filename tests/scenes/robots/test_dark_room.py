@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.flood_light import FADE, LIGHT, UNSEEN
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.take_places import TakePlaces
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
-from tests.scenes.robots.test_real_match import match_for, play
+from tests.scenes.robots.test_real_match import begun, match_for, play
 
 pytest.importorskip("cv2")
 ALL = (0, 1, 2, 3)
@@ -79,3 +80,23 @@ def test_the_light_comes_back_when_a_robot_disappears(arcade: Arcade, mat: Emula
     play(arcade, 1.2 + FADE, lit=True)
     assert page.missing == []
     assert arcade.screen.get_at((960, 540))[:3] == (0, 0, 0)
+
+
+@pytest.mark.long
+def test_a_robot_lost_in_a_match_is_found_again_in_the_dark(arcade: Arcade, mat: EmulatedSession) -> None:
+    """Somebody covers its marker and puts it down elsewhere, where no disc lies."""
+    match = begun(arcade)
+    mat.arena.camera.painter.ambient = 0.02
+    play(arcade, 0.6, lit=True)
+    assert arcade.stack.top is match
+    mat.arena.faults.switch("marker_covered", True, 1)
+    play(arcade, 1.8, lit=True)
+    arcade.shown(FaultPage)
+    mat.arena.place(1, (800.0, 450.0, 1.0))
+    mat.arena.faults.switch("marker_covered", False, 1)
+    play(arcade, 1.0, lit=True)
+    arcade.shown(FaultPage)
+    assert arcade.screen.get_at((200, 900))[:3] != (LIGHT,) * 3, "the page can be read first"
+    play(arcade, 3.5, lit=True)
+    assert not match.blocked
+    assert arcade.stack.top is match
