@@ -1,6 +1,7 @@
 """Motor drivers and encoders of the board files, and errors in the robots' program: no motor runs on by itself."""
 
 import re
+from random import Random
 
 import pytest
 
@@ -227,6 +228,54 @@ def test_a_robot_with_a_wrong_number_does_not_start(wrong):
         assert not any(arcade.motors)
     finally:
         arcade.close()
+
+
+@pytest.mark.long
+def test_no_datagram_ends_the_program_or_moves_a_motor(arcade):
+    """Rubbish of strangers, and what whoever has the key could send by mistake; then the last counter that there is."""
+    arcade.meet()
+    chance = Random(1)
+    sizes = [*range(1, 64, 3), 127, 128, 129, 1400]
+    for size in sizes:
+        for head in (b"PG2D", b"PG2T", b"PG2A", b""):
+            arcade.send((head + chance.randbytes(size))[: max(size, len(head))])
+        arcade.send(arcade.sealed(chance.randbytes(size)))
+        arcade.run(0.006)
+        assert arcade.motors == (0.0, 0.0), size
+    packet = bytearray(arcade.packet())
+    for place in range(len(packet)):
+        for bit in range(8):
+            broken = bytes(packet[:place]) + bytes([packet[place] ^ 1 << bit]) + bytes(packet[place + 1 :])
+            arcade.send(arcade.sealed(broken))
+            arcade.run(0.002)
+            assert arcade.motors == (0.0, 0.0), place
+    drive(arcade, 0.1)
+    assert any(arcade.motors)
+    arcade.run(0.3)
+    last = arcade.sealed(drive_packet(ARENA, arcade.seq + 1, GO), counter=(1 << 64) - 1)
+    assert arcade.moves(last)
+    assert not arcade.moves(last)
+    assert arcade.meet().counter == (1 << 64) - 1
+    assert not arcade.boards.resets
+
+
+@pytest.mark.long
+def test_a_flood_of_forged_commands_leaves_the_deadman_and_the_arcade_alone(arcade):
+    arcade.meet()
+    forged = [arcade.sealed(key=bytes(16)) for _ in range(100)]
+    for _ in range(20):
+        for datagram in forged:
+            arcade.send(datagram)
+        drive(arcade, 0.02)
+        assert any(arcade.motors)
+    ended = arcade.now - 0.02
+    for _ in range(20):
+        for datagram in forged:
+            arcade.send(datagram)
+        arcade.run(0.02)
+    assert 0.2 <= arcade.boards.powered_until[0] - ended <= 0.22
+    assert arcade.motors == (0.0, 0.0)
+    assert not arcade.boards.resets
 
 
 def test_the_program_of_a_robot_has_at_most_400_lines():
