@@ -9,6 +9,7 @@ from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, Wheel, int
 from pigaming_app.hardware.radio.packets import RESTARTED, drive_packet
 from pigaming_app.hardware.robot_files import PROGRAM
 from pigaming_app.hardware.signals import WheelCommand
+from tests.cases import repeated
 from tests.hardware.emulator.one_board import ARENA, BACK, GO, ON, Arcade
 
 DRIVERS = ("DRV8833", "TB6612", "L298N")
@@ -71,7 +72,7 @@ def drive(arcade, seconds, command=GO[0]):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("board", IN_IN)
+@pytest.mark.parametrize("board", repeated(IN_IN))
 @pytest.mark.parametrize("driver", DRIVERS)
 def test_every_driver_in_a_board_file_turns_ahead_and_back_and_brakes(board, driver):
     arcade = Arcade(**of(board, driver))
@@ -116,7 +117,7 @@ class Wheels:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("board", IN_IN)
+@pytest.mark.parametrize("board", repeated(reversed(IN_IN)))
 def test_encoders_hold_the_speed_and_never_run_away(board):
     arcade = Arcade(board=f"{board}_encoders", text=board_file(board, "encoders"), wheels=IN_IN[board])
     try:
@@ -142,7 +143,7 @@ def test_encoders_hold_the_speed_and_never_run_away(board):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("arcade", [{"board": "board_esp32"}, {"board": "board_pico_w"}], indirect=True)
+@pytest.mark.parametrize("arcade", repeated([{"board": "board_pico_w"}, {"board": "board_esp32"}]), indirect=True)
 def test_an_error_in_the_program_stops_the_motors_and_restarts_the_robot(arcade):
     arcade.meet()
     drive(arcade, 0.2)
@@ -201,7 +202,7 @@ def test_a_command_that_stalls_until_after_the_deadman_is_braked(arcade):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("board", IN_IN)
+@pytest.mark.parametrize("board", repeated(IN_IN))
 def test_a_robot_switched_on_before_its_network_joins_it_later(board):
     arcade = Arcade(board=board)
     try:
@@ -218,7 +219,7 @@ def test_a_robot_switched_on_before_its_network_joins_it_later(board):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("wrong", [{"robot": 0}, {"robot": 5}, {"arena": 16384}])
+@pytest.mark.parametrize("wrong", repeated([{"robot": 0}, {"robot": 5}, {"arena": 16384}]))
 def test_a_robot_with_a_wrong_number_does_not_start(wrong):
     arcade = Arcade(**wrong)
     try:
