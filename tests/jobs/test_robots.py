@@ -269,6 +269,16 @@ def test_the_configuration_of_a_wifi_robot_has_the_arena_and_a_key_drawn_once(ca
     assert len(bytes.fromhex(settings.wifi_key)) == 16
 
 
+@pytest.mark.parametrize("option", ["--wifi-config", "--microbit"])
+def test_no_file_of_a_robot_is_printed_with_numbers_that_are_lost(capsys, monkeypatch, tmp_path, option):
+    (tmp_path / "config").touch()
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    assert main(["robots", option, "2"]) == 2
+    printed = capsys.readouterr()
+    assert not printed.out
+    assert "cannot be saved" in printed.err
+
+
 def test_the_programs_of_micro_bits_have_the_number_of_the_arena(capsys):
     for number, line in ((0, "ARENA = 77  #"), (2, "ROBOT, ARENA = 2, 77  #")):
         assert main(["robots", "--microbit", str(number), "--arena", "77"]) == 0

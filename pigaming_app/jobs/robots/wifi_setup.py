@@ -10,7 +10,7 @@ from pigaming_app.hardware.robot_kinds import robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.jobs.terminal.options import integer
 from pigaming_app.jobs.terminal.refusal import Refusal
-from pigaming_app.storage.settings import Settings
+from pigaming_app.storage.settings import Settings, folders
 
 APPEARS, TURNS = 5.0, 1.5  # s: for a robot to report; for each turn of the wheels
 TICK = 0.02  # s
@@ -38,17 +38,27 @@ def options(parser: ArgumentParser) -> None:
 
 
 def config(robot: int, settings: Settings) -> str:
-    """`config.py` of a Wi-Fi robot of these settings."""
+    """`config.py` of a Wi-Fi robot of these settings. Raises Refusal if they cannot be saved."""
     from pigaming_app.hardware.session.store import arena_id, wifi_key
 
-    return robot_config(robot, arena_id(settings), wifi_key(settings))
+    text = robot_config(robot, arena_id(settings), wifi_key(settings))
+    _require_saved(settings, "arena_id", "wifi_key")
+    return text
 
 
 def microbit(number: int, settings: Settings) -> str:
-    """Program of a micro:bit of these settings."""
+    """Program of a micro:bit of these settings. Raises Refusal if they cannot be saved."""
     from pigaming_app.hardware.session.store import arena_id
 
-    return microbit_program(number, arena_id(settings))
+    text = microbit_program(number, arena_id(settings))
+    _require_saved(settings, "arena_id")
+    return text
+
+
+def _require_saved(settings: Settings, *names: str) -> None:
+    saved, _ = Settings.load(folders().config)
+    if any(getattr(saved, name) != getattr(settings, name) for name in names):
+        raise Refusal("the settings cannot be saved: the arcade would have another arena number or key the next time")
 
 
 def network(session: RobotSession) -> list[dict[str, Any]] | None:

@@ -1,6 +1,7 @@
 """Motor drivers and encoders of the board files, and errors in the robots' program: no motor runs on by itself."""
 
 import re
+from random import Random
 
 import pytest
 
@@ -8,6 +9,7 @@ from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, Wheel, int
 from pigaming_app.hardware.radio.packets import RESTARTED, drive_packet
 from pigaming_app.hardware.robot_files import PROGRAM
 from pigaming_app.hardware.signals import WheelCommand
+from tests.cases import repeated
 from tests.hardware.emulator.one_board import ARENA, BACK, GO, ON, Arcade
 
 DRIVERS = ("DRV8833", "TB6612", "L298N")
@@ -70,7 +72,7 @@ def drive(arcade, seconds, command=GO[0]):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("board", IN_IN)
+@pytest.mark.parametrize("board", repeated(IN_IN))
 @pytest.mark.parametrize("driver", DRIVERS)
 def test_every_driver_in_a_board_file_turns_ahead_and_back_and_brakes(board, driver):
     arcade = Arcade(**of(board, driver))
@@ -115,7 +117,7 @@ class Wheels:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("board", IN_IN)
+@pytest.mark.parametrize("board", repeated(reversed(IN_IN)))
 def test_encoders_hold_the_speed_and_never_run_away(board):
     arcade = Arcade(board=f"{board}_encoders", text=board_file(board, "encoders"), wheels=IN_IN[board])
     try:
@@ -141,7 +143,7 @@ def test_encoders_hold_the_speed_and_never_run_away(board):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("arcade", [{"board": "board_esp32"}, {"board": "board_pico_w"}], indirect=True)
+@pytest.mark.parametrize("arcade", repeated([{"board": "board_pico_w"}, {"board": "board_esp32"}]), indirect=True)
 def test_an_error_in_the_program_stops_the_motors_and_restarts_the_robot(arcade):
     arcade.meet()
     drive(arcade, 0.2)
@@ -200,7 +202,7 @@ def test_a_command_that_stalls_until_after_the_deadman_is_braked(arcade):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("board", IN_IN)
+@pytest.mark.parametrize("board", repeated(IN_IN))
 def test_a_robot_switched_on_before_its_network_joins_it_later(board):
     arcade = Arcade(board=board)
     try:
@@ -217,7 +219,7 @@ def test_a_robot_switched_on_before_its_network_joins_it_later(board):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("wrong", [{"robot": 0}, {"robot": 5}, {"arena": 16384}])
+@pytest.mark.parametrize("wrong", repeated([{"robot": 0}, {"robot": 5}, {"arena": 16384}]))
 def test_a_robot_with_a_wrong_number_does_not_start(wrong):
     arcade = Arcade(**wrong)
     try:
@@ -227,6 +229,54 @@ def test_a_robot_with_a_wrong_number_does_not_start(wrong):
         assert not any(arcade.motors)
     finally:
         arcade.close()
+
+
+@pytest.mark.long
+def test_no_datagram_ends_the_program_or_moves_a_motor(arcade):
+    """Rubbish of strangers, and what whoever has the key could send by mistake; then the last counter that there is."""
+    arcade.meet()
+    chance = Random(1)
+    sizes = [*range(1, 64, 3), 127, 128, 129, 1400]
+    for size in sizes:
+        for head in (b"PG2D", b"PG2T", b"PG2A", b""):
+            arcade.send((head + chance.randbytes(size))[: max(size, len(head))])
+        arcade.send(arcade.sealed(chance.randbytes(size)))
+        arcade.run(0.006)
+        assert arcade.motors == (0.0, 0.0), size
+    packet = bytearray(arcade.packet())
+    for place in range(len(packet)):
+        for bit in range(8):
+            broken = bytes(packet[:place]) + bytes([packet[place] ^ 1 << bit]) + bytes(packet[place + 1 :])
+            arcade.send(arcade.sealed(broken))
+            arcade.run(0.002)
+            assert arcade.motors == (0.0, 0.0), place
+    drive(arcade, 0.1)
+    assert any(arcade.motors)
+    arcade.run(0.3)
+    last = arcade.sealed(drive_packet(ARENA, arcade.seq + 1, GO), counter=(1 << 64) - 1)
+    assert arcade.moves(last)
+    assert not arcade.moves(last)
+    assert arcade.meet().counter == (1 << 64) - 1
+    assert not arcade.boards.resets
+
+
+@pytest.mark.long
+def test_a_flood_of_forged_commands_leaves_the_deadman_and_the_arcade_alone(arcade):
+    arcade.meet()
+    forged = [arcade.sealed(key=bytes(16)) for _ in range(100)]
+    for _ in range(20):
+        for datagram in forged:
+            arcade.send(datagram)
+        drive(arcade, 0.02)
+        assert any(arcade.motors)
+    ended = arcade.now - 0.02
+    for _ in range(20):
+        for datagram in forged:
+            arcade.send(datagram)
+        arcade.run(0.02)
+    assert 0.2 <= arcade.boards.powered_until[0] - ended <= 0.22
+    assert arcade.motors == (0.0, 0.0)
+    assert not arcade.boards.resets
 
 
 def test_the_program_of_a_robot_has_at_most_400_lines():

@@ -27,13 +27,13 @@ class Radio:
         self.robot = robot
         key = unhexlify(config.KEY) + bytes(48)
         self.inner, self.outer = bytes([b ^ 0x36 for b in key]), bytes([b ^ 0x5C for b in key])
-        self.nonce = os.urandom(8)
         self.received = self.sent = 0  # counters of the newest datagrams
         self.unsent = 0
         self.owner = None  # address of the arcade whose command came last
         self.announced = self.tried = time.ticks_add(time.ticks_ms(), -RECONNECT_MS)
         self.station = network.WLAN(network.STA_IF)
         self.station.active(True)
+        self.nonce = os.urandom(8)  # an ESP32 has true random numbers only while its radio is on
         try:
             self.station.config(pm=self.station.PM_NONE)  # no naps: they delay commands by 100 ms and more
         except (AttributeError, ValueError):
