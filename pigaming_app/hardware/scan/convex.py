@@ -7,8 +7,10 @@ from pigaming_app.hardware.calibration.boards import ARENA_AT
 from pigaming_app.hardware.scan.things import Outline
 from pigaming_app.hardware.vision.markers import opencv
 
-HOLLOW, DEEP = 0.12, 7.0  # share of a hull that is free, and depth of a dent (px), above which a part is cut in two
-CUTS = 12  # directions to try
+HOLLOW, DEEP = 0.05, 5.0  # share of a hull that is free, and depth of a dent (px), above which a part is cut in two
+CUTS = 12  # directions to try, besides those of the sides that meet in the dent
+PIECE = 0.03  # share of a mask by which one piece more must shrink the hulls
+SIDE = 4, 28  # px of a contour from a dent, between which a side's direction is measured
 DEPTH = 3  # cuts in a row: up to 8 parts
 SIMPLE = 2.0  # px by which an outline may be simplified
 SMALLEST = 60.0  # px^2
@@ -16,6 +18,7 @@ BEVEL, LONG = 10.0, 22.0  # px: a side as short as that between two as long as t
 CUT_OFF = 7.0  # px by which a corner may be restored
 
 Pixels = NDArray[np.uint8]  # (rows, columns), 0 or 1
+Point = tuple[int, int]  # px
 
 
 def convex_parts(mask: Pixels, at: tuple[int, int], depth: int = DEPTH) -> list[Outline]:
@@ -35,7 +38,7 @@ def convex_parts(mask: Pixels, at: tuple[int, int], depth: int = DEPTH) -> list[
         else:
             alone = np.zeros_like(mask)
             cv.drawContours(alone, [contour], -1, 1, -1)
-            for part in _cut(alone & mask, dent):
+            for part in _cut(alone & mask, *dent):
                 outlines += convex_parts(part, at, depth - 1)
     return [outline for outline in outlines if len(outline) >= 3]
 
@@ -61,30 +64,35 @@ def _sharpened(corners: Outline) -> Outline:
     return corners
 
 
-def _deepest_dent(contour: NDArray[np.int32]) -> tuple[int, int] | None:
-    """The px of a contour farthest inside its hull, if that is deep."""
+def _deepest_dent(contour: NDArray[np.int32]) -> tuple[Point, list[float]] | None:
+    """The px of a contour farthest inside its hull, if that is deep, and the directions of the sides there, rad."""
     cv = opencv()
     corners = np.sort(cv.convexHull(contour, returnPoints=False).reshape(-1))[::-1]
     defects = cv.convexityDefects(contour, corners)
     if defects is None:
         return None
     _, _, point, far = max(defects.reshape(-1, 4).tolist(), key=lambda defect: defect[3])
-    x, y = contour.reshape(-1, 2)[point].tolist()
-    return (x, y) if far / 256.0 > DEEP else None
+    if far / 256.0 <= DEEP:
+        return None
+    line = contour.reshape(-1, 2)
+    near, away = ([line[(point + way * px) % len(line)] for way in (-1, 1)] for px in SIDE)
+    sides = [float(np.arctan2(*(end - begin)[::-1])) for begin, end in zip(near, away, strict=True)]
+    x, y = line[point].tolist()
+    return (x, y), sides
 
 
-def _cut(mask: Pixels, dent: tuple[int, int]) -> tuple[Pixels, Pixels]:
-    """A mask cut in two along the line through a dent that leaves the smallest hulls."""
+def _cut(mask: Pixels, dent: Point, sides: list[float]) -> tuple[Pixels, Pixels]:
+    """A mask cut in two along a line through a dent, so that hulls are small and pieces few. `sides`: rad, to try."""
     cv = opencv()
     rows, columns = np.mgrid[0 : mask.shape[0], 0 : mask.shape[1]]
-    best, parts = np.inf, (mask, np.zeros_like(mask))
-    for turn in np.pi / CUTS * np.arange(CUTS):
+    best, parts, fee = np.inf, (mask, np.zeros_like(mask)), PIECE * float(mask.sum())
+    for turn in [*sides, *(np.pi / CUTS * np.arange(CUTS)).tolist()]:
         side = (columns - dent[0]) * np.sin(turn) < (rows - dent[1]) * np.cos(turn)
         halves = mask * side.astype(np.uint8), mask * (~side).astype(np.uint8)
         size = 0.0
         for half in halves:
             contours, _ = cv.findContours(half, cv.RETR_EXTERNAL, cv.CHAIN_APPROX_NONE)
-            size += sum(cv.contourArea(cv.convexHull(contour)) for contour in contours)
+            size += sum(cv.contourArea(cv.convexHull(contour)) + fee for contour in contours)
         if size < best:
             best, parts = size, halves
     return parts

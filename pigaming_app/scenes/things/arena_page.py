@@ -139,8 +139,10 @@ class ArenaPage:
         self._row.draw(screen)
         self._draw_things(screen)
         self._draw_lines(screen)
-        if thing := self.selected:
-            text(words(f"things.{thing.use}_line"), FOOT_SIZE, MIST, "body", "c", 1600).draw(screen, 960, FOOT_Y)
+        if self.focus and (thing := self.selected):
+            blocks = int(self.focus.name) in self._culprits
+            line, color = ("things.blocking_line", ALARM) if blocks else (f"things.{thing.use}_line", MIST)
+            text(words(line), FOOT_SIZE, color, "body", "c", 1600).draw(screen, 960, FOOT_Y)
         elif things:
             text(words("things.select"), FOOT_SIZE, MIST, "body", "c", 1600).draw(screen, 960, FOOT_Y)
 
@@ -150,6 +152,11 @@ class ArenaPage:
         return self.layout.things[int(self.focus.name)] if self.focus else None
 
     # ---- inside
+
+    @property
+    def _culprits(self) -> set[int]:
+        """Indices of the things that are in the way in an arena."""
+        return self.arenas.culprits if self.arenas else set()
 
     @property
     def _row(self) -> ButtonPrompts:
@@ -186,7 +193,7 @@ class ArenaPage:
         self.arenas = PlayableArenas([thing.spec for thing in layout.things]) if spots else None
 
     def _draw_things(self, screen: pygame.Surface) -> None:
-        culprits, selected = self.arenas.culprits if self.arenas else set(), self.selected
+        culprits, selected = self._culprits, self.selected
         for i, thing in enumerate(self.layout.things):
             color = FOCUS if thing is selected else ALARM if i in culprits else COLORS[thing.use]
             draw_thing(screen, thing.spec, color, thing is selected)

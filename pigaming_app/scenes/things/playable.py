@@ -1,10 +1,8 @@
 """Which arenas the things on a mat leave playable; all are tried in a thread, the shipped ones of every game."""
 
 import logging
-import re
 import threading
 from collections.abc import Sequence
-from time import sleep
 
 from pigaming_app.games.arenas import with_things
 from pigaming_app.games.registry import games
@@ -13,7 +11,6 @@ from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.things.spec import ThingSpec
 
 REST = 0.005  # s between two arenas, for the thread that draws
-NAMED = re.compile(r"thing\[(\d+)\]")  # in the line of an ArenaError
 
 log = logging.getLogger("pigaming")
 
@@ -21,7 +18,7 @@ log = logging.getLogger("pigaming")
 class PlayableArenas:
     """Tries the arenas with some things. `blocked`: names of those that cannot be played, by game; `done`: all tried.
 
-    `culprits`: indices of the things for which an arena was refused, as far as one was.
+    `culprits`: indices of the things that are in the way in one of them; found last.
     """
 
     def __init__(self, things: Sequence[ThingSpec]) -> None:
@@ -42,16 +39,33 @@ class PlayableArenas:
             for name in playable_arenas(game):
                 if self._ended.is_set():
                     return
-                try:
-                    with_things(game, load_cached(game, name), self.things)
-                except ArenaError as error:
-                    log.info("%s", error)
+                if reason := _refusal(game, name, self.things):
+                    log.info("%s", reason)
                     self.blocked = {**self.blocked, game: [*self.blocked.get(game, ()), name]}
-                    self.culprits |= culprits(error, len(self.things))
-                sleep(REST)
-        self.done = True
+                self._rest()
+        for game, names in self.blocked.items():
+            for name in names:
+                self._find_culprits(game, name)
+        self.done = not self._ended.is_set()
+
+    def _find_culprits(self, game: str, name: str) -> None:
+        """Add the things that block an arena alone; else those without which it can be played."""
+        count = len(self.things)
+        alone = {i for i in range(count) if self._rest() and _refusal(game, name, self.things[i : i + 1])}
+        if not alone and count > 1:
+            without = (self.things[:i] + self.things[i + 1 :] for i in range(count))
+            alone = {i for i, others in enumerate(without) if self._rest() and not _refusal(game, name, others)}
+        self.culprits = self.culprits | alone
+
+    def _rest(self) -> bool:
+        """Leave time to the thread that draws; false at the end."""
+        return not self._ended.wait(REST)
 
 
-def culprits(error: ArenaError, count: int) -> set[int]:
-    """Indices of the things that the line of an error names, of `count` at the end of an arena's."""
-    return {int(number) - 1 for number in NAMED.findall(str(error)) if int(number) <= count}
+def _refusal(game: str, name: str, things: Sequence[ThingSpec]) -> str:
+    """The reason why an arena cannot be played with some things; empty if it can."""
+    try:
+        with_things(game, load_cached(game, name), things)
+    except ArenaError as error:
+        return str(error)
+    return ""

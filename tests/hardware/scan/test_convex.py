@@ -26,14 +26,24 @@ def test_a_box_that_lost_its_corners_gets_them_back():
     assert all(np.hypot(*(found - corner).T).min() < 3.0 for corner in box)
 
 
+def test_boxes_side_by_side_whose_fronts_are_not_in_line_are_two_outlines():
+    parts = convex_parts(
+        painted([(20, 20), (95, 20), (95, 80), (20, 80)], [(95, 28), (170, 28), (170, 72), (95, 72)]), ORIGIN
+    )
+    assert len(parts) == 2
+
+
 def test_a_round_cup_stays_round():
     turns = np.arange(60) * np.pi / 30
     (found,) = convex_parts(painted(100 + 40 * np.column_stack([np.cos(turns), np.sin(turns)])), ORIGIN)
     assert np.hypot(*(found - 100).T) == pytest.approx([40.0] * len(found), abs=1.5)
 
 
-def test_an_angle_of_two_boxes_is_two_outlines():
-    mask = painted([(20, 20), (220, 20), (220, 60), (20, 60)], [(20, 20), (60, 20), (60, 200), (20, 200)])
+@pytest.mark.parametrize("turn", [0.0, 0.1, 0.5, 0.7, 1.3])
+def test_an_angle_of_two_boxes_is_two_outlines(turn):
+    c, s = np.cos(turn), np.sin(turn)
+    bars = [(20, 20), (220, 20), (220, 60), (20, 60)], [(20, 20), (60, 20), (60, 200), (20, 200)]
+    mask = painted(*((np.array(bar) - 110) @ np.array([[c, s], [-s, c]]) + 150 for bar in bars))
     parts = convex_parts(mask, ORIGIN)
     assert len(parts) == 2
     assert sum(abs(signed_area(part.tolist())) for part in parts) == pytest.approx(float(mask.sum()), rel=0.08)
