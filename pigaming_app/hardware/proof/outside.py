@@ -24,7 +24,6 @@ from pigaming_app.hardware.emulator.wifi.boards import Boards
 from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
 from pigaming_app.hardware.proof.frame_feed import FrameWriter
 from pigaming_app.hardware.proof.wifi import LOSSY
-from pigaming_app.hardware.radio.wifi import PORT
 from pigaming_app.hardware.session.emulated import calibrated
 from pigaming_app.hardware.signals import Image
 
@@ -40,18 +39,18 @@ PATIENCE = 60.0  # s until the robots of a running match must move
 class OutsideArena:
     """The arena; a context manager. `feed`: file of its camera; `ground`: its calibration.
 
-    With `key`, 16 bytes, its robots are on Wi-Fi, and the arcade is expected at its usual UDP port. Raises
+    With `key`, 16 bytes, its robots are on Wi-Fi, and the arcade is expected at the UDP port `arcade`. Raises
     NoMicroPython; without `key` OSError if the system has no pseudo-terminals.
     """
 
-    def __init__(self, seed: int, feed: Path, key: bytes = b"") -> None:
+    def __init__(self, seed: int, feed: Path, key: bytes = b"", arcade: int = 0) -> None:
         self.feed, self.key = feed, key
         self.arena = EmulatedArena(seed, FrameTiming(FPS), MODERATE, QUICK)
         self.ground: GroundPlane = calibrated(self.arena)
         self.arena.project(steady_light())
         self._boards: Boards | None = None
         if key:
-            radio = WifiRadio(self.arena, LOSSY, PORT, self.arena.arena_id, key, paced=False)
+            radio = WifiRadio(self.arena, LOSSY, arcade, self.arena.arena_id, key, paced=False)
             self.arena.radio, self._boards = radio, radio.boards
         self._time = RealtimeArena(self.arena, None if key else PseudoTerminal())
         self._writer = FrameWriter(feed)

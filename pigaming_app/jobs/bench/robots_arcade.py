@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 
 from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.proof.outside import OutsideArena
+from pigaming_app.hardware.radio.wifi import PORT
 from pigaming_app.jobs.bench.sabotage import PLAYING, ROOT, Sabotage
 from pigaming_app.storage.log import FILE
 from pigaming_app.storage.safe_files import write_atomic
@@ -22,6 +23,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import english
 
 START = 120.0  # s until the robots have taken their places
+KEY = bytes(range(100, 116))  # of the Wi-Fi robots
 PLAY = ("play", "pitanks", "--seats", "level5,level5,level5,level5", "--real", "all", "--minutes", "30")
 
 
@@ -160,7 +162,7 @@ def by_wifi(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
     """
     with (
         TemporaryDirectory(dir=_memory()) as folder,
-        OutsideArena(seed, Path(folder, "camera"), bytes(range(100, 116))) as outside,
+        OutsideArena(seed, Path(folder, "camera"), KEY, PORT) as outside,
     ):
         trials = Trials(outside, Path(folder), ("--radio", "udp"), note)
         fault = trials.fault

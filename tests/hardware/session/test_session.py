@@ -34,7 +34,7 @@ def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
         assert mat.open() is rig
     finally:
         mat.end()
-    assert soon(lambda: not threads(), 2.0)
+    assert soon(lambda: not threads())
 
 
 def test_without_a_calibration_there_are_no_real_robots(home: Path) -> None:
@@ -89,4 +89,4 @@ def test_without_pyserial_or_camera_it_says_so_and_what_the_calibration_kept_is_
         assert soon(lambda: mat.fault is not None and "camera 63" in sentence(mat.fault))
     finally:
         mat.end()
-    assert soon(lambda: not threads(), 3.0)
+    assert soon(lambda: not threads())
