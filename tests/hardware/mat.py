@@ -53,7 +53,7 @@ class Mat:
     """Camera, tracker and link in one; `rig` combines them."""
 
     def __init__(self, poses=STARTS, train=TRUE):
-        self.now = 0.0
+        self.now, self.dead_time, self.correction = 0.0, TRUE.dead_time, IDEAL
         self.robots = [Robot(pose, train) for pose in poses]
         self.blind, self.fault, self.closed = False, None, False
         self.last_captured = 0.0
@@ -124,7 +124,7 @@ class Mat:
         return {i for i, robot in enumerate(self.robots) if robot.duplicate}
 
     def wheel_correction(self, robot):
-        return IDEAL
+        return self.correction
 
     # link
     @property
@@ -135,7 +135,7 @@ class Mat:
         return self.misfits.get(robot)
 
     def send(self, wheels):
-        self.coming.append((self.now + TRUE.dead_time, tuple(wheels)))
+        self.coming.append((self.now + self.dead_time, tuple(wheels)))
 
     def pump(self):
         pass

@@ -24,6 +24,7 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 
 SHORT, LONG = 0.15, 0.4  # s, windows of comparison: for a robot astray, and for one that is stuck
 LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetrain's dead time
+NOTABLE = 0.01  # s, a measured delay below which nothing later is tolerated
 STRONGEST = 1.5  # tolerated gain of a wheel
 SLACK, SHARE = 4.0, 0.2  # px, and share of the faster wheel's travel: errors of poses and wheel base, and slip
 UNEVEN = 0.15  # tolerated difference of the wheels, as a share of their travel, with gains estimated by the tracker
@@ -79,6 +80,10 @@ class MotionCheck:
         for check, twist in zip(self._checks, twists, strict=True):
             check.record_command(now, twist or (0.0, 0.0))
 
+    def expect_lateness(self, robot: int, late: float) -> None:
+        """Tolerate a delay that was measured on top of a robot's dead time, s, e.g. of a slow network."""
+        self._checks[robot].expect_lateness(late)
+
     def record_fixes(self, fixes: Sequence[Fix]) -> None:
         """Note the observed poses and judge by them."""
         for fix in fixes:
@@ -105,8 +110,17 @@ class RobotMotionCheck:
         self._weak_speeds = [0.0, 0.0]
         self._sent: deque[WheelTravel] = deque()
         self._poses: deque[PoseSample] = deque()
-        self._delays = [drivetrain.dead_time + late for late in LATENESS]  # s
+        self._delays = self._tolerated(0.0)  # s
         self._ends: list[tuple[float, ...]] = []  # travel at the newest pose, px, for each delay
+
+    def expect_lateness(self, late: float) -> None:
+        """See MotionCheck."""
+        self._delays = self._tolerated(late)
+
+    def _tolerated(self, late: float) -> list[float]:
+        """Delays by which motion may follow commands, s: those without `late`, and later ones."""
+        later = [late + more for more in LATENESS if late > NOTABLE and late + more > LATENESS[-1]]
+        return [self.drivetrain.dead_time + more for more in (*LATENESS, *later)]
 
     def record_command(self, now: float, twist: Twist) -> None:
         """Note a command (px/s, rad/s) in force from `now` on."""
@@ -220,7 +234,7 @@ class RobotMotionCheck:
     def _expected(self, since: PoseSample) -> list[tuple[float, float, float, float]]:
         """Expected travel of the wheels, and of the weakest tolerated ones, from a pose to the newest one, px.
 
-        One for each delay of LATENESS.
+        One for each tolerated delay.
         """
         expected = []
         for delay, after in zip(self._delays, self._ends, strict=True):

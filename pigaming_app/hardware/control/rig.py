@@ -316,6 +316,7 @@ class Rig:
             self.motion_check.record_fixes(fixes)
             for robot, kinematics in enumerate(self.kinematics):
                 kinematics.correction = self.tracker.wheel_correction(robot)
+                self.motion_check.expect_lateness(robot, kinematics.correction.late)
             if self.recorder:
                 self.recorder.record_fixes(self.clock(), frame.captured, fixes)
         for view in tuple(self.viewers):

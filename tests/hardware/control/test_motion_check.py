@@ -6,6 +6,7 @@ from random import Random
 
 import pytest
 
+from pigaming_app.hardware.control.kinematics import IDEAL
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.drivetrain import Wheel
@@ -118,6 +119,23 @@ def test_weak_uneven_and_late_robots_are_no_false_alarm(left, right, lag, dead_t
     for robot in run.mat.robots:
         robot.train = replace(TRUE, left=Wheel(757.0 * left, 0.05), right=Wheel(757.0 * right, 0.02), lag=lag)
     assert run.drive(mashed(260.0, 5), 12.0).named is None
+
+
+@pytest.mark.parametrize("measured", [0.09, 0.0])
+def test_a_delay_is_no_false_alarm_once_the_tracker_has_measured_it(measured):
+    run = Wired([(400.0, 450.0, 1.0), (1100.0, 450.0, 2.0), *ASIDE], None)
+    run.mat.correction = IDEAL._replace(late=measured)
+    run.mat.dead_time = 0.15
+    named = [run.drive(mashed(260.0, seed), 6.0).named for seed in range(3)]
+    assert any(named) is not bool(measured)
+
+
+@pytest.mark.parametrize("fault", ["lids", "reversed", "swapped", "one reversed"])
+def test_with_a_measured_delay_no_robot_gets_much_farther_out(fault):
+    for heading in (0.0, pi, 2.5):
+        run = Wired([(BESIDE + 60.0, 450.0, heading), (900.0, 450.0, 0.4), *ASIDE], fault)
+        run.mat.correction = IDEAL._replace(late=0.05)
+        assert run.drive(ahead(325.0), 2.0).out < 60.0
 
 
 def test_it_lasts_until_somebody_has_looked():

@@ -1,6 +1,7 @@
 """Motor drivers and encoders of the board files, and errors in the robots' program: no motor runs on by itself."""
 
 import re
+from itertools import pairwise
 from random import Random
 
 import pytest
@@ -146,8 +147,14 @@ def test_encoders_hold_the_speed_and_never_run_away(board):
 @pytest.mark.parametrize("arcade", repeated([{"board": "board_pico_w"}, {"board": "board_esp32"}]), indirect=True)
 def test_an_error_in_the_program_stops_the_motors_and_restarts_the_robot(arcade):
     arcade.meet()
+    lamp, lit = "LED" if "pico" in arcade.config.board else "2", []
+    for _ in range(100):
+        arcade.run(0.02)
+        lit.append(arcade.boards.pins[0][lamp])
+    assert sum(before < after for before, after in pairwise(lit)) == 2, "it blinks once a second"
     drive(arcade, 0.2)
     assert any(arcade.motors)
+    assert arcade.boards.pins[0][lamp] == 1
     began = arcade.now
     arcade.boards.disturb(0, do="error")
     arcade.run(1.2)

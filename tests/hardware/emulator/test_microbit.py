@@ -200,14 +200,14 @@ def test_the_button_parks_a_robot_until_it_is_pressed_again(air, link):
         assert any(air.boards.motors(2))
 
 
-def test_a_hanging_program_is_stopped_by_the_timer_and_a_hanging_chip_by_the_watchdog(air, link):
-    for hang in ("hang loop", "hang board"):
+def test_an_error_stops_at_once_the_timer_a_hanging_program_and_the_watchdog_a_hanging_chip(air, link):
+    for hang, most in (("error", 0.01), ("hang loop", 0.25), ("hang board", 0.52)):
         drive(air, link, 0.3)
         assert any(air.boards.motors(1))
         air.boards.disturb(1, do=hang)
         began = air.now
         drive(air, link, 0.6)
-        assert air.boards.powered_until[1] - began <= (0.25 if hang == "hang loop" else 0.52)
+        assert air.boards.powered_until[1] - began <= most
         assert (1, 3) in air.boards.resets
         air.boards.resets.clear()
         drive(air, link, 0.6)

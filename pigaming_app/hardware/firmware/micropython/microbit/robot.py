@@ -140,9 +140,17 @@ class Robot:
 
 
 def main():
-    """Run until the power is switched off."""
+    """Run until the power is switched off; an error brakes, and the watchdog restarts."""
     robot = Robot(mem32[RESET_REASON] & 2 != 0)
     mem32[RESET_REASON] = 0xFFFFFFFF  # clears it
+    try:
+        run(robot)
+    finally:
+        robot.brake()
+
+
+def run(robot):
+    """Drive and report."""
     radio.config(channel=ARENA % 84, group=ARENA // 84, length=32, queue=8, power=7)
     radio.on()
     mem32[RELOAD_VALUE] = WATCHDOG_MS * 32768 // 1000
