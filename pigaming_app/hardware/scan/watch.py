@@ -18,6 +18,7 @@ from pigaming_app.hardware.scan.outlines import robot_shadows
 from pigaming_app.hardware.scan.projector_place import Place
 from pigaming_app.hardware.signals import CameraFrame, Clock, Image
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.sim.world import HEIGHT, WIDTH
 
 PERIOD = 1.0  # s between two checks
 AT_ONCE = 0.25  # s between two checks of a still picture, in which PATIENCE only guards against a frame that is late
@@ -35,7 +36,7 @@ STEADY = (
     3.0,
     0.1,
 )  # grey levels, and share of the light, by which the expectation of a cell may vary that measures light
-MARKERS = 260  # px, edge of the corner markers' squares on the canvas, which the drift monitor watches
+BESIDE = 40  # px round the arena in which things matter; further out are scores, markers and the edge of the light
 
 
 class ThingsWatch:
@@ -107,11 +108,12 @@ class ThingsWatch:
         return np.asarray(wrong & (cv.morphologyEx(solid, cv.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0))
 
     def _hidden(self, robots: Sequence[Place]) -> Mask:
-        """Cells that robots, or the corner markers, occupy."""
+        """Cells that robots occupy, or that are beside the arena."""
         hidden = robot_shadows(robots, self.expected.ground, self.expected.projector)
-        side = MARKERS // 2
-        hidden[:side, :side] = hidden[:side, -side:] = hidden[-side:, :side] = hidden[-side:, -side:] = 1
-        return np.asarray(hidden[CELL // 2 :: CELL, CELL // 2 :: CELL] > 0)
+        (left, top), beside = map(round, ARENA_AT), np.ones_like(hidden)
+        rows = slice(top - BESIDE, top + round(HEIGHT) + BESIDE)
+        beside[rows, left - BESIDE : left + round(WIDTH) + BESIDE] = 0
+        return np.asarray((hidden | beside)[CELL // 2 :: CELL, CELL // 2 :: CELL] > 0)
 
 
 def _gain(seen: Map, expected: Map, usable: Mask) -> np.float32:

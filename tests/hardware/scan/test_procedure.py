@@ -151,6 +151,7 @@ def test_a_pale_thing_is_seen_beside_the_edges_of_the_old_place_where_the_light_
     mirror.usable[80:90, 150:153] = False  # an edge, where the scan knows no light
     seen = room + np.random.default_rng(3).normal(0.0, 1.0, room.shape).astype(np.float32)
     seen[80:90, 148:155] *= np.float32(grey)  # two cells wide on both sides
+    seen[2:12, 40:80] *= np.float32(0.5)  # scores, above the arena
     off = ThingsWatch(mirror, lambda: 0.0).disagreement(seen, [], [])
     assert off.sum() == (40 if grey < 1.0 else 0)
     assert not off[80:90, 150:153].any()
