@@ -2,7 +2,7 @@
 
 A block is a piece of wood or card of the printed size, with a marker of 50 mm in the middle of its top (numbers 20 to
 39, on the marker sheet). Its pose follows the hand that moves it; at rest it is smoothed. A hidden block stays where it
-was for TIMEOUT.
+was for TIMEOUT. Two blocks with the same number are two walls.
 """
 
 from dataclasses import dataclass
@@ -59,7 +59,7 @@ class BlockTracker:
 
     def __init__(self, ground: GroundPlane, height: float = BLOCK_HEIGHT) -> None:
         self.ground, self.height = ground, height
-        self.blocks: dict[int, Block] = {}
+        self.blocks: list[Block] = []
         self._markers = MarkerDetector(BLOCK_SIZES)
         self._searched = -inf
         middle = np.array([(WIDTH / 2.0, HEIGHT / 2.0), (WIDTH / 2.0 + MARKER / ground.mm, HEIGHT / 2.0)])
@@ -71,7 +71,7 @@ class BlockTracker:
         mm = self.ground.mm
         return [
             Thing(ThingKind.TALL, tuple((x, y) for x, y in block.outline(mm).tolist()), block.height, MARGIN / mm)
-            for _, block in sorted(self.blocks.items())
+            for block in sorted(self.blocks, key=lambda block: block.number)
         ]
 
     def process(self, frame: CameraFrame) -> None:
@@ -80,33 +80,44 @@ class BlockTracker:
         if frame.captured - self._searched >= SEARCH:
             self._searched = frame.captured
             marks += self._markers.detect_quickly(frame.image, self._edge, marks, dim=False)
-        for mark in self._markers.refine(frame.image, marks):
-            self._note(mark, frame.captured)
-        self.blocks = {n: block for n, block in self.blocks.items() if frame.captured - block.seen < TIMEOUT}
+        fixes = (self._fix(mark, frame.captured) for mark in self._markers.refine(frame.image, marks))
+        self._match([fix for fix in fixes if fix])
+        self.blocks = [block for block in self.blocks if frame.captured - block.seen < TIMEOUT]
 
     def _near(self, frame: CameraFrame) -> list[DetectedMarker]:
         """Known blocks, near their last places."""
         found = []
-        for block in self.blocks.values():
+        for block in self.blocks:
             if frame.captured - block.seen < LOST:
                 (x, y), edge = block.mark.corners.mean(axis=0).tolist(), mean_edge(block.mark.corners)
                 mark = self._markers.detect_in(frame.image, SearchWindow(x, y, 1.6 * edge, edge), block.number)
                 found += [mark] if mark is not None else []
         return found
 
-    def _note(self, mark: DetectedMarker, captured: float) -> None:
-        """Create or move the block of a marker, unless the marker is not on a block."""
+    def _match(self, fixes: list[Block]) -> None:
+        """Move each block to the nearest new sight of its number; what is left over is new."""
+        pairs = [(block, fix) for block in self.blocks for fix in fixes if block.number == fix.number]
+        for block, fix in sorted(pairs, key=lambda pair: _apart(*pair)):
+            if block.seen < fix.seen and any(fix is other for other in fixes):
+                block.follow(fix.x, fix.y, fix.heading)
+                block.mark, block.seen = fix.mark, fix.seen
+                fixes = [other for other in fixes if other is not fix]
+        for fix in fixes:
+            if all(fix.number != block.number or _apart(block, fix) * self.ground.mm > MARKER for block in self.blocks):
+                self.blocks.append(fix)  # else its marker was found twice
+
+    def _fix(self, mark: DetectedMarker, captured: float) -> Block | None:
+        """The block under a marker, unless the marker is not on a block."""
         corners = self.ground.at_height(mark.corners, self.height)
         sides = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) * self.ground.mm
         if sides.max() > SKEW_TOLERANCE * sides.min() or abs(sides.mean() / MARKER - 1.0) > SIZE_TOLERANCE:
-            return
+            return None
         x, y = corners.mean(axis=0).tolist()
         right = corners[1] + corners[2] - corners[0] - corners[3]
         heading = atan2(right[1], right[0])
-        block = self.blocks.get(mark.number)
-        if block is None:
-            size = BLOCK_SIZES[mark.number]
-            self.blocks[mark.number] = Block(mark.number, x, y, heading, mark, captured, self.height, size)
-            return
-        block.follow(x, y, heading)
-        block.mark, block.seen = mark, captured
+        return Block(mark.number, x, y, heading, mark, captured, self.height, BLOCK_SIZES[mark.number])
+
+
+def _apart(one: Block, other: Block) -> float:
+    """Distance of two blocks, px."""
+    return hypot(one.x - other.x, one.y - other.y)

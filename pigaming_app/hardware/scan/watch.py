@@ -18,6 +18,7 @@ from pigaming_app.hardware.scan.outlines import robot_shadows
 from pigaming_app.hardware.scan.projector_place import Place
 from pigaming_app.hardware.signals import CameraFrame, Clock, Image
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.sim.world import HEIGHT, WIDTH
 
 PERIOD = 1.0  # s between two checks
 AT_ONCE = 0.25  # s between two checks of a still picture, in which PATIENCE only guards against a frame that is late
@@ -26,15 +27,16 @@ SLACK = 0.07  # s by which the time of a camera frame, or of the light, may be w
 WAIT = 0.2  # s after which a camera frame is used though no later picture of the canvas was kept
 BURST = 0.3  # s before a check from which on pictures of the canvas are kept
 PATIENCE = 3  # checks in a row
-LEAST, SHARE = 9.0, 0.35  # grey levels, and share of the projected light, by which a cell may be off
-SMALL = 900.0  # mm^2, least area of a disagreement
+LEAST, SHARE = 6.0, 0.35  # grey levels, and share of the projected light, by which a cell may be off
+SMALL = 400.0  # mm^2, least area of a disagreement: little of a thing of the mat's own colour is seen in dim light
 WIDE = 61  # cells, window in which the room light changes alike
+SLOW, OUTLIER = 41, 12.0  # cells, window of gradients that are left then; grey levels that count for them at most
 DARK = 10.0  # grey levels of room light, below which its relative change is noise
 STEADY = (
     3.0,
     0.1,
 )  # grey levels, and share of the light, by which the expectation of a cell may vary that measures light
-MARKERS = 260  # px, edge of the corner markers' squares on the canvas, which the drift monitor watches
+BESIDE = 40  # px round the arena in which things matter; further out are scores, markers and the edge of the light
 
 
 class ThingsWatch:
@@ -99,16 +101,19 @@ class ThingsWatch:
         gain = _gain(seen, middle, steady)
         room = gain * (light.room + np.float32(DARK))
         change = room * _room_change((seen - gain * middle) / room, steady)
-        off = np.abs(seen - np.clip(seen, gain * low + change, gain * high + change))
+        off = seen - np.clip(seen, gain * low + change, gain * high + change)
+        off = np.abs(off - _gradient(off, usable))
         wrong = usable & (off > LEAST + SHARE * gain * light.most)
-        return np.asarray(cv.morphologyEx(wrong.astype(np.uint8), cv.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0)
+        solid = (wrong | ~expected.usable).astype(np.uint8)  # edges of things, of unknown light, make no part thinner
+        return np.asarray(wrong & (cv.morphologyEx(solid, cv.MORPH_OPEN, np.ones((3, 3), np.uint8)) > 0))
 
     def _hidden(self, robots: Sequence[Place]) -> Mask:
-        """Cells that robots, or the corner markers, occupy."""
+        """Cells that robots occupy, or that are beside the arena."""
         hidden = robot_shadows(robots, self.expected.ground, self.expected.projector)
-        side = MARKERS // 2
-        hidden[:side, :side] = hidden[:side, -side:] = hidden[-side:, :side] = hidden[-side:, -side:] = 1
-        return np.asarray(hidden[CELL // 2 :: CELL, CELL // 2 :: CELL] > 0)
+        (left, top), beside = map(round, ARENA_AT), np.ones_like(hidden)
+        rows = slice(top - BESIDE, top + round(HEIGHT) + BESIDE)
+        beside[rows, left - BESIDE : left + round(WIDTH) + BESIDE] = 0
+        return np.asarray((hidden | beside)[CELL // 2 :: CELL, CELL // 2 :: CELL] > 0)
 
 
 def _gain(seen: Map, expected: Map, usable: Mask) -> np.float32:
@@ -127,6 +132,13 @@ def _room_change(share: Map, steady: Mask) -> Map:
     levels = np.clip(np.where(steady, share, around) * 127.0 + 128.5, 0.0, 255.0).astype(np.uint8)
     change = (cv.medianBlur(levels, WIDE).astype(np.float32) - np.float32(128.0)) / np.float32(127.0)
     return np.asarray(cv.blur(change, (9, 9)))
+
+
+def _gradient(off: Map, usable: Mask) -> Map:
+    """The mean of a difference in a wide neighbourhood of each cell: wandering room light, but nothing small."""
+    cv, wide = opencv(), (SLOW, SLOW)
+    bounded = np.where(usable, np.clip(off, -OUTLIER, OUTLIER), np.float32(0.0))
+    return np.asarray(cv.blur(bounded, wide) / (cv.blur(usable.astype(np.float32), wide) + np.float32(1e-3)))
 
 
 def _large_parts(mask: Mask, mm: float) -> list[Place]:

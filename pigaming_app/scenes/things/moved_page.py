@@ -27,7 +27,7 @@ from pigaming_app.ui.widgets.labels import blit_sprite
 IDLE = 600.0  # s without input until the title
 TITLE_Y, HINTS_Y, FOOT_Y = 42, 102, 1060  # px, outside the arena
 RADIUS = 76  # px of the rings
-HEAD = pygame.Rect(0, 0, 1920, 138)
+HEAD, BELOW = pygame.Rect(0, 0, 1920, 138), pygame.Rect(0, 138, 1920, 942)
 
 
 class MatchAmongThings(PausedMatch, Protocol):
@@ -100,8 +100,10 @@ class MovedPage:
         text(words("things.moved"), LABEL, ICE, "head", "l", 1600).draw(screen, 176, TITLE_Y)
         self.prompts.draw(screen)
         wave = round(4.0 + 4.0 * math.sin(math.tau * self.clock))
+        screen.set_clip(BELOW)
         for x, y in self.places:
             blit_sprite(screen, ring(RADIUS + 2 * wave), LEFT + x, TOP + y)
+        screen.set_clip(None)
         if self.sentence:
             caption(self.sentence, ALARM, size=BODY).draw(screen, 960, 540)
         text(words("things.put_back"), 34, MIST, "body", "c", 1600).draw(screen, 960, FOOT_Y)

@@ -47,6 +47,16 @@ def test_a_block_follows_the_hand_rests_without_jitter_and_goes_when_taken_away(
     assert tracker.things == []
 
 
+def test_two_blocks_with_one_number_are_two_walls_that_stay():
+    tracker = BlockTracker(GROUND)
+    for number in range(12):
+        tracker.process(photo([(25, 400.0, 300.0, 0.0), (25, 1100.0 + 5.0 * number, 600.0, 1.0)], number, number / 30))
+    assert sorted(thing.middle[0] for thing in tracker.things) == pytest.approx([400.0, 1155.0], abs=4.0)
+    tracker.process(photo([(25, 1155.0, 600.0, 1.0)], 20, 0.5))
+    tracker.process(photo([(25, 1155.0, 600.0, 1.0)], 21, 0.4 + TIMEOUT))
+    assert [thing.middle[0] for thing in tracker.things] == [pytest.approx(1155.0, abs=2.0)]
+
+
 def test_a_print_held_in_a_hand_is_no_wall():
     tracker = BlockTracker(GROUND)
     marks = [(22, GROUND.to_camera(square((700.0, 400.0, 0.0), EDGE), 500.0))]

@@ -142,3 +142,16 @@ def test_a_bright_or_dark_spot_of_room_light_is_no_change_but_a_small_box_in_it_
     assert len(rows) >= 50
     assert 139 <= rows.min() <= rows.max() <= 148
     assert 199 <= columns.min() <= columns.max() <= 208
+
+
+@pytest.mark.parametrize("grey", [0.91, 1.0], ids=["a pale box", "none"])
+def test_a_pale_thing_is_seen_beside_the_edges_of_the_old_place_where_the_light_is_unknown(grey):
+    room = np.full((180, 320), 100.0, np.float32)
+    mirror = Mirror(room)
+    mirror.usable[80:90, 150:153] = False  # an edge, where the scan knows no light
+    seen = room + np.random.default_rng(3).normal(0.0, 1.0, room.shape).astype(np.float32)
+    seen[80:90, 148:155] *= np.float32(grey)  # two cells wide on both sides
+    seen[2:12, 40:80] *= np.float32(0.5)  # scores, above the arena
+    off = ThingsWatch(mirror, lambda: 0.0).disagreement(seen, [], [])
+    assert off.sum() == (40 if grey < 1.0 else 0)
+    assert not off[80:90, 150:153].any()
