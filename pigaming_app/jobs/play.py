@@ -322,7 +322,7 @@ def _on_screen(
     def over() -> bool:
         if not arguments.headless:
             return False
-        return not scenes or (rounds.done if rounds else scenes[0].match.over)
+        return not scenes or bool(_latched(scenes[0].match)) or (rounds.done if rounds else scenes[0].match.over)
 
     code = show(
         Options(
@@ -348,9 +348,20 @@ def _on_screen(
         _print(match, arguments.json, played.outcome().seconds if played else match.seconds, played)
     if scenes and arguments.record:
         save_replay(scenes[0].match, arguments.record)
+    if scenes and arguments.headless and (fault := _latched(scenes[0].match)):
+        raise Refusal(f"The match did not end: nobody is there to help. {fault}")
     if code == 0 and arguments.screenshot and not shot:
         raise Refusal("--screenshot: the match was left before its time, so there is no picture")
     return code if scenes or not arguments.headless else 2  # no match: the reason has been printed
+
+
+def _latched(match: Match) -> str:
+    """A fault of a real robot that waits for an operator, in one sentence, or nothing."""
+    from pigaming_app.ui.i18n import english
+
+    safety: Any = getattr(match.plant, "safety", None)
+    faults = [fault for fault in safety.faults if fault.robot in safety.latched] if safety and not match.over else []
+    return english()(f"faults.{faults[0].name}", robot=faults[0].robot + 1, button="the button") if faults else ""
 
 
 def _camera(match: Match) -> Any:

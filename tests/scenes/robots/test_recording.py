@@ -6,11 +6,15 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.registry import new_match
+from pigaming_app.cli import Parser
 from pigaming_app.games import replay as replays
 from pigaming_app.games.replay import ReplayError
 from pigaming_app.hardware import recordings
 from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.jobs import play as play_job
+from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.files import load_replay, save_replay
 from pigaming_app.scenes.play import replay_faults
 from pigaming_app.scenes.play.replay import ReplayScene
@@ -127,3 +131,29 @@ def test_the_cause_is_among_the_faults_that_a_replay_shows(monkeypatch: pytest.M
     faults.faults += [fault("deadman", i, 10, False) for i in range(3)]
     faults.draw(arcade.screen, 20)
     assert shown == ["camera", "lost", "lost"]
+
+
+def test_a_match_without_people_ends_at_a_fault_that_needs_them(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    arcade.context.session = session = MatSession()  # type: ignore[assignment]
+
+    def show(options: Options) -> int:
+        """The arcade, in which somebody holds robot 1."""
+        assert options.first_scene
+        arcade.open(scene := options.first_scene(arcade.context))
+        assert isinstance(scene, RealMatch)
+        started(arcade, scene)
+        monkeypatch.setattr(session.mat.robots[0], "roll", lambda: None)
+        for _ in range(500):
+            if options.should_close():
+                return 0
+            arcade.frame(1 / 50)
+        raise AssertionError("it waits for ever")
+
+    monkeypatch.setattr(play_job, "show", show)
+    play_job.options(parser := Parser())
+    line = f"pitanks --emulate --headless --real 1 --seats normal,easy --minutes 2 --record {tmp_path / 'a.replay'}"
+    with pytest.raises(Refusal, match="Robot 1 does not follow"):
+        play_job.run(parser.parse_args(line.split()))
+    assert load_replay(tmp_path / "a.replay").length > 10
