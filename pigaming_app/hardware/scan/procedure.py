@@ -35,10 +35,8 @@ DARK = 8.0  # grey levels, least mean difference between white and black
 SPARSE = 8  # px between the samples of these comparisons
 PATIENCE = 4.0  # s for each picture
 MOVED, SOME = 6.0, 9  # grey levels by which the mean of fringes may vary, and connected samples beyond them
-BRIGHT, GLARE = (
-    250.0,
-    0.02,
-)  # grey levels of the white picture, and the share of its px beyond them, that are too bright
+BRIGHT = 250.0  # grey levels of the white picture
+GLARE = 0.02  # share of its px beyond them that is too bright
 AROUND = 41  # samples, window of the gradients that changing room light leaves
 BAND = 60  # rows of a slice of the computation
 

@@ -78,6 +78,9 @@ class Registrations(ModuleType):
     def publish(self, message: object) -> None:
         self.sent.append(self.registered[-1])
 
+    def unregister(self) -> None:
+        """Nobody looks at it."""
+
 
 @pytest.fixture
 def no_ros(monkeypatch):
@@ -117,12 +120,15 @@ def test_no_topic_is_registered_while_robots_drive(no_ros, monkeypatch):
     monkeypatch.setattr(node_module, "require_roscore", lambda: None)
     session = RosSession()
     rig = session.open()
-    rig.link._closing.set()
-    rig.link._thread.join()
-    at_first = len(fake.registered)
-    rig.link.node.publish_twist(3, (0.0, 0.0))
-    session.publish({})
-    assert len(fake.sent) == 2
+    try:
+        rig.link._closing.set()
+        rig.link._thread.join()
+        at_first = len(fake.registered)
+        rig.link.node.publish_twist(3, (0.0, 0.0))
+        session.publish({})
+        assert len(fake.sent) == 2
+    finally:
+        session.end()
     assert len(fake.registered) == at_first == 4 + 1 + 4 + 1, "speeds, state; poses, joystick"
 
 
