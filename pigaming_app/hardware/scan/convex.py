@@ -7,7 +7,7 @@ from pigaming_app.hardware.calibration.boards import ARENA_AT
 from pigaming_app.hardware.scan.things import Outline
 from pigaming_app.hardware.vision.markers import opencv
 
-HOLLOW, DEEP = 0.05, 5.0  # share of a hull that is free, and depth of a dent (px), above which a part is cut in two
+HOLLOW, DEEP = 0.05, 7.0  # share of a hull that is free, and depth of a dent (px), above which a part is cut in two
 CUTS = 12  # directions to try, besides those of the sides that meet in the dent
 PIECE = 0.03  # share of a mask by which one piece more must shrink the hulls
 SIDE = 4, 28  # px of a contour from a dent, between which a side's direction is measured

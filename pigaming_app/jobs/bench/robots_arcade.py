@@ -13,6 +13,8 @@ from pathlib import Path
 from select import select
 from tempfile import TemporaryDirectory
 
+from pigaming_app.games.arenas import load_cached
+from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.proof.outside import OutsideArena
 from pigaming_app.hardware.radio.wifi import PORT
@@ -24,7 +26,8 @@ from pigaming_app.ui.i18n import english
 
 START = 120.0  # s until the robots have taken their places
 KEY = bytes(range(100, 116))  # of the Wi-Fi robots
-PLAY = ("play", "pitanks", "--seats", "level5,level5,level5,level5", "--real", "all", "--minutes", "30")
+GAME = "pitanks"
+PLAY = ("play", GAME, "--seats", "level5,level5,level5,level5", "--real", "all", "--minutes", "30")
 
 
 class Arcade:
@@ -91,7 +94,9 @@ class Trials:
         _set_up(outside, folder)
 
     def run(self, *trials: Callable[[Arcade], None]) -> None:
-        """Play a match and try these faults on it. Raises RuntimeError if the robots do not drive."""
+        """Play a match, with robots where it starts, and try these faults. Raises RuntimeError if they do not drive."""
+        for seat, start in enumerate(load_cached(GAME, games()[GAME].arena).starts):
+            self.outside.arena.place(seat, (start.x, start.y, start.heading))
         with Arcade(self._home, self.outside.feed, self._radio) as arcade:
             arcade.await_match()
             for trial in trials:

@@ -33,6 +33,12 @@ def test_boxes_side_by_side_whose_fronts_are_not_in_line_are_two_outlines():
     assert len(parts) == 2
 
 
+def test_a_rough_side_is_not_cut():
+    """As of a far box in a tilted picture of 720p."""
+    dented = [[(20, 20), (95, 20), (95, 60), (20, 60)], [(20, 60), (57, 60), (20, 66)], [(57, 60), (95, 60), (95, 66)]]
+    assert len(convex_parts(painted(*dented), ORIGIN)) == 1
+
+
 def test_a_round_cup_stays_round():
     turns = np.arange(60) * np.pi / 30
     (found,) = convex_parts(painted(100 + 40 * np.column_stack([np.cos(turns), np.sin(turns)])), ORIGIN)
