@@ -13,7 +13,7 @@ from pathlib import Path
 from select import select
 from tempfile import TemporaryDirectory
 
-from pigaming_app.games.arenas import load_cached
+from pigaming_app.games.arenas import load
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.proof.outside import OutsideArena
@@ -95,7 +95,7 @@ class Trials:
 
     def run(self, *trials: Callable[[Arcade], None]) -> None:
         """Play a match, with robots where it starts, and try these faults. Raises RuntimeError if they do not drive."""
-        for seat, start in enumerate(load_cached(GAME, games()[GAME].arena).starts):
+        for seat, start in enumerate(load(GAME, games()[GAME].arena).starts):
             self.outside.arena.place(seat, (start.x, start.y, start.heading))
         with Arcade(self._home, self.outside.feed, self._radio) as arcade:
             arcade.await_match()
