@@ -53,8 +53,11 @@ def collect(runs: WifiRuns | None, note: Callable[[str], None]) -> dict[str, flo
     return stops
 
 
-def play(game: str, seed: int, minutes: float = MINUTES) -> MatchResult:
-    """A match of four Wi-Fi robots with random buttons, on its own emulated mat. Raises RuntimeError."""
+def play(game: str, seed: int, minutes: float = MINUTES, paired: bool = False) -> MatchResult:
+    """A match of four Wi-Fi robots with random buttons, on its own emulated mat. Raises RuntimeError.
+
+    `paired`: each radio is assigned its robot first.
+    """
     rules = games()[game].default
     one, two, three, four = (Seat("random", team) for team in rules.teams)
     setup = Setup(
@@ -62,6 +65,9 @@ def play(game: str, seed: int, minutes: float = MINUTES) -> MatchResult:
     )
     bed = Testbed(seed, FPS, wifi=wifi.LOSSY)
     try:
+        if paired:
+            bed.session.find()
+            wifi.pair(bed)
         match = Match(setup, lambda world: RealPlant(world, bed.rig))
         for seat in range(ROBOTS):
             match.sit(seat, ButtonMasher(ROBOTS * seed + seat))

@@ -25,6 +25,7 @@ def _micropython():
         pytest.skip(str(reason))
 
 
+@pytest.mark.again  # pairing: before the match; faults: bench robots
 def test_every_fault_stops_the_motors_of_boards_that_were_paired():
     stops = faults(1)
     assert len(stops) == 7
@@ -32,8 +33,8 @@ def test_every_fault_stops_the_motors_of_boards_that_were_paired():
 
 
 @pytest.mark.parametrize("game", [game for game in games() if game not in ADDED])
-def test_a_whole_match_is_played_to_its_end(game):
-    run = play(game, 3, 0.2)
+def test_robots_are_paired_and_a_whole_match_is_played_to_its_end(game):
+    run = play(game, 3, 0.2, paired=game == "pitanks")
     assert run.seconds - run.paused >= 12.0
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
     assert not run.alarms
