@@ -24,7 +24,7 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 
 SHORT, LONG = 0.15, 0.4  # s, windows of comparison: for a robot astray, and for one that is stuck
 LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetrain's dead time
-NOTABLE = 0.01  # s, a measured delay below which nothing later is tolerated
+NOTABLE = 0.01  # s, a measured delay up to which nothing later is expected
 STRONGEST = 1.5  # tolerated gain of a wheel
 SLACK, SHARE = 4.0, 0.2  # px, and share of the faster wheel's travel: errors of poses and wheel base, and slip
 UNEVEN = 0.15  # tolerated difference of the wheels, as a share of their travel, with gains estimated by the tracker

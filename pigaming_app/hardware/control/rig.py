@@ -13,7 +13,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from pigaming_app.hardware.control.kinematics import Kinematics
-from pigaming_app.hardware.control.motion_check import MotionCheck
+from pigaming_app.hardware.control.motion_check import NOTABLE, MotionCheck
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.messages import OperatorMessage
@@ -165,7 +165,7 @@ class Rig:
         """One prediction of all robots for one tick, shared by safety, clipping and steering."""
         with self._lock:
             now = self.clock()
-            ahead = [kinematics.drivetrain.dead_time + kinematics.correction.late for kinematics in self.kinematics]
+            ahead = [_delay(kinematics) for kinematics in self.kinematics]
             return RobotSnapshot(now, self.tracker.last_captured, *self.tracker.predict(now, ahead))
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
@@ -321,6 +321,12 @@ class Rig:
                 self.recorder.record_fixes(self.clock(), frame.captured, fixes)
         for view in tuple(self.viewers):
             view(frame)
+
+
+def _delay(kinematics: Kinematics) -> float:
+    """Dead time of a robot, s, with what was measured on top of it, if that is notable: as in a slow network."""
+    late = kinematics.correction.late
+    return kinematics.drivetrain.dead_time + (late if late > NOTABLE else 0.0)
 
 
 def _same(one: Image, other: Image) -> bool:

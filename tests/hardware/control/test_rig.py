@@ -202,4 +202,4 @@ def test_predictions_reach_as_far_ahead_as_commands_are_measured_to_take(monkeyp
     mat.pass_time(0.1)
     mat.rig.pump()
     mat.rig.snapshot()
-    assert ahead[-1] == pytest.approx([UNMEASURED.dead_time + more for more in late])
+    assert ahead[-1] == pytest.approx([UNMEASURED.dead_time + more for more in (0.0, 0.05, 0.1, 0.0)])
