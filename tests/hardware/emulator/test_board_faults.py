@@ -6,13 +6,14 @@ from random import Random
 
 import pytest
 
-from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, Wheel, interpreter
+from pigaming_app.hardware.emulator.wifi.boards import Wheel
 from pigaming_app.hardware.radio.packets import RESTARTED, drive_packet
 from pigaming_app.hardware.robot_files import PROGRAM
 from pigaming_app.hardware.signals import WheelCommand
 from tests.cases import repeated
 from tests.hardware.emulator.one_board import ARENA, BACK, GO, ON, Arcade
 
+pytestmark = pytest.mark.usefixtures("micropython")
 DRIVERS = ("DRV8833", "TB6612", "L298N")
 IN_IN = {"board_esp32": (Wheel(25, 26), Wheel(32, 33)), "board_pico_w": (Wheel(10, 11), Wheel(12, 13))}
 ENABLE = {"board_esp32": (Wheel(26, 27, 25), Wheel(32, 33, 14)), "board_pico_w": (Wheel(11, 12, 10), Wheel(14, 15, 13))}
@@ -33,14 +34,6 @@ class Stalls(InIn):
 KIND, TIMER, WATCHDOG_MS, LED, BATTERY_PIN, BUTTON = 1, 0, 1000, None, None, None
 left, right = Stalls(25, 26), InIn(32, 33)
 """
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _micropython():
-    try:
-        interpreter()
-    except NoMicroPython as reason:
-        pytest.skip(str(reason))
 
 
 @pytest.fixture

@@ -4,20 +4,11 @@ import socket
 
 import pytest
 
-from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
 from pigaming_app.hardware.radio.envelope import REPORT, unseal
 from pigaming_app.hardware.radio.packets import DEADMAN, PARKED, RESTARTED, drive_packet, report_from, with_crc
 from tests.hardware.emulator.one_board import ARENA, KEY, ON, Arcade
 
-pytestmark = pytest.mark.long
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _micropython():
-    try:
-        interpreter()
-    except NoMicroPython as reason:
-        pytest.skip(str(reason))
+pytestmark = [pytest.mark.long, pytest.mark.usefixtures("micropython")]
 
 
 @pytest.fixture

@@ -7,26 +7,18 @@ import socket
 
 import pytest
 
-from pigaming_app.hardware.emulator.wifi.boards import Boards, MicrobitConfig, NoMicroPython, interpreter
+from pigaming_app.hardware.emulator.wifi.boards import Boards, MicrobitConfig
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.packets import PARKED, RESTARTED, drive_packet
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 from pigaming_app.hardware.signals import WheelCommand
 
-pytestmark = pytest.mark.long
+pytestmark = [pytest.mark.long, pytest.mark.usefixtures("micropython")]
 ARENA = 4711
 CHANNEL = bytes([ARENA % 84, ARENA // 84])  # and group of the radio
 GO = [WheelCommand(1.0, -0.5), WheelCommand(-1.0, 0.5)]
 SHARES = [(1.0, -32 / 63), (-1.0, 32 / 63)]
 STEP = 0.002  # s
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _micropython():
-    try:
-        interpreter()
-    except NoMicroPython as reason:
-        pytest.skip(str(reason))
 
 
 class Air:

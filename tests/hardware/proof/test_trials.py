@@ -4,7 +4,6 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.hardware.emulator.wifi import boards
 from pigaming_app.hardware.emulator.wifi.air import WifiChannel
 from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
 from pigaming_app.hardware.proof import testbed
@@ -48,12 +47,9 @@ def test_when_the_game_hangs_the_link_stops_the_robots(trail):
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("micropython")
 def test_robots_are_followed_through_a_slow_network_and_one_that_restarts_is_driven_on(trail):
     """Robots on Wi-Fi, 60 to 80 ms each way: about 50 ms more than an XBee has, which the tracker measures."""
-    try:
-        boards.interpreter()
-    except boards.NoMicroPython as reason:
-        pytest.skip(str(reason))
     bed = testbed.Testbed(5, 30.0, ground=trail.bed.ground, wifi=WifiChannel(0.060, 0.080))
     try:
         eight = FigureEight(bed)

@@ -5,24 +5,15 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
 from pigaming_app.hardware.proof.wifi import faults
 from pigaming_app.jobs.bench import robots_arcade
 from pigaming_app.jobs.bench.robots import TARGETS
 from pigaming_app.jobs.bench.wifi import play
 from pigaming_app.storage.plugins.parts import plugins
 
-pytestmark = pytest.mark.long(first=True)
+pytestmark = [pytest.mark.long(first=True), pytest.mark.usefixtures("micropython")]
 LONGEST = TARGETS["wifi_worst_stop_ms"] / 1e3  # s
 ADDED = [plugin.name for plugin in plugins()]
-
-
-@pytest.fixture(scope="module", autouse=True)
-def _micropython():
-    try:
-        interpreter()
-    except NoMicroPython as reason:
-        pytest.skip(str(reason))
 
 
 @pytest.mark.again  # pairing: before the match; faults: bench robots
