@@ -24,7 +24,6 @@ from pigaming_app.sim.world import HEIGHT, WIDTH
 
 SHORT, LONG = 0.15, 0.4  # s, windows of comparison: for a robot astray, and for one that is stuck
 LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetrain's dead time
-NOTABLE = 0.01  # s, a measured delay up to which nothing later is expected
 STRONGEST = 1.5  # tolerated gain of a wheel
 SLACK, SHARE = 4.0, 0.2  # px, and share of the faster wheel's travel: errors of poses and wheel base, and slip
 UNEVEN = 0.15  # tolerated difference of the wheels, as a share of their travel, with gains estimated by the tracker
@@ -119,7 +118,7 @@ class RobotMotionCheck:
 
     def _tolerated(self, late: float) -> list[float]:
         """Delays by which motion may follow commands, s: those without `late`, and later ones."""
-        later = [late + more for more in LATENESS if late > NOTABLE and late + more > LATENESS[-1]]
+        later = [late + more for more in LATENESS if late + more > LATENESS[-1]]
         return [self.drivetrain.dead_time + more for more in (*LATENESS, *later)]
 
     def record_command(self, now: float, twist: Twist) -> None:

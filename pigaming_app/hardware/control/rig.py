@@ -13,7 +13,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from pigaming_app.hardware.control.kinematics import Kinematics
-from pigaming_app.hardware.control.motion_check import NOTABLE, MotionCheck
+from pigaming_app.hardware.control.motion_check import MotionCheck
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.messages import OperatorMessage
@@ -35,6 +35,7 @@ ROUNDING = 1.0  # px of a body's radius that the virtual walls' own margin cover
 RETRY = 0.5  # s until the next try after an error
 PERIOD = 0.005  # s between two polls of the camera
 MUTE = 0.35  # s without a report after which commands may be lost, too
+NOTABLE = 0.01  # s, a measured delay up to which none is expected
 GREETING = 0.5  # s after which every robot in range has received a command and reported since
 
 log = logging.getLogger("pigaming")
@@ -165,7 +166,7 @@ class Rig:
         """One prediction of all robots for one tick, shared by safety, clipping and steering."""
         with self._lock:
             now = self.clock()
-            ahead = [_delay(kinematics) for kinematics in self.kinematics]
+            ahead = [kinematics.drivetrain.dead_time + _late(kinematics) for kinematics in self.kinematics]
             return RobotSnapshot(now, self.tracker.last_captured, *self.tracker.predict(now, ahead))
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
@@ -316,17 +317,16 @@ class Rig:
             self.motion_check.record_fixes(fixes)
             for robot, kinematics in enumerate(self.kinematics):
                 kinematics.correction = self.tracker.wheel_correction(robot)
-                self.motion_check.expect_lateness(robot, kinematics.correction.late)
+                self.motion_check.expect_lateness(robot, _late(kinematics))
             if self.recorder:
                 self.recorder.record_fixes(self.clock(), frame.captured, fixes)
         for view in tuple(self.viewers):
             view(frame)
 
 
-def _delay(kinematics: Kinematics) -> float:
-    """Dead time of a robot, s, with what was measured on top of it, if that is notable: as in a slow network."""
-    late = kinematics.correction.late
-    return kinematics.drivetrain.dead_time + (late if late > NOTABLE else 0.0)
+def _late(kinematics: Kinematics) -> float:
+    """Delay that was measured on top of a robot's dead time, s, if it is notable: as in a slow network."""
+    return kinematics.correction.late if kinematics.correction.late > NOTABLE else 0.0
 
 
 def _same(one: Image, other: Image) -> bool:
