@@ -226,7 +226,8 @@ def test_a_cell_is_compared_in_its_units(cell, value, same):
 
 def quoted():
     """Statements of docs/thesis.md about this program, with the numbers of the code."""
-    tanks, shop, track = (match_of(game).state.rules for game in ("pitanks", "factory", "race"))
+    rules = (("pitanks", "pickups"), ("factory", None), ("race", None))
+    tanks, shop, track = (match_of(game, variant).state.rules for game, variant in rules)
     one, two, unknown = RECIPES[1], RECIPES[2], Parameters()
     yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
     yield f"{world.WIDTH:g} × {world.HEIGHT:g} px; nominal mat 2.11 × 1.19 m, so {drivetrain.MM} mm a pixel"

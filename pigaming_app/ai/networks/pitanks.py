@@ -2,8 +2,8 @@
 
 Directions are given as cosine and sine relative to the own heading. The other robots are sorted by how much they matter
 now, so that the first of them is nearly always the one to fight. The weakest levels see one opponent at a time, each in
-its turn, so that nobody is hunted. Aiming errors are measured in angular sizes of the target, since a degree matters far
-away and hardly at close range.
+its turn, so that nobody is hunted. Aiming errors are measured in angular sizes of the target, since a degree matters
+far away and hardly at close range.
 """
 
 from math import cos, sin, sqrt
@@ -224,7 +224,8 @@ def take_turns(match: Any, seat: int, senses: Any) -> int:
     The next is the opponent that has had the fewest turns, never the same again while there are others; of several one
     in sight, then the nearest. There must be an opponent.
     """
-    me, last = match.robots[seat], senses.target - 1
+    me = match.robots[seat]
+    last: int = senses.target - 1
     if last >= 0:
         is_opponent = match.robots[last].present and match.robots[last].team != me.team
         if is_opponent and match.tick < senses.until and match.tanks[last].taken == senses.taken:
