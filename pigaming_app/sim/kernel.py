@@ -4,8 +4,8 @@
 functions callable from compiled code; compiled outer loops are cached on disk.
 
 numba's own cache goes by the path of a module, and does not detect an edit in a function that the outer loop calls.
-This one goes by a hash of all these sources and by what a loop is a closure over: every copy of the program on a machine
-loads what the first has compiled.
+This one goes by a hash of all these sources and by what a loop is a closure over: every copy of the program on a
+machine loads what the first has compiled.
 """
 
 import contextlib
