@@ -41,7 +41,7 @@ def options(parser: ArgumentParser) -> None:
 
 
 def supply_file(arguments: Namespace, settings: Settings) -> bool:
-    """Write or print the file of a robot; false if none is wanted. Raises Refusal, too if the settings cannot be saved."""
+    """Write or print the file of a robot; false if none is wanted. Raises Refusal, also if settings are not saved."""
     from pigaming_app.hardware.session.store import arena_id, wifi_key
 
     out: Path | None = arguments.out
