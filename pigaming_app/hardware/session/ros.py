@@ -76,6 +76,7 @@ class RosSession:
             poses = RosPoses(self._node, frame, time.monotonic, drivetrains)
             rig = Rig(poses, poses, RosLink(self._node, poses, drivetrains), time.monotonic, drivetrains)
             rig.kinematics = [Kinematics(drivetrain, levels=None) for drivetrain in drivetrains]
+            rig.remote = True
             self.mm, self._rig = frame.mm, rig.start()
         return self._rig
 
