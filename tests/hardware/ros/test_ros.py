@@ -133,7 +133,7 @@ def test_no_topic_is_registered_while_robots_drive(no_ros, monkeypatch):
         assert len(fake.sent) == 2
     finally:
         session.end()
-    assert len(fake.registered) == at_first == 4 + 1 + 4 + 1, "speeds, state; poses, joystick"
+    assert len(fake.registered) == at_first == 4 + 1 + 4 + 2, "speeds, state; poses, joystick, keys"
 
 
 def test_units_are_those_of_rep_103_and_come_back():
@@ -253,6 +253,20 @@ def test_a_joystick_drives_the_seat_it_names_or_the_first_person():
     assert session.stick(2, False) is None
 
 
+def test_keys_drive_the_seat_they_name_or_the_first_person_while_they_are_held():
+    session = RosSession()
+    session._take_keys("Up left robot_2 FIRE")
+    assert session.stick(1, False) == (1.0, -1.0, True, False)
+    assert session.stick(0, True) is None
+    session._take_keys("down right turbo")
+    assert session.stick(0, True) == (-1.0, 1.0, False, True)
+    assert session.stick(2, False) is None
+    session._take_keys("")
+    assert session.stick(0, True) == (0.0, 0.0, False, False)
+    session._take_keys("up robot_5 \N{SNOWMAN} down")
+    assert session.stick(0, True) == (0.0, 0.0, False, False)
+
+
 LOBBY = """
 import time
 from pigaming_app.scenes.app import Options
@@ -276,11 +290,11 @@ with opened(Options(first_scene=lobby, headless=True, ros_width=2112.0)) as app:
 
 @pytest.mark.long
 @NEEDS_ROSCORE
-def test_a_match_over_a_real_roscore_obeys_a_joystick_and_stops_without_poses(tmp_path: Path) -> None:
+def test_a_match_over_a_real_roscore_obeys_joystick_and_keys_and_stops_without_poses(tmp_path: Path) -> None:
     with network(tmp_path) as ros:
         mat = ros.start(*JOB, "ros", "--emulate")
         stick = "{header: {frame_id: robot_1}, axes: [0.0, 1.0], buttons: [0, 0]}"
-        ros.start("rostopic", "pub", "-r", "10", "/joystick", "sensor_msgs/Joy", stick)
+        joystick = ros.start("rostopic", "pub", "-r", "10", "/joystick", "sensor_msgs/Joy", stick)
         speeds, states = ros.watch("/robot_1/cmd_vel"), ros.watch("/game/state")
         until(lambda: "/robot_1/pose" in ros.topics())
         rules = ("--seats", "human,level1", "--real", "1", "--width", "2126")
@@ -292,6 +306,9 @@ def test_a_match_over_a_real_roscore_obeys_a_joystick_and_stops_without_poses(tm
         until(lambda: state().get("seconds", 0.0) > 1.0)
         assert state()["robots"][0]["robot"] == 1
         until(lambda: speeds.read() and float(speeds.lines[-1][1].split(",")[1]) > 0.2, 20.0)
+        joystick.terminate()
+        ros.start("rostopic", "pub", "-r", "10", "/key_input", "std_msgs/String", "robot_1 down")
+        until(lambda: speeds.read() and float(speeds.lines[-1][1].split(",")[1]) < -0.1, 20.0)
         mat.send_signal(signal.SIGSTOP)
         stopped = time.monotonic()
         until(lambda: (speeds.read(), time.monotonic() > stopped + 1.0)[1])
