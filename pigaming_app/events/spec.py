@@ -92,6 +92,7 @@ class Fixture:
     entrants: tuple[str, ...]
     seed: int
     fill: int = 0
+    extra: int = 0  # number of an extra match of those who are tied, from 1; 0: the match itself
 
 
 @dataclass(frozen=True)
@@ -102,6 +103,7 @@ class Outcome:
     places: tuple[tuple[str, ...], ...]
     scores: Mapping[str, float] = field(default_factory=dict)
     note: str = ""
+    extra: int = 0  # see Fixture
 
 
 @dataclass(frozen=True)

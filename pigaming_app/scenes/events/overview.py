@@ -76,8 +76,7 @@ def _box(event: Event, fixture: Fixture, upcoming: int | None) -> Box:
 def through(event: Event, fixture: Fixture, outcome: Outcome) -> tuple[str, ...]:
     """Who goes on from a match of a knock-out, or has won another."""
     if event.spec.format is Format.KNOCKOUT:
-        names = tuple(entrant.name for entrant in event.entrants)
-        return tuple(knockout.through(fixture, outcome, names, event.spec.advance))
+        return tuple(knockout.through(fixture, outcome, event.spec.advance))
     return outcome.places[0] if len(outcome.places) > 1 or outcome.note == WALKOVER else ()
 
 

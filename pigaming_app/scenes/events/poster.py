@@ -211,7 +211,6 @@ def _bracket(page: pygame.Surface, event: Event, words: Words, matches: Sequence
     rounds = [list(found) for _, found in groupby(matches, key=lambda one: (one.stage, one.round))]
     split = round(min(SPLIT[0], SPLIT[1] * (W - 2 * MARGIN) / max(1, len(rounds))))
     wide = (W - 2 * MARGIN + split) / max(1, len(rounds))
-    names = tuple(entrant.name for entrant in event.entrants)
     before: list[tuple[pygame.Rect, frozenset[str]]] = []  # boxes of the column before, and who goes on
     for i, fixtures in enumerate(rounds):
         x = MARGIN + wide * i
@@ -221,7 +220,7 @@ def _bracket(page: pygame.Surface, event: Event, words: Words, matches: Sequence
         now: list[tuple[pygame.Rect, frozenset[str]]] = []
         for k, fixture in enumerate(fixtures):
             outcome = event.outcomes.get(fixture.number)
-            best = knockout.through(fixture, outcome, names, event.spec.advance) if outcome else frozenset()
+            best = knockout.through(fixture, outcome, event.spec.advance) if outcome else frozenset()
             line = min(LINE, BESIDE * wide, (pitch - 14) / len(fixture.entrants))
             high = round(line * len(fixture.entrants)) + 8
             middle = BRACKET_TOP + pitch * (k + 0.5)

@@ -69,7 +69,7 @@ class RunningEvent:
     def accepts_late(self) -> bool:
         """True as long as late entrants may join: until a match of round two has been played."""
         event = self.event
-        begun = any(fixture.round > 1 and fixture.number in event.outcomes for fixture in event.fixtures)
+        begun = any(fixture.round > 1 and fixture.number in event.played for fixture in event.fixtures)
         return not begun and not event.over and len(event.entrants) < MOST
 
     def brain(self, name: str) -> str:
