@@ -14,7 +14,6 @@ from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import AIS, find_brain, level_of
 from pigaming_app.events.entrant_lists import ListError, entrants_of_text, read_list
 from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
-from pigaming_app.games.setup import ChoiceError
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.format_pictures import row_picture
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
@@ -37,7 +36,8 @@ from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 IDLE = 180.0  # s without input before the return to the title
 MESSAGE_SECONDS = 4.0
 MAX_LIST = 100_000  # bytes of a dropped file
-MAX_SHOWN = 20  # characters of a line that is refused
+MAX_SHOWN, MOST_SHOWN = 20, 44  # characters of a file's name, of a line that is refused; of columns
+SENTENCE_ROOM = RIGHT - LEFT - 60  # px
 TEAMS = 4  # that can be chosen here
 COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 204  # px
 DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
@@ -107,7 +107,8 @@ class EntrantsPage:
             text(words("events.drop"), BODY, MIST).draw(screen, 960, 690)
         self.focus.draw(screen)
         if self.navigation.sentence:
-            caption(self.navigation.sentence, FOCUS).draw(screen, 960, self.navigation.prompts.y)
+            size = fit_size(self.navigation.sentence, BODY, SENTENCE_ROOM, "body")
+            caption(self.navigation.sentence, FOCUS, size=size).draw(screen, 960, self.navigation.prompts.y)
         else:
             self.navigation.prompts.items = tuple(self._hints())
             self.navigation.prompts.draw(screen)
@@ -128,51 +129,39 @@ class EntrantsPage:
         self.focus.set_spots(self._spots())
         return ""
 
-    def add_list(self, text: str) -> None:
-        """Enter everybody of a list, and show how many."""
+    def add_list(self, text: str, file: str = "") -> None:
+        """Enter everybody of a list, and show how many. `file`: its name."""
         words, count = self.context.words, 0
         try:
-            found = entrants_of_text(one_a_line(text))
-            for entrant in found:
-                self._require_brain(entrant.brain)
+            found = entrants_of_text(one_a_line(text), self._require_brain)
         except ListError as error:
-            log.warning("list of entrants: %s", error)
-            self._refuse(self._reason(error))
+            log.warning("list of entrants %s: %s", file, error)
+            shown = one_line(error.text, MAX_SHOWN)
+            self._refuse(words(f"events.bad_{error.kind}", line=error.line, text=shown, most=MOST), file)
             return
-        except ChoiceError as error:
-            log.warning("list of entrants: %s", error)
-            self._refuse(words("events.bad_ai"))
-            return
-        for entrant in found:
+        for entrant in found.entrants:
             name = HARMLESS if is_rude(entrant.name.upper()) else entrant.name
             count += not self._add(replace(entrant, name=name))
-        if count:
-            self.navigation.show_message(words("events.added", count=count))
-            self.context.sounds.play("ready")
-        else:
-            self._refuse(words("events.no_names"))
+        if not count:
+            self._refuse(words("events.no_names"), file)
+            return
+        message = words("events.added", count=count)
+        if found.ignored:
+            message += "  ·  " + words("events.ignored", columns=one_line(", ".join(found.ignored), MOST_SHOWN))
+        self.navigation.show_message(message)
+        self.context.sounds.play("ready")
 
     def _require_brain(self, brain: str) -> None:
         """Raises ChoiceError unless an AI plays all games of the event."""
-        for game in self.draft.games if brain else ():
+        for game in self.draft.games:
             find_brain(game, brain)
-
-    def _reason(self, error: ListError) -> str:
-        """Why a list cannot be taken."""
-        words = self.context.words
-        if error.full:
-            return words("events.full", most=MOST)
-        if error.taken:
-            return words("events.taken", name=error.taken)
-        key = "events.bad_name" if error.name else "events.bad_line"
-        return words(key, line=error.line, text=one_line(error.text, MAX_SHOWN))
 
     def _read(self, path: Path) -> None:
         try:
-            self.add_list(read_list(path, MAX_LIST))
+            self.add_list(read_list(path, MAX_LIST), path.name)
         except (OSError, ValueError) as error:
             log.warning("%s: %s", path.name, error)
-            self._refuse(self.context.words("events.unread"))
+            self._refuse(self.context.words("events.unread"), path.name)
 
     def _paste(self) -> None:
         try:
@@ -181,8 +170,9 @@ class EntrantsPage:
             log.warning("clipboard: %s", error)
             self._refuse(self.context.words("events.no_names"))
 
-    def _refuse(self, sentence: str) -> None:
-        self.navigation.show_message(sentence)
+    def _refuse(self, sentence: str, file: str = "") -> None:
+        """Show why not. `file`: name of the file that is refused."""
+        self.navigation.show_message(f"{one_line(file, MAX_SHOWN)}: {sentence}" if file else sentence)
         self.context.sounds.play("refused")
 
     def _change_team(self, spot: str) -> None:
