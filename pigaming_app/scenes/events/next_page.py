@@ -344,11 +344,15 @@ class EventMatch:
     running: RunningEvent
     fixture: Fixture
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Who plays, in the order of the seats."""
+        return self.fixture.entrants
+
     def __call__(self, scene: MatchScene) -> AfterMatch:
         """A match that was ended by hand is still open."""
         if not scene.match.over:
             return NextMatch(scene.context, self.running, "events.unplayed")
-        scene.names = self.fixture.entrants
         outcome = outcome_of(self.fixture, scene.match.outcome().rows)
         try:
             notice = "" if self.running.change(lambda event: event.record(outcome)) else "app.unsaved"
