@@ -105,7 +105,7 @@ def table_row_steps(row: TableRow, w: int, h: int, columns: int) -> Steps[LitIma
     if row.mark:
         icon(layer.glow, "ai", x + size * 0.4, middle, size * 0.36, MIST, 4)
         x, room = x + round(size * 1.05), room - round(size * 1.05)
-    name, name_size = fit_text(row.name, size, room, "hero")
+    name, name_size = fit_text(row.name, size, room, "hero", BODY)
     layer.canvas.text(name, name_size, x, middle, color, "hero")
     if best:
         at = x + text_width(name, name_size, "hero") + size * 0.7

@@ -27,7 +27,7 @@ def fit_text(text: str, size: int, width: float, face: str = "head", smallest: i
         return text, fits
     kept = text
     while kept and text_width(f"{kept}…", smallest, face) > width:
-        kept = kept[:-1].rstrip()
+        kept = kept[:-1].rstrip(" .")
     return f"{kept}…", smallest
 
 

@@ -14,6 +14,7 @@ from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import AIS, find_brain, level_of
 from pigaming_app.events.entrant_lists import ListError, entrants_of_text, read_list
 from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
+from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.format_pictures import row_picture
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
@@ -39,7 +40,9 @@ MAX_LIST = 100_000  # bytes of a dropped file
 MAX_SHOWN, MOST_SHOWN = 20, 44  # characters of a file's name, of a line that is refused; of columns
 SENTENCE_ROOM = RIGHT - LEFT - 60  # px
 TEAMS = 4  # that can be chosen here
-COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 204  # px
+CELL_H, PITCH_Y, TOP, GAP = 66, 80, 204, 16  # px
+NARROW = 202  # px: a cell with little room for a team
+WIDE = {32: 4, 64: 8}  # columns, by number of entrants at most
 DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
 LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN = "letters", "add_ai", "strength", "paste", "begin"
 SIGNS = {LETTERS: "plus", ADD_AI: "ai", PASTE: "list", BEGIN: "play"}
@@ -100,7 +103,7 @@ class EntrantsPage:
                 )
             else:
                 entrant = self._entrant(spot.name)
-                cell(entrant.name, entrant.team, bool(entrant.brain), hot).draw(screen, *spot.rect.topleft)
+                cell(entrant.name, entrant.team, bool(entrant.brain), spot.rect.w, hot).draw(screen, *spot.rect.topleft)
         if not draft.entrants:
             row_picture("entrants", 0).draw(screen, 960, 390)
             text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 610)
@@ -254,11 +257,14 @@ class EntrantsPage:
         return brain_name(words, self.draft.games[0], self.brain)
 
     def _spots(self) -> list[FocusSpot]:
+        count = len(self.draft.entrants)
+        columns = next(columns for most, columns in WIDE.items() if count <= most)
+        pitch = (RIGHT - LEFT + GAP) // columns
         cells = [
             FocusSpot(
-                str(i), pygame.Rect(LEFT + PITCH_X * (i % COLUMNS), TOP + PITCH_Y * (i // COLUMNS), CELL_W, CELL_H)
+                str(i), pygame.Rect(LEFT + pitch * (i % columns), TOP + PITCH_Y * (i // columns), pitch - GAP, CELL_H)
             )
-            for i in range(len(self.draft.entrants))
+            for i in range(count)
         ]
         w = (RIGHT - LEFT - DEED_GAP * (len(DEEDS) - 1)) // len(DEEDS)
         boxes = (pygame.Rect(LEFT + (w + DEED_GAP) * i, DEEDS_Y, w, DEED_H) for i in range(len(DEEDS)))
@@ -294,16 +300,17 @@ def deed(word: str, sign: str, w: int, hot: bool) -> LitImage:
 
 
 @cached
-def cell(name: str, team: str, ai: bool, hot: bool) -> LitImage:
+def cell(name: str, team: str, ai: bool, w: int, hot: bool) -> LitImage:
     """An entrant; top left at (0, 0)."""
-    layer = Layer(0, 0, CELL_W, CELL_H)
-    layer.glow.line(cut_box(0, 0, CELL_W, CELL_H, 12), FOCUS if hot else STEEL, THIN, True)
+    layer = Layer(0, 0, w, CELL_H)
+    layer.glow.line(cut_box(0, 0, w, CELL_H, 12), FOCUS if hot else STEEL, THIN, True)
     left = 58 if ai else 16
     if ai:
         icon(layer.glow, "ai", 34, CELL_H / 2, 18, MIST, 3)
-    right = CELL_W - (60 if team else 14)
+    side = w // 3 if team and w > NARROW else 46 if team else 0
+    right = w - 14 - side
     if team:
-        layer.canvas.text(team, fit_size(team, BODY, 40), CELL_W - 34, CELL_H / 2, MIST, "head", "c")
-    name, size = fit_text(name, LABEL, right - left, "hero")
+        layer.canvas.text(shortened(team, side - 10, BODY), BODY, w - 14, CELL_H / 2, MIST, "head", "r")
+    name, size = fit_text(name, LABEL, right - left, "hero", BODY)
     layer.canvas.text(name, size, (left + right) / 2, CELL_H / 2, FOCUS if hot else ICE, "hero", "c")
     return layer.render()
