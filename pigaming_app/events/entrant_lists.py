@@ -109,7 +109,7 @@ def _likelihood(text: str) -> float:
     points = 0.0
     text = f" {text} "
     for found in _BEYOND.finditer(text):
-        before, letter, after = text[found.start() - 1 : found.end() + 1]
+        before, letter, after = text[found.start() - 1], found[0], text[found.end()]
         if letter in "’‘":  # O’Brien
             points += 1.0 if after.isupper() or before.isspace() else -1.0
         elif letter != "œ":  # rarer than the ú of old Macs

@@ -137,7 +137,7 @@ class Progress:
                         outcomes[fixture.number] = Outcome(fixture.number, places, note=WALKOVER)
                 fixtures.append(fixture)
             rounds.append(replace(drawn, fixtures=tuple(fixtures)))
-        return replace(progress, rounds=tuple(rounds), outcomes=outcomes | progress.outcomes)
+        return replace(progress, rounds=tuple(rounds), outcomes={**outcomes, **progress.outcomes})
 
     def _without_extra_match(self, fixture: Fixture) -> "Progress":
         """An open extra match goes to those who are there; without any of them, to no matter whom."""
@@ -175,10 +175,9 @@ class Progress:
         if not outcome.note.strip():
             raise ValueError("a correction needs a note")
         fixture = self.fixtures[number - 1]
-        outcomes, played = (
-            {key: kept for key, kept in all_.items() if key != number} for all_ in (self.outcomes, self.played)
-        )
-        progress = replace(self, outcomes=outcomes, played=played)._after_match(fixture, checked(outcome, fixture))
+        outcomes = {other: kept for other, kept in self.outcomes.items() if other != number}
+        before = replace(self, outcomes=outcomes, played={**self.played, number: ()})
+        progress = before._after_match(fixture, checked(outcome, fixture))
         if self.spec.format == Format.KNOCKOUT and self._winners(fixture) != progress._winners(fixture):
             later = [str(one.number) for one in self.fixtures if one.round > fixture.round and self._played(one)]
             if later:

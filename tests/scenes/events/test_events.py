@@ -506,7 +506,7 @@ def test_a_result_that_cannot_be_saved_is_said_and_kept(arcade: Arcade, monkeypa
         disk.setattr(event_files, "write_with_backup", full)
         finish(arcade, (3, 1))
         arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
-    assert arcade.shown(NextMatch).message == "app.unsaved"
+    assert arcade.shown(NextMatch).message == arcade.context.words("app.unsaved")
     assert len(run.event.outcomes) == 1
     assert saved(run).outcomes == {}
     arcade.wait(INPUT_LOCKOUT + 0.1)
@@ -529,14 +529,14 @@ def test_two_processes_on_one_event_lose_and_double_nothing(arcade: Arcade) -> N
     third = run.event.open[0]
     assert other.change(lambda event: event.record(result_of(third)))
     arcade.press(Button.FIRE)
-    assert arcade.shown(NextMatch).message == "events.elsewhere"
+    assert arcade.shown(NextMatch).message == arcade.context.words("events.elsewhere")
     assert run.event == other.event, "nobody plays a match that has a result"
     arcade.press(Button.FIRE)
     third = run.event.open[0]
     assert other.change(lambda event: event.record(result_of(third)))
     finish(arcade, (3, 1))
     arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
-    assert arcade.shown(NextMatch).message == "events.elsewhere"
+    assert arcade.shown(NextMatch).message == arcade.context.words("events.elsewhere")
     assert saved(run) == run.event == other.event
 
 
@@ -544,9 +544,9 @@ def test_a_robot_that_is_gone_is_said_and_its_match_skipped(arcade: Arcade) -> N
     run = running(an_event(brains=str(folders().data / "robots" / "GONE.npz")))
     page = at_next(arcade, run)
     arcade.press(Button.FIRE)
-    assert arcade.shown(NextMatch).message == "events.failed"
+    assert arcade.shown(NextMatch).message == arcade.context.words("events.failed")
     arcade.press(Button.X)
-    assert page.message == "events.skipped"
+    assert page.message == arcade.context.words("events.skipped")
 
 
 def test_no_folder_for_events_is_said(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -152,7 +152,7 @@ class ResultsList:
         """The matches with a result that can be corrected, newest first."""
         event = self.running.event
         by_number = {fixture.number: fixture for fixture in event.fixtures}
-        return [by_number[number] for number in reversed(event.played)]
+        return [by_number[number] for number in reversed([*event.played])]
 
     def _show(self) -> None:
         self.holding.clear()
