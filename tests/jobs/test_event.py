@@ -185,7 +185,7 @@ def test_a_cell_is_never_a_formula(capsys):
         (["--entrants", "A=nobody,B,C"], "no brain 'nobody'"),
         (["--entrants", "A=no.npz,B,C"], "no.npz"),
         (["--entrants", "@nowhere.txt"], "cannot be read"),
-        (["--entrants", "A" * 13 + ",B,C"], "1 to 12 printable characters"),
+        (["--entrants", "A" * 25 + ",B,C"], "1 to 24 printable characters"),
         (["--arena", "nowhere"], "nowhere: no such arena"),
         (["--rules", "nothing"], "no variant 'nothing'"),
         (["--minutes", "x"], "'x' is not a number"),

@@ -138,13 +138,14 @@ def _podium(now: EventNow) -> Part:
 
 
 def _bracket(shown: Overview, number: int) -> list[Part]:
-    """A part for each column; all are drawn in each of them, as their lines and glow cross its border."""
+    """A part for each column; all are drawn in each of them, as the lines between whole rounds cross its border."""
     page, heads = shown.bracket[number], shown.stages(number)
     pitch = bracket_view.W + bracket_view.GAP
     parts = []
-    for i in range(len(page)):
+    for i, column in enumerate(page):
         x = LEFT + i * pitch - bracket_view.GAP // 2
-        content: Hashable = (page[max(0, i - 1) : i + 2], heads[i])
+        joined = [other for other in page[max(0, i - 1) : i + 2] if other.whole and column.whole]
+        content: Hashable = (column, heads[i], *joined)
 
         def paint(surface: pygame.Surface, x: int = x) -> None:
             bracket_view.draw_bracket(surface, page, heads, -x, -TOP, match_box)
