@@ -46,7 +46,7 @@ WIDE = {32: 4, 64: 8}  # columns, by number of entrants at most
 DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
 LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN = "letters", "add_ai", "strength", "paste", "begin"
 SIGNS = {LETTERS: "plus", ADD_AI: "ai", PASTE: "list", BEGIN: "play"}
-DEEDS = (LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN)
+DEEDS = {LETTERS: 402, ADD_AI: 292, STRENGTH: 252, PASTE: 402, BEGIN: 284}  # px, width of each
 
 Begin = Callable[[Draft], "StackOperation | str"]
 
@@ -266,9 +266,11 @@ class EntrantsPage:
             )
             for i in range(count)
         ]
-        w = (RIGHT - LEFT - DEED_GAP * (len(DEEDS) - 1)) // len(DEEDS)
-        boxes = (pygame.Rect(LEFT + (w + DEED_GAP) * i, DEEDS_Y, w, DEED_H) for i in range(len(DEEDS)))
-        return [*cells, *(FocusSpot(deed, box) for deed, box in zip(DEEDS, boxes, strict=True))]
+        x, spots = LEFT, []
+        for name, w in DEEDS.items():
+            spots.append(FocusSpot(name, pygame.Rect(x, DEEDS_Y, w, DEED_H)))
+            x += w + DEED_GAP
+        return [*cells, *spots]
 
 
 def brains_for(played: tuple[str, ...]) -> tuple[str, ...]:
