@@ -102,7 +102,8 @@ def draw_bracket(
         for box in column.boxes:
             place = places[box].move(dx, dy)
             render(box.names, box.through, box.state).draw(screen, place.x, place.y)
-            text(box.note, BODY, MIST, "body", "l", W).draw(screen, place.x, place.y - NOTE_UP)
+            if box.note:
+                text(box.note, BODY, MIST, "body", "l", W).draw(screen, place.x, place.y - NOTE_UP)
 
 
 def placed(column: Column, index: int) -> Iterator[tuple[Box, pygame.Rect]]:
@@ -125,6 +126,8 @@ def match_box_steps(names: tuple[str, ...], through: tuple[bool, ...], state: st
         edge = FOCUS if state == NEXT else MIST if state == OPEN else STEEL
         layer.glow.line(cut_box(0, 0, W, h, 12), edge, LINE if state == NEXT else THIN, True)
     for i, (name, best) in enumerate(zip(names, through, strict=True)):
+        if not name:
+            continue
         y = PAD + LINE_H * (i + 0.5)
         color: Color = FOCUS if best else dim(MIST, 0.75) if state == PLAYED else ICE
         if best:
