@@ -48,8 +48,8 @@ def next_round(field: Field) -> Draw | None:
 
 
 def wins(fixture: Fixture, advance: Advance) -> int:
-    """How many win a match, and go on; a final has one winner."""
-    share = 2 if advance == Advance.HALF and fixture.stage != FINAL else 4
+    """How many win a match, and go on."""
+    share = 2 if advance == Advance.HALF else 4
     return -(-len(fixture.entrants) // share)
 
 

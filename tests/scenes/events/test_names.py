@@ -84,7 +84,7 @@ def is_short_for(said: str, name: str) -> bool:
     [
         ((1,), ("Ana", "Bea"), "Bea wins!"),
         ((0, 2), ("Ana", "Bea", "Eva", "Zoë"), "Ana + Eva win!"),
-        ((3,), ("Ana", "Bea", "Eva"), "P4 ★★★☆☆ wins!"),
+        ((3,), ("Ana", "Bea", "Eva"), "AI 4 ★★★ wins!"),
     ],
 )
 def test_winners_are_named_in_teams_too(winners: tuple[int, ...], names: Sequence[str], line: str) -> None:
