@@ -14,7 +14,7 @@ from pigaming_app.ui.draw.text import fit_size, fit_text, text
 HEADS_Y, TOP, BOTTOM = 222, 254, 930  # px
 GAP = 24  # px between two columns
 WIPE, APART = 0.25, 0.03  # s: of one row, from row to row
-CELL = {1: 200, 2: 156, 3: 130}  # px, width of a value, by number of columns
+CELL = {1: 200, 2: 198, 3: 164}  # px, width of a value, by number of columns
 FIGURES = {1: 4, 2: 2, 3: 1}  # values shown, by number of columns
 PLACE_W = 96  # px
 

@@ -40,13 +40,13 @@ MAX_LIST = 100_000  # bytes of a dropped file
 MAX_SHOWN, MOST_SHOWN = 20, 44  # characters of a file's name, of a line that is refused; of columns
 SENTENCE_ROOM = RIGHT - LEFT - 60  # px
 TEAMS = 4  # that can be chosen here
-CELL_H, PITCH_Y, TOP, GAP = 66, 80, 204, 16  # px
-NARROW = 202  # px: a cell with little room for a team
-WIDE = {32: 4, 64: 8}  # columns, by number of entrants at most
+TOP, GAP = 204, 14  # px
+NARROW = 300  # px: a cell with little room for a team
+GRIDS = {32: (4, 80), 66: (6, 58)}  # columns, and px from row to row, by number of entrants at most
 DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
 LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN = "letters", "add_ai", "strength", "paste", "begin"
 SIGNS = {LETTERS: "plus", ADD_AI: "ai", PASTE: "list", BEGIN: "play"}
-DEEDS = {LETTERS: 402, ADD_AI: 292, STRENGTH: 252, PASTE: 402, BEGIN: 284}  # px, width of each
+DEEDS = {LETTERS: 402, ADD_AI: 292, STRENGTH: 272, PASTE: 402, BEGIN: 264}  # px, width of each
 
 Begin = Callable[[Draft], "StackOperation | str"]
 
@@ -103,7 +103,9 @@ class EntrantsPage:
                 )
             else:
                 entrant = self._entrant(spot.name)
-                cell(entrant.name, entrant.team, bool(entrant.brain), spot.rect.w, hot).draw(screen, *spot.rect.topleft)
+                cell(entrant.name, entrant.team, bool(entrant.brain), spot.rect.size, hot).draw(
+                    screen, *spot.rect.topleft
+                )
         if not draft.entrants:
             row_picture("entrants", 0).draw(screen, 960, 390)
             text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 610)
@@ -258,14 +260,13 @@ class EntrantsPage:
 
     def _spots(self) -> list[FocusSpot]:
         count = len(self.draft.entrants)
-        columns = next(columns for most, columns in WIDE.items() if count <= most)
-        pitch = (RIGHT - LEFT + GAP) // columns
-        cells = [
-            FocusSpot(
-                str(i), pygame.Rect(LEFT + pitch * (i % columns), TOP + PITCH_Y * (i // columns), pitch - GAP, CELL_H)
-            )
+        columns, down = next(grid for most, grid in GRIDS.items() if count <= most)
+        across = (RIGHT - LEFT + GAP) // columns
+        boxes = (
+            pygame.Rect(LEFT + across * (i % columns), TOP + down * (i // columns), across - GAP, down - GAP)
             for i in range(count)
-        ]
+        )
+        cells = [FocusSpot(str(i), box) for i, box in enumerate(boxes)]
         x, spots = LEFT, []
         for name, w in DEEDS.items():
             spots.append(FocusSpot(name, pygame.Rect(x, DEEDS_Y, w, DEED_H)))
@@ -302,17 +303,18 @@ def deed(word: str, sign: str, w: int, hot: bool) -> LitImage:
 
 
 @cached
-def cell(name: str, team: str, ai: bool, w: int, hot: bool) -> LitImage:
+def cell(name: str, team: str, ai: bool, size: tuple[int, int], hot: bool) -> LitImage:
     """An entrant; top left at (0, 0)."""
-    layer = Layer(0, 0, w, CELL_H)
-    layer.glow.line(cut_box(0, 0, w, CELL_H, 12), FOCUS if hot else STEEL, THIN, True)
+    w, h = size
+    layer = Layer(0, 0, w, h)
+    layer.glow.line(cut_box(0, 0, w, h, 12), FOCUS if hot else STEEL, THIN, True)
     left = 58 if ai else 16
     if ai:
-        icon(layer.glow, "ai", 34, CELL_H / 2, 18, MIST, 3)
+        icon(layer.glow, "ai", 34, h / 2, 18, MIST, 3)
     side = w // 3 if team and w > NARROW else 46 if team else 0
     right = w - 14 - side
     if team:
-        layer.canvas.text(shortened(team, side - 10, BODY), BODY, w - 14, CELL_H / 2, MIST, "head", "r")
-    name, size = fit_text(name, LABEL, right - left, "hero", BODY)
-    layer.canvas.text(name, size, (left + right) / 2, CELL_H / 2, FOCUS if hot else ICE, "hero", "c")
+        layer.canvas.text(shortened(team, side - 10, BODY), BODY, w - 14, h / 2, MIST, "head", "r")
+    name, font_size = fit_text(name, LABEL, right - left, "hero", BODY)
+    layer.canvas.text(name, font_size, (left + right) / 2, h / 2, FOCUS if hot else ICE, "hero", "c")
     return layer.render()
