@@ -122,6 +122,9 @@ def _entrants(text: str, played: tuple[str, ...]) -> tuple[Entrant, ...]:
         found = entrants_of_text(content, lambda brain: _require_brain(brain, played))
     except ValueError as error:
         raise Refusal(f"{file}: {error}") from None
+    if (count := len(found.entrants)) < FEWEST:
+        where = f"{file}: line {len(content.splitlines())}"
+        raise Refusal(f"{where}: the list ends with {count} entrants; an event has {FEWEST} to {MOST}")
     if found.ignored:
         print(
             f"PiGaming: {file}: columns that are not known are ignored: {', '.join(map(quote, found.ignored))}",
