@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
-from pigaming_app.ai.registry import new_match
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Outcome
 from pigaming_app.games.arenas import load
@@ -38,14 +37,6 @@ def setup_of(event: Event, fixture: Fixture, person: str = "human") -> Setup:
         min(variant.goals) if extra and games()[fixture.game].timed else None,
     )
     return replace(setup, sudden_death=extra)
-
-
-def result_of(event: Event, fixture: Fixture, person: str = "human") -> Outcome:
-    """The outcome of a match of AIs, played as in the arcade. Raises ChoiceError or ArenaError."""
-    match = new_match(setup_of(event, fixture, person))
-    while not match.over:
-        match.tick()
-    return outcome_of(fixture, match.outcome().rows)
 
 
 def check_playable(spec: EventSpec, find_brain: Callable[[str, str], object]) -> None:

@@ -12,11 +12,12 @@ from typing import Any
 from pigaming_app.ai.experiments.line_ups import LineUps, longest
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.event import Event
-from pigaming_app.events.match_setup import outcome_of, result_of, setup_of
+from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import DEFAULT_AI, Fixture, Format, Outcome
 from pigaming_app.games.game import Row
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.events.quick_match import play
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT
 
@@ -35,7 +36,7 @@ class HeadlessRun:
         """Play the next matches, at least one if any is open: those of one game, with one game's loop."""
         for (game, extra), fixtures in groupby(event.open, lambda fixture: (fixture.game, fixture.extra > 0)):
             if extra:
-                return [result_of(event, next(fixtures), DEFAULT_AI)]
+                return [play(event, next(fixtures), DEFAULT_AI)]
             return self.play_these(event, [*fixtures][: BATCH if self._line_ups[game].fast else 1])
         return []
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
 from pigaming_app.events.formats.knockout import FINAL, LOSERS, WINNERS
-from pigaming_app.events.outlook import is_settled, outlook
 from pigaming_app.events.spec import WALKOVER, Fixture, Format, Outcome, Standing
 from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.bracket_view import LATER, NEXT, OPEN, PLAYED, Box, Page
@@ -91,6 +90,29 @@ def _box(event: Event, shown: Event, fixture: Fixture, upcoming: int | None) -> 
     return Box(
         fixture.number, fixture.stage, fixture.round, names, tuple(name in best for name in names), state, go, come
     )
+
+
+def outlook(event: Event) -> Event:
+    """A knock-out at its end, for the matches of each round to come. Who wins is made up: the first of a match, of
+    the final the one who has lost, so that both finals are there.
+    """
+    while event.open:
+        event = event.record(_made_up(event, event.open[0]))
+    return event
+
+
+def is_settled(event: Event, shown: Event, fixture: Fixture, name: str) -> bool:
+    """True if it is certain that an entrant plays this match of the outlook `shown`: all matches before are decided."""
+    before = (one for one in shown.fixtures if one.number < fixture.number and name in one.entrants)
+    return all(one.number in event.outcomes for one in before)
+
+
+def _made_up(event: Event, fixture: Fixture) -> Outcome:
+    order = fixture.entrants
+    if fixture.stage == FINAL:
+        lost = knockout.defeats(event.progress.as_field())
+        order = tuple(sorted(order, key=lambda name: -lost[name]))
+    return Outcome(fixture.number, tuple((name,) for name in order), extra=fixture.extra)
 
 
 def through(event: Event, fixture: Fixture, outcome: Outcome) -> tuple[str, ...]:

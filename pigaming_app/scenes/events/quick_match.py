@@ -77,15 +77,24 @@ class QuickMatches:
 
 def serve() -> None:
     """Play what standard input orders."""
-    from pigaming_app.events.match_setup import result_of
-
     output = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever prints must not print into the outcomes
     event, fixtures = pickle.load(sys.stdin.buffer)
     exit_with_parent()
     for fixture in fixtures:
-        pickle.dump(result_of(event, fixture), output)
+        pickle.dump(play(event, fixture), output)
         output.flush()
+
+
+def play(event: "Event", fixture: "Fixture", person: str = "human") -> "Outcome":
+    """Play a match of AIs to its end; `person`: who drives for people. Raises ValueError if a brain or arena is missing."""
+    from pigaming_app.ai.registry import new_match
+    from pigaming_app.events.match_setup import outcome_of, setup_of
+
+    match = new_match(setup_of(event, fixture, person))
+    while not match.over:
+        match.tick()
+    return outcome_of(fixture, match.outcome().rows)
 
 
 if __name__ == "__main__":

@@ -9,10 +9,11 @@ import pytest
 from pigaming_app.ai.registry import new_match
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
-from pigaming_app.events.match_setup import result_of, setup_of
+from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Outcome
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import decode, encode, verify
+from pigaming_app.scenes.events.quick_match import play
 from tests.events.examples import best_seed_wins, level, new_event, played, ranked
 
 
@@ -172,7 +173,7 @@ def test_robots_that_never_score_come_to_an_end(game):
     entrants = tuple(Entrant(name, "idle") for name in "ABC")
     event = Event(EventSpec("T", Format.KNOCKOUT, (game,), entrants, minutes={game: 0.05}))
     while not event.over:
-        event = event.record(result_of(event, event.open[0]))
+        event = event.record(play(event, event.open[0]))
     assert len({row.place for row in event.standings}) == 3
     assert all(len(place) == 1 for outcome in event.outcomes.values() for place in outcome.places)
 
