@@ -87,7 +87,7 @@ def serve() -> None:
 
 
 def play(event: "Event", fixture: "Fixture", person: str = "human") -> "Outcome":
-    """Play a match of AIs to its end; `person`: who drives for people. Raises ValueError if a brain or arena is missing."""
+    """Play a match of AIs to its end; `person` drives for people. Raises ValueError if a brain or arena is missing."""
     from pigaming_app.ai.registry import new_match
     from pigaming_app.events.match_setup import outcome_of, setup_of
 

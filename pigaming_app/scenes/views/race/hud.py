@@ -117,7 +117,6 @@ class RaceHud:
         return RaceCard(
             seat=seat,
             brain=ai_of(self.players[seat]),
-            name=name_of(self.names, seat),
             place=place,
             ending=self.endings[place - 1],
             lap=min(laps, robot.score + 1),
@@ -131,6 +130,7 @@ class RaceHud:
             done=done,
             item=ICONS[racer.item] if state.rules.party and not done and not sign else "none",
             slip=bool(racer.slip) and not done,
+            name=name_of(self.names, seat),
         )
 
     def _gap(self, state: Race, seat: int) -> float:

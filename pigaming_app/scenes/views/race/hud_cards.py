@@ -47,7 +47,7 @@ GAP = 122  # px, maximum width of a gap
 FOOT = W - 40  # px, length of the lap bar
 SIGNS = W - 132  # px, centre of the warnings
 ITEM = W - 68  # px, EDGE left of the centre of the item slot
-ITEM_SIZE = 31  # px, radius
+ITEM_SIZE, ITEM_UP = 28, 5  # px, radius, and its centre above the card
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,6 @@ class RaceCard:
 
     seat: int
     brain: str
-    name: str
     place: int
     ending: str  # ordinal suffix of the place: st, nd
     lap: int  # current lap, of `laps`
@@ -70,6 +69,7 @@ class RaceCard:
     done: bool
     item: str = "none"  # that it holds: "", or the name of its icon; "none": there are no items
     slip: bool = False  # in a slipstream
+    name: str = ""  # of an entrant, in an event
 
 
 def card_bits(card: RaceCard, x: int) -> list[Bit]:
@@ -84,9 +84,9 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
     after = x + LEFT + round(number_width(text, PLACE)) + 1
     bits.append((word(card.ending, number, ENDING), (after - EDGE, Y + ROW - 15 - EDGE), None))
     if card.moved:
-        bits.append((mover(card.moved > 0), (after + 12 - EDGE, Y + ROW + 16 - EDGE), None))
+        bits.append((mover(card.moved > 0), (after + 15 - EDGE, Y + ROW + 16 - EDGE), None))
     if card.item != "none":
-        bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE), None))
+        bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE - ITEM_UP), None))
     full, empty = turbo(card.seat, True, card.slip), turbo(card.seat, False, False)
     bits += _part_lit(full, empty, (x + 17, Y + 80), card.turbo * CELLS * CELL / 64)
     bits += _part_lit(
@@ -133,7 +133,7 @@ def frame(seat: int, brain: str, name: str, alarm: bool, done: bool, slot: bool)
         ink.fill(outline, dim(edge, 0.16))
     ink.line(outline, edge if alarm or done else dim(edge, 0.8), LINE if alarm or done else THIN, True)
     if slot:
-        ink.fill(regular_polygon(6, ITEM_SIZE + 9, 0.0, ITEM + EDGE, 0.0), (0, 0, 0))
+        ink.fill(regular_polygon(6, ITEM_SIZE + 9, 0.0, ITEM + EDGE, -ITEM_UP), (0, 0, 0))
     ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
     ink.solid(cut_box(14, -20, 56, 36, 4))
     badge(ink, seat, 42, -2, 20)
