@@ -41,7 +41,7 @@ STEP = 0.006  # s of drawing in a frame
 TABLE_TOP, FOOT = 1480, H - MARGIN  # px
 ROW, NAME = 190.0, 110  # px, of a table with few rows: between two of them, and its type
 BRACKET_TOP, LINE, BESIDE = 660, 116.0, 0.28  # px; height of a name at most, and as a share of its column
-SMALLEST = 38  # px, of type: 9 pt
+SMALLEST = 26  # px, of type: 6 pt
 SPLIT = 56, 1 / 6  # px between two columns of a bracket at most, and as a share of a column
 
 log = logging.getLogger("pigaming")
