@@ -34,7 +34,7 @@ def setup_of(event: Event, fixture: Fixture, person: str = "human") -> Setup:
         variant.name,
         _teams(variant, playing),
         [brain for brain in brains if brain not in PEOPLE],
-        min(variant.goals) if extra and games()[fixture.game].timed else None,
+        min(variant.goals) if extra and variant.goals and games()[fixture.game].timed else None,
     )
     return replace(setup, sudden_death=extra)
 
