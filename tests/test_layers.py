@@ -38,11 +38,12 @@ ONLY_IN = {
     "ray": {"ai"},
     "pymunk": {"jobs"},
     "PIL": {"scenes"},
+    "networkx": {"events"},
     "gymnasium": {"gym"},
     "pettingzoo": {"gym"},
     "torch": set(),
 }
-DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
+DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "networkx", "numba", "llvmlite"}
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray", "PIL"}
 DEPENDENCIES |= {"aiohttp", "segno", "ifaddr"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module

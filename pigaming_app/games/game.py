@@ -32,6 +32,7 @@ class Setup:
     seed: int
     variant: str  # one of the game's variants
     goal: int = 0  # laps to drive, pallets to deliver; 0 in a game without a goal
+    sudden_death: bool = False  # it is over as soon as one team has more points than all others, or a lap
 
 
 @dataclass(frozen=True)

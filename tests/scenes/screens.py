@@ -282,7 +282,14 @@ def event(form: Format, count: int, seats: int, matches: int, brains: str = "", 
 def next_match(
     count: int, seats: int, brains: str = "", said: str = "", wide: bool = False
 ) -> Callable[[Arcade], Scene]:
-    return lambda arcade: NextMatch(arcade.context, event(Format.SWISS, count, seats, 1, brains, wide), said)
+    return lambda arcade: NextMatch(
+        arcade.context, event(Format.SWISS, count, seats, 1, brains, wide), said and arcade.context.words(said)
+    )
+
+
+def sudden_death(arcade: Arcade) -> Scene:
+    event = drawn.tied(drawn.an_event(Format.KNOCKOUT, 4, wide=True))
+    return NextMatch(arcade.context, drawn.running(event), arcade.context.words("events.tied"))
 
 
 def event_table(
@@ -469,9 +476,10 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "next match of AIs": next_match(8, 3, "level5"),
     **{f"event table {count}": event_table(Format.SWISS, count) for count in (3, 8, 16, 64)},
     **{
-        f"event bracket {count}": event_table(Format.KNOCKOUT, count, seats=4 - 2 * (count < 16))
-        for count in (3, 8, 64)
+        f"event bracket {count}": event_table(Format.KNOCKOUT, count, page, seats)
+        for count, page, seats in ((3, 0, 2), (8, 1, 2), (16, 0, 4), (64, 0, 2))
     },
+    "sudden death": sudden_death,
     "event results": lambda arcade: ResultsList(arcade.context, event(Format.KNOCKOUT, 64, 4, 12)),
     "correction": correction,
     "correction in own words": lambda arcade: correction(arcade, 40 * "W"),
