@@ -1,6 +1,6 @@
 """Robot Football: put the ball into the other team's goal."""
 
-from pigaming_app.games.game import Game
+from pigaming_app.games.game import Game, LadderMatches
 
 from .observation import Observation, observe
 from .rules import judge
@@ -19,4 +19,5 @@ GAME = Game(
     read=read,
     rules=rules_of,
     stats=stats,
+    ladder=LadderMatches(2.0, 0, ("classic", "bumpers", "small_goals"), 3.0),
 )

@@ -86,6 +86,16 @@ def data_folders(kind: str) -> Iterator[tuple[str, Path]]:
             yield plugin.name, plugin.folder / kind
 
 
+def hidden() -> set[str]:
+    """The names of the plug-ins that no screen shows: they have failed so far, or have no screens."""
+    return {plugin.name for plugin in _failed} | _headless()
+
+
+@cache
+def _headless() -> set[str]:
+    return {plugin.name for plugin in plugins() if not find_spec(f"{plugin.module}.{SCREENS}")}
+
+
 def leave_out(name: str, reason: str) -> None:
     """End a plug-in from here on, with the reason."""
     _leave_out(next(plugin for plugin in plugins() if plugin.name == name), reason)

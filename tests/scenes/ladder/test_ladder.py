@@ -203,7 +203,7 @@ def test_a_damaged_file_is_told_in_one_line_and_a_full_disk_too(
 def test_the_table_steps_through_the_games_and_a_mouse_drives_by_keyboard(arcade: Arcade) -> None:
     arcade.context.scores.add(table_of("all"), "ANA", worth(Climb("all", beaten=3, lost=4)))
     arcade.press(Button.Y)
-    for game in ("factory", "race", "all", "pitanks"):
+    for game in ("factory", "race", "football", "all", "pitanks"):
         arcade.press(Button.RIGHT)
         assert arcade.shown(Climbers).game == game
     for button, game in ((Button.LEFT, "all"), (Button.RIGHT, "pitanks")):
