@@ -3,8 +3,9 @@
 from pigaming_app.games.game import Game, LadderMatches
 
 from .observation import Observation, observe
+from .pitch import faults, read
 from .rules import judge
-from .start import VARIANTS, read, rules_of, start, stats
+from .start import VARIANTS, rules_of, start, stats
 from .state import Football
 
 GAME = Game(
@@ -17,6 +18,7 @@ GAME = Game(
     judge=judge,
     observe=observe,
     read=read,
+    faults=faults,
     rules=rules_of,
     stats=stats,
     ladder=LadderMatches(2.0, 0, ("classic", "bumpers", "small_goals"), 3.0),

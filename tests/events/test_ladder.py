@@ -111,7 +111,7 @@ def test_a_climb_and_a_result_of_version_1_12_are_still_read(tmp_path):
     """As that version wrote them: the game was one of three."""
     when = datetime.now().astimezone().replace(microsecond=0).isoformat()
     (tmp_path / FILE).write_text(
-        f"format = 1\n\n[[climb]]\nnumber = 1\nwhen = {when}\ngame = \"all\"\nrung = 5\neased = [3]\nwins = 1\n"
+        f'format = 1\n\n[[climb]]\nnumber = 1\nwhen = {when}\ngame = "all"\nrung = 5\neased = [3]\nwins = 1\n'
         "losses = 1\nclear = 0\nbeaten = 3\nlost = 7\n",
         encoding="utf-8",
     )

@@ -406,7 +406,7 @@ def editor(game: str, problem: str = "", said: str = "") -> Callable[[Arcade], S
         scene = Editor(arcade.context, game, WIDEST.lower(), drawing)
         scene.bench.close()
         scene.bench.selected = scene.tools.items(drawing)[-1]
-        found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap")] if problem else []
+        found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap", problem)] if problem else []
         scene.bench.checker.verdict = Verdict(drawing, found, done=True)
         if said:
             scene.say(said, name=WIDEST)
