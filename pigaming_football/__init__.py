@@ -7,6 +7,7 @@ from .pitch import faults, read
 from .rules import judge
 from .start import VARIANTS, rules_of, start, stats
 from .state import Football
+from .surprise import surprise
 
 GAME = Game(
     name="football",
@@ -21,5 +22,6 @@ GAME = Game(
     faults=faults,
     rules=rules_of,
     stats=stats,
+    surprise=surprise,
     ladder=LadderMatches(2.0, 0, ("classic", "bumpers", "small_goals"), 3.0),
 )

@@ -1,0 +1,72 @@
+"""What a plug-in's module `editor` offers is drawn as in our games; one that fails ends its game, which stays whole."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.storage.plugins.consent import switch
+from pigaming_app.storage.plugins.found import user_folder
+from tests.plugins.packages import ROOT, write_tag
+
+SEEN = """
+from pigaming_app.scenes.views.registry import shown_games
+before = shown_games()
+from pigaming_app.scenes.editor.registry import EDITORS
+from pigaming_app.games.arenas import load
+from pigaming_app.games.drawing.values import drawing_of
+from pigaming_app.scenes.editor.checker import Checker
+from pigaming_app.scenes.editor.model.edits import placed
+from pigaming_app.scenes.editor.model.symmetry import Symmetry
+from pigaming_app.ui.i18n import Words
+print(*before, "|", *shown_games(), "|", Words("en")("games.tag"), load("tag", "classic").name)
+if "tag" in EDITORS:
+    tools = EDITORS["tag"]
+    drawing = drawing_of(load("tag", tools.template).source)
+    drawing, items = placed(tools, drawing, tools.palette[0], (600, 100), (600, 180), Symmetry.FOUR)
+    checker = Checker(tools, "new-1")
+    checker._asked, checker._planner.give = drawing, checker._plan
+    checker._find((drawing, True))
+    print(len(items), checker.verdict.arena.walls == load("tag", "classic").walls, len(checker.verdict.routes))
+"""
+
+
+@pytest.fixture
+def tag(home: Path) -> Path:
+    """The package of Tag, as docs/add-a-game.md makes it."""
+    switch("tag", True)
+    return write_tag(user_folder() / "tag")
+
+
+def seen() -> tuple[list[str], str]:
+    """The lines that a process prints, and its errors."""
+    ended = subprocess.run([sys.executable, "-c", SEEN], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    assert ended.returncode == 0, ended.stderr
+    return ended.stdout.splitlines(), ended.stderr
+
+
+def test_the_arenas_of_tag_are_drawn(tag: Path) -> None:
+    lines, errors = seen()
+    assert lines == [
+        "pitanks factory race football tag | pitanks factory race football tag | Tag classic",
+        "4 False 4",
+    ]
+    assert errors == ""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("TOOLS = TagTools()", "TOOLS = tag_tools", "editor.py, line 27: NameError: name 'tag_tools' is not defined."),
+        ('game = "tag"', 'game = "tick"', "its tools are for tick, not for tag."),
+        ("TOOLS = TagTools()", "TOOLS = TagTools", "TOOLS is no Tools."),
+    ],
+)
+def test_one_that_fails_takes_its_game_from_the_title_alone(tag: Path, old: str, new: str, reason: str) -> None:
+    file = tag / "editor.py"
+    assert old in file.read_text()
+    file.write_text(file.read_text().replace(old, new))
+    lines, errors = seen()
+    assert lines == ["pitanks factory race football tag | pitanks factory race football | Tag classic"]
+    assert errors == f"PiGaming: The game tag in {tag} is left out: {reason}\n"
