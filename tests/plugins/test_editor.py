@@ -24,7 +24,7 @@ print(*before, "|", *shown_games(), "|", Words("en")("games.tag"), load("tag", "
 if "tag" in EDITORS:
     tools = EDITORS["tag"]
     drawing = drawing_of(load("tag", tools.template).source)
-    drawing, items = placed(tools, drawing, tools.palette[0], (600, 100), (600, 180), Symmetry.FOUR)
+    drawing, items = placed(tools, drawing, tools.palette[0], (600, 100), (600, 180), Symmetry.TURN)
     checker = Checker(tools, "new-1")
     checker._asked, checker._planner.give = drawing, checker._plan
     checker._find((drawing, True))
@@ -50,7 +50,7 @@ def test_the_arenas_of_tag_are_drawn(tag: Path) -> None:
     lines, errors = seen()
     assert lines == [
         "pitanks factory race football tag | pitanks factory race football tag | Tag classic",
-        "4 False 4",
+        "2 False 4",
     ]
     assert errors == ""
 
