@@ -8,8 +8,9 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.cli import main
 from pigaming_app.games.arenas import MAX_BYTES, MOST_OWN, load, own_arenas, own_folder, shipped_arenas
+from pigaming_app.games.registry import games
 
-SHIPPED = [(game, name) for game in ("pitanks", "factory", "race") for name in shipped_arenas(game)[:1]]
+SHIPPED = [(game, name) for game in games() for name in shipped_arenas(game)[:1]]
 
 
 @pytest.fixture(autouse=True)

@@ -90,6 +90,7 @@ FACTS = {
     "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},
     "factory": {"delivered": 9, "steps": 18, "bumps": 112, "stolen": 99, "stars": 3},
     "race": {"laps": 9, "best": 75.12, "total": 599.99},
+    "football": {"goals": 19, "assists": 19, "own_goals": 19, "shots": 99},
 }
 RADIO_REFUSALS = ("mute", "refused", "unsaved")
 TEAMS = (0, 1, 0, 1)
@@ -452,6 +453,7 @@ PROBLEMS = (
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"editor {game}": editor(game) for game in EDITORS},
     "editor with a problem": editor("pitanks", "machine"),
+    "editor with a goal out of reach": editor("football", "goal"),
     "editor and a full disk": editor("race", said="editor.disk"),
     "editor tool bar": tool_bar,
     "gallery": partial(drawn_arenas, game="race"),
