@@ -95,7 +95,8 @@ def hidden() -> set[str]:
 
 @cache
 def _headless() -> set[str]:
-    return {plugin.name for plugin in plugins() if not find_spec(f"{plugin.module}.{SCREENS}")}
+    loaded = [plugin for plugin in plugins() if plugin not in _failed]
+    return {plugin.name for plugin in loaded if not find_spec(f"{plugin.module}.{SCREENS}")}
 
 
 def leave_out(name: str, reason: str) -> None:

@@ -1,4 +1,4 @@
-"""What a plug-in's module `editor` offers is drawn as in our games; one that fails ends its game, which stays whole."""
+"""A plug-in in the editor and on the Ladder; one that fails there takes its game from the title alone."""
 
 import subprocess
 import sys
@@ -70,3 +70,35 @@ def test_one_that_fails_takes_its_game_from_the_title_alone(tag: Path, old: str,
     lines, errors = seen()
     assert lines == ["pitanks factory race football tag | pitanks factory race football | Tag classic"]
     assert errors == f"PiGaming: The game tag in {tag} is left out: {reason}\n"
+
+
+CLIMBED = """
+from pigaming_app.scenes.views.registry import shown_games
+from pigaming_app.events.ladder import climbed_games
+print(*shown_games(), "|", *climbed_games())
+"""
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "reason"),
+    [
+        ("rules.py", "", "", ""),
+        ("screens.py", "", "", ""),
+        ("__init__.py", "LadderMatches()", 'LadderMatches(arenas=("park",))', "arenas/park.toml is missing."),
+        ("rules.py", "REACH = 92.0", "REACH = 92.0 +", "rules.py, line 13: SyntaxError: invalid syntax"),
+    ],
+)
+def test_a_game_that_asks_for_it_is_on_the_ladder(tag: Path, file: str, old: str, new: str, reason: str) -> None:
+    """Unless it cannot be used, or has no screens."""
+    package = tag / "__init__.py"
+    text = package.read_text().replace("import Game", "import Game, LadderMatches")
+    package.write_text(text.replace("    judge=judge,", "    judge=judge,\n    ladder=LadderMatches(),"))
+    source = (tag / file).read_text()
+    assert old in source
+    (tag / file).write_text(source.replace(old, new, 1))
+    if file == "screens.py":
+        (tag / file).unlink()
+    ended = subprocess.run([sys.executable, "-c", CLIMBED], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    tag_too = " tag" if file == "rules.py" and not reason else ""
+    assert ended.stdout == f"pitanks factory race football{tag_too} | pitanks factory race football{tag_too}\n"
+    assert (ended.stderr.count("\n"), f"is left out: {reason}" in ended.stderr) == (bool(reason), bool(reason))
