@@ -134,6 +134,7 @@ class Drop(Shape):
     """A point at which the ball is dropped."""
 
     fixed = False
+    is_handle = True
 
     def reach(self, part: Part) -> Sequence[Point]:
         return square(*point_of(part, "at"), BALL)
