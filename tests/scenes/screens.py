@@ -90,6 +90,7 @@ FACTS = {
     "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},
     "factory": {"delivered": 9, "steps": 18, "bumps": 112, "stolen": 99, "stars": 3},
     "race": {"laps": 9, "best": 75.12, "total": 599.99},
+    "football": {"goals": 19, "assists": 19, "own_goals": 19, "shots": 99},
 }
 RADIO_REFUSALS = ("mute", "refused", "unsaved")
 TEAMS = (0, 1, 0, 1)
@@ -413,7 +414,7 @@ def editor(game: str, problem: str = "", said: str = "") -> Callable[[Arcade], S
         scene = Editor(arcade.context, game, WIDEST.lower(), drawing)
         scene.bench.close()
         scene.bench.selected = scene.tools.items(drawing)[-1]
-        found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap")] if problem else []
+        found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap", problem)] if problem else []
         scene.bench.checker.verdict = Verdict(drawing, found, done=True)
         if said:
             scene.say(said, name=WIDEST)
@@ -459,6 +460,7 @@ PROBLEMS = (
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"editor {game}": editor(game) for game in EDITORS},
     "editor with a problem": editor("pitanks", "machine"),
+    "editor with a goal out of reach": editor("football", "goal"),
     "editor and a full disk": editor("race", said="editor.disk"),
     "editor tool bar": tool_bar,
     "gallery": partial(drawn_arenas, game="race"),
