@@ -13,6 +13,11 @@ def people_of(running: RunningEvent, fixture: Fixture) -> list[int]:
     return [i for i, name in enumerate(fixture.entrants) if not running.brain(name)]
 
 
+def stood_in(running: RunningEvent, fixture: Fixture) -> list[int]:
+    """Seats of people for whom an AI drives."""
+    return [i for i, name in enumerate(fixture.entrants) if running.brain(name) and running.is_person(name)]
+
+
 def suggested(controls: Controls, people: list[int], seat: int) -> Device | None:
     """The device for the seat of a person: the first pad for the first one, and so on; then phones and keyboard."""
     players, index = controls.players(), people.index(seat)

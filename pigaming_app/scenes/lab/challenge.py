@@ -126,9 +126,8 @@ class ChallengeResult:
             sheet_title(layer, None, words("results.tie"), ICE)
         else:
             seat = 0 if own > theirs else ROBOT
-            sheet_title(
-                layer, seat, words("lab.you_win") if own > theirs else words("lab.it_wins", name=name), PLAYERS[seat]
-            )
+            yours = words("lab.you_win") if self.fight.inner.devices[0] else words("results.stand_in_wins", player=1)
+            sheet_title(layer, seat, yours if seat == 0 else words("lab.it_wins", name=name), PLAYERS[seat])
         middle = (HEAD + FOOT) / 2
         for seat, side, score, player_name in ((0, -1, own, words("lab.you")), (ROBOT, 1, theirs, name)):
             layer.canvas.text(

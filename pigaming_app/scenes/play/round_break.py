@@ -38,10 +38,10 @@ SCORES = SHEET_X + 560  # px, x of the points of the last round
 
 
 class RoundBreak:
-    """The page between two rounds, over the darkened picture of the last one."""
+    """The page between two rounds, over the darkened picture of the last one. `drivers`: of each seat at its end."""
 
-    def __init__(self, words: Words, rounds: Rounds) -> None:
-        self.words, self.rounds = words, rounds
+    def __init__(self, words: Words, rounds: Rounds, drivers: Sequence[str]) -> None:
+        self.words, self.rounds, self.drivers = words, rounds, drivers
         self.age = 0.0
         self.picture: pygame.Surface | None = None
 
@@ -70,7 +70,7 @@ class RoundBreak:
         for seat in last.winners:
             badge(layer.glow, seat, x + 46, Y + 116, 46)
             x += 116
-        title = round_title(self.words, last, self.rounds.number - 1)
+        title = round_title(self.words, last, self.rounds.number - 1, self.drivers)
         layer.canvas.text(title, fit_size(title, SUB, SHEET_X + W - 60 - x), x, Y + 116, ICE)
         rows = self.rounds.outcome().rows
         pitch = (FOOT - HEAD) / len(rows)
@@ -85,14 +85,15 @@ class RoundBreak:
             layer.canvas.body(total, SHEET_X + W - 72, y, MIST, "r", fit_size(total, BODY, 440, "body"))
 
 
-def round_title(words: Words, last: Outcome, number: int) -> str:
-    """The winner of a round, in one line."""
+def round_title(words: Words, last: Outcome, number: int, drivers: Sequence[str]) -> str:
+    """The winner of a round, in one line. `drivers`: "human" or the AI of each seat at its end."""
     if not last.winners:
         return words("rounds.tied", round=number)
     if len({row.team for row in last.rows}) < len(last.rows):
         team = next(row.team for row in last.rows if row.seat == last.winners[0])
         return words("rounds.team_won", round=number, team=team + 1)
-    return words("rounds.won", round=number, player=last.winners[0] + 1)
+    seat = last.winners[0]
+    return words("rounds.won" if drivers[seat] == "human" else "rounds.ai_won", round=number, player=seat + 1)
 
 
 def draw_margin(screen: pygame.Surface, words: Words, rounds: Rounds, seats: Sequence[int]) -> None:

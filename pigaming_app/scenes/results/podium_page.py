@@ -1,13 +1,13 @@
 """The end of a match of several rounds: the podium, and the points of every round."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import pygame
 
-from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.results.headline import headline, winning_color
+from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands
 from pigaming_app.scenes.results.view import line, signed
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
@@ -45,11 +45,9 @@ TABLE_AT = 0.2  # s, when the table appears
 class PodiumPage:
     """A page of `Results` for a match of several rounds; see `ResultsPage`."""
 
-    def __init__(
-        self, context: Context, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int], rounds: Rounds
-    ) -> None:
-        self.context, self.outcome, self.setup, self.finished = context, outcome, setup, finished
-        self.absent, self.rounds = absent, rounds
+    def __init__(self, context: Context, ended: EndedMatch, finished: bool, rounds: Rounds) -> None:
+        self.context, self.ended, self.finished, self.rounds = context, ended, finished, rounds
+        self.outcome = outcome = ended.outcome
         self.winners = outcome.winners if finished else ()
         x, w = span(0, 6)
         places = [(row.place, row.team, row.seat) for row in outcome.rows]
@@ -90,7 +88,7 @@ class PodiumPage:
 
     def _render_parts(self) -> Iterator[None]:
         """Render one widget per step."""
-        color = winning_color(self.outcome, self.setup) if self.winners else ICE
+        color = winning_color(self.outcome, self.ended.setup) if self.winners else ICE
         self.colored, self.steel = line(color, RIGHT - LEFT), line(STEEL, RIGHT - LEFT, THIN)
         yield
         self.title = self._title()
@@ -111,9 +109,9 @@ class PodiumPage:
             badge(layer.glow, seat, x + 52, 110, 50)
             x += 128
         x += 14 if self.winners else 0
-        ended = headline(words, self.outcome, self.setup, self.absent)
+        ended = headline(words, self.ended)
         said = ended if self.finished else words("results.ended")
-        color = winning_color(self.outcome, self.setup) if self.winners else ICE
+        color = winning_color(self.outcome, self.ended.setup) if self.winners else ICE
         layer.canvas.text(said, fit_size(said, TITLE, RIGHT - x), x, 112, color)
         return layer.render()
 
@@ -138,7 +136,7 @@ class PodiumPage:
         panel(layer.glow, x, y, w, ROW, PLAYERS[row.seat] if wins else STEEL, LINE if wins else THIN)
         middle = y + ROW / 2
         badge(layer.glow, row.seat, x + 76, middle, 38)
-        if (brain := self.setup.seats[row.seat].brain) != "human":
+        if brain := self.ended.brain(row.seat):
             ai_mark(layer.glow, brain, x + 146, middle, MIST)
         pips(layer, x + PIPS_X, middle, int(row.stats["wins"]), self.rounds.needed, PLAYERS[row.seat], PIP)
         for k, (points, ended) in enumerate(zip(self.rounds.points(row.seat), self.rounds.outcomes, strict=True)):

@@ -7,11 +7,11 @@ from itertools import groupby
 import pygame
 
 from pigaming_app.games.arenas import load
-from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.games.game import Row
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
-from pigaming_app.scenes.results.headline import headline, is_allied, stars, winning_color
+from pigaming_app.scenes.results.headline import EndedMatch, headline, is_allied, stars, winning_color
 from pigaming_app.scenes.results.high_score_tables import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
@@ -61,11 +61,9 @@ class Part:
 class ResultsPage:
     """The results page without the votes."""
 
-    def __init__(
-        self, context: Context, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int] = ()
-    ) -> None:
-        self.context, self.outcome, self.setup, self.finished = context, outcome, setup, finished
-        self.absent = absent  # seats of people replaced by an AI
+    def __init__(self, context: Context, ended: EndedMatch, finished: bool) -> None:
+        self.context, self.ended, self.finished = context, ended, finished
+        self.outcome, self.setup = outcome, setup = ended.outcome, ended.setup
         self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
         game = games()[setup.game]
@@ -162,7 +160,7 @@ class ResultsPage:
             badge(layer.glow, seat, x + 52, 110, 50)
             x += 128
         x += 14 if self.winners and not self.stars else 0
-        ended = headline(words, self.outcome, self.setup, self.absent)
+        ended = headline(words, self.ended)
         text = ended if self.finished else words("results.ended")
         size = fit_size(text, TITLE, self.room - x - (130 if self.winners else 0))
         layer.canvas.text(text, size, x, 112, self._color())
@@ -229,14 +227,14 @@ class ResultsPage:
     def _row(self, layer: Layer, row: Row, x: int, y: float, color: Color) -> None:
         """One robot: badge, score and the statistics of the game."""
         badge(layer.glow, row.seat, x + BADGE_X, y, 38)
-        brain = self.setup.seats[row.seat].brain
-        if brain != "human":
+        brain = self.ended.brain(row.seat)
+        if brain:
             ai_mark(layer.glow, brain, x + AI_X, y, MIST)
         ends = self._ends()
         for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
             text, room = self.context.words.decimal(cell(name, row)), right - before - APART_X
             if name == self.columns[0]:
-                size = fit_size(text, SUB, room - (50 if brain != "human" else 0), "hero")
+                size = fit_size(text, SUB, room - (50 if brain else 0), "hero")
                 layer.canvas.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
             else:
                 layer.canvas.crisp.text(text, fit_size(text, LABEL, room), x + right, y, color, "head", "r")
