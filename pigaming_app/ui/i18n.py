@@ -95,7 +95,10 @@ class Words:
     def _localised(self, value: object) -> object:
         """A format value: numbers in local notation, everything else unchanged."""
         number = isinstance(value, float) or (isinstance(value, str) and DECIMAL.fullmatch(value))
-        return self.decimal(str(value)) if number else value
+        text = str(value)
+        if number and not any(digit in "123456789" for digit in text):
+            text = text.lstrip("+−-")
+        return self.decimal(text) if number else value
 
 
 @cache

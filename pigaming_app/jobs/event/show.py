@@ -55,5 +55,5 @@ def _table(rows: Sequence[Standing]) -> Iterator[str]:
     breaks = columns(rows)
     yield f"{'':4}{'':14}{'points':>8}{'wins':>6}{'played':>8}" + "".join(f"{key:>18}" for key in breaks)
     for row in rows:
-        values = "".join(f"{row.tie_breaks[key]:18.2f}" for key in breaks)
-        yield f"{row.place:>3} {row.entrant:14}{row.points:8.2f}{row.wins:6}{row.played:8}{values}"
+        values = "".join(f"{row.tie_breaks[key]:z18.2f}" for key in breaks)
+        yield f"{row.place:>3} {row.entrant:14}{row.points:z8.2f}{row.wins:6}{row.played:8}{values}"

@@ -26,6 +26,7 @@ from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.numbers import numeral, signed
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, W, Y, overlay
 from pigaming_app.ui.widgets.dialog import X as SHEET_X
 from pigaming_app.ui.widgets.pips import pips
@@ -79,9 +80,10 @@ class RoundBreak:
             y = HEAD + pitch * (i + 0.5)
             badge(layer.glow, row.seat, SHEET_X + 118, y, 30)
             pips(layer, SHEET_X + 220, y, wins[row.seat], self.rounds.needed, PLAYERS[row.seat], 16)
-            gained = f"{points[row.seat]:+}".replace("-", "−") if points[row.seat] else "0"
-            layer.canvas.text(gained, LABEL, SCORES, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
-            total = self.words("rounds.total", points=str(row.score).replace("-", "−"))
+            layer.canvas.text(
+                signed(points[row.seat]), LABEL, SCORES, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r"
+            )
+            total = self.words("rounds.total", points=numeral(row.score))
             layer.canvas.body(total, SHEET_X + W - 72, y, MIST, "r", fit_size(total, BODY, 440, "body"))
 
 

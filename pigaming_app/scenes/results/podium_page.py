@@ -9,7 +9,7 @@ from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands
-from pigaming_app.scenes.results.view import line, signed
+from pigaming_app.scenes.results.view import line
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.ui.draw import (
     BODY,
@@ -32,6 +32,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.numbers import numeral
 from pigaming_app.ui.widgets.labels import black_out
 from pigaming_app.ui.widgets.pips import pips
 
@@ -141,13 +142,13 @@ class PodiumPage:
         pips(layer, x + PIPS_X, middle, int(row.stats["wins"]), self.rounds.needed, PLAYERS[row.seat], PIP)
         for k, (points, ended) in enumerate(zip(self.rounds.points(row.seat), self.rounds.outcomes, strict=True)):
             color = FOCUS if row.seat in ended.winners else MIST
-            said = signed(points)
+            said = numeral(points)
             size = fit_size(said, LABEL, ROUND_PITCH - 16)
             right = x + ROUNDS_X + ROUND_PITCH * k
             layer.canvas.crisp.text(said, size, right, middle, color, "head", "r")
             if row.seat in ended.winners:
                 layer.canvas.crisp.line([(right - text_width(said, size), middle + 32), (right, middle + 32)], color, 4)
-        said = signed(row.score)
+        said = numeral(row.score)
         size = fit_size(said, SUB, 150, "hero")
         layer.canvas.text(said, size, x + w - 32, middle, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
         return layer.render()

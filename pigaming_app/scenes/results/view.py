@@ -39,6 +39,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.numbers import numeral
 
 TOP, ROW, PITCH = 280, 120, 136
 TIMES = ("best", "total")  # columns in s
@@ -214,7 +215,7 @@ class ResultsPage:
         wins = rows[0].seat in self.winners
         layer = Layer(x, y, w, h)
         panel(layer.glow, x, y, w, h, self._team_color(rows) if wins else STEEL, LINE if wins else THIN)
-        number = str(rows[0].place) if not self.by_team else signed(sum(row.score for row in rows))
+        number = str(rows[0].place) if not self.by_team else numeral(sum(row.score for row in rows))
         color = ICE if wins else MIST
         layer.canvas.text(number, fit_size(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
@@ -311,16 +312,11 @@ def line(color: Color, length: float, width: int = LINE) -> LitImage:
     return layer.render()
 
 
-def signed(number: int) -> str:
-    """A number with a proper minus sign."""
-    return str(number).replace("-", "−")
-
-
 def cell(name: str, row: Row) -> str:
     """Text of a row in a column."""
     if name == "score":
-        return signed(row.score)
+        return numeral(row.score)
     value = row.stats[name]
     if name in TIMES:
         return clock(value)
-    return f"{round(100 * value)}%" if name == "aim" else signed(round(value))
+    return f"{round(100 * value)}%" if name == "aim" else numeral(round(value))

@@ -34,6 +34,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
+from pigaming_app.ui.numbers import numeral
 
 SUM_W = 116  # px
 CELL = 17.75  # px, pitch of the turbo bar cells
@@ -144,7 +145,7 @@ class ScoreHud:
     ) -> list[Bit]:
         """Pieces of a panel."""
         x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
-        text = str(score).replace("-", "−")
+        text = numeral(score)
         size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
         bits: list[Bit] = [(frame(slot.seat, slot.w, leads, brain, turbo is not None), (x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
@@ -157,7 +158,7 @@ class ScoreHud:
         return bits + self.extra_bits(extras, x + slot.w, middle, room)
 
     def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
-        text = str(points).replace("-", "−")
+        text = numeral(points)
         size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
         bits: list[Bit] = [(sum_frame(leads, panel is self.sums[1]), (panel.x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, panel.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)

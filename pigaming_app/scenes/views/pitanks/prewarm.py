@@ -13,6 +13,7 @@ from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TI
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
 from pigaming_app.ui.draw.text import glyph
+from pigaming_app.ui.numbers import signed
 
 
 def jobs(state: Any, walls: int, seats: Sequence[int]) -> Iterator[Job]:
@@ -43,7 +44,7 @@ def _party(seats: Sequence[int]) -> Iterator[Job]:
     yield party.stage
     for points in (2, 4):
         yield partial(party.bounty, points)
-        yield from (partial(things.popup, f"+{points}", seat) for seat in seats)  # fading it takes 0.1 ms
+        yield from (partial(things.popup, signed(points), seat) for seat in seats)  # fading it takes 0.1 ms
 
 
 def _numbers(seats: Sequence[int], popups: Sequence[str]) -> Iterator[Job]:

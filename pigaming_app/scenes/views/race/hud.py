@@ -18,7 +18,7 @@ from pigaming_app.scenes.views.race.gaps import Gaps, figure
 from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, RaceCard, W, card_bits
 from pigaming_app.scenes.views.race.lines import flag, line_signs
 from pigaming_app.scenes.views.view import decimal
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, TITLE, WHITE, GlowCanvas
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
@@ -156,12 +156,6 @@ def _left(state: Race) -> int | None:
     if not state.first or not racing:
         return None
     return max(0, -(-(state.first + state.rules.patience - state.tick) // HZ))
-
-
-def signed(ticks: float) -> str:
-    """A signed difference of `ticks`, in seconds."""
-    hundredths = round(100 * ticks * DT)
-    return f"{'−' if hundredths < 0 else '+'}{abs(hundredths) / 100:.2f}"
 
 
 @cached
