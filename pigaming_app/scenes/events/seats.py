@@ -79,7 +79,8 @@ class Seats:
 
     def label(self, seat: int) -> str:
         """The button that takes a seat."""
-        return self.context.words.key_name(self.context.controls.label(self.suggested(seat), Button.FIRE))
+        words, device = self.context.words, self.suggested(seat)
+        return words.key_name(self.context.controls.label(device, Button.FIRE)) if device else words("remap.fire")
 
     def draw(self, screen: pygame.Surface, clock: float) -> None:
         """Draw the cards. `clock`: s since the page opened."""

@@ -11,10 +11,12 @@ from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE, LessonPicture
 from pigaming_app.scenes.views.registry import SCREENS, shown_games
 from pigaming_app.ui.draw import (
+    ARROWS,
     BLACK,
     BODY,
     FOCUS,
     ICE,
+    KEYPAD,
     LABEL,
     MIST,
     STEEL,
@@ -23,13 +25,14 @@ from pigaming_app.ui.draw import (
     button,
     button_width,
     panel,
+    readable,
     regular_polygon,
     text_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text, wrap, wrap_balanced
+from pigaming_app.ui.draw.text import SMALLEST, fit_size, text, wrap, wrap_balanced
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_width, heading
 
@@ -37,6 +40,7 @@ TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 IDLE = 90.0  # seconds without input until the title
 GAP = 24  # px on either side of the arrows between heading and names
+APART = 44  # px between the keys of the row at the foot
 DOT = 32  # px from dot to dot of the pages
 LEAVE = (Button.FIRE, Button.BACK, Button.START, Button.CLICK)
 
@@ -150,14 +154,15 @@ class HowTo:
         words, controls = self.context.words, self.context.controls
         device = controls.last
         turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
+        keypad, drive = controls.name(device) == "Keypad", words("howto.hint_drive")
         pairs = [
-            (controls.moves(device) or "<>", words("howto.hint_drive")),
+            (KEYPAD, f"{drive} ({words('devices.Keypad')})") if keypad else (controls.moves(device) or "<>", drive),
             (controls.label(device, turbo), words("howto.hint_turbo")),
             (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
         if fire := SCREENS[self.game].fire:
-            pairs.insert(1, (words.key_name(controls.label(device, Button.FIRE)), words(f"howto.{fire}")))
-        return tuple((label, action) for label, action in pairs if label)
+            pairs.insert(1, (controls.label(device, Button.FIRE), words(f"howto.{fire}")))
+        return tuple((words.key_name(label), action) for label, action in pairs if label)
 
 
 def taught() -> list[str]:
@@ -213,16 +218,28 @@ def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
     """The row at the foot: left-aligned, except for the last item at the right end."""
     layer = Layer(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
+    sizes = range(readable(BODY), SMALLEST, -2)
+    size = next((size for size in sizes if _row_width(items, size) <= RIGHT - LEFT), SMALLEST)
     for i, (label, action) in enumerate(items):
         if i == len(items) - 1:
-            x = RIGHT - _width(label) - 10 - text_width(action, BODY, "body")
-        for part in label.split():
-            x += button(layer.canvas, x, FOOT_Y, part) + 8
-        layer.canvas.body(action, x + 10, FOOT_Y, MIST)
-        x += 10 + text_width(action, BODY, "body") + 56
+            x = RIGHT - _width(label, size) - 10 - text_width(action, size, "body")
+        for part in _parts(label):
+            x += button(layer.canvas, x, FOOT_Y, part, size=size) + 8
+        layer.canvas.body(action, x + 10, FOOT_Y, MIST, size=size)
+        x += 10 + text_width(action, size, "body") + APART
     yield
     return (yield from layer.render_steps())
 
 
-def _width(label: str) -> float:
-    return sum(button_width(part) + 8 for part in label.split())
+def _row_width(items: Sequence[tuple[str, str]], size: int) -> float:
+    widths = [_width(label, size) + 10 + text_width(action, size, "body") for label, action in items]
+    return sum(widths) + APART * (len(items) - 1)
+
+
+def _width(label: str, size: int) -> float:
+    return sum(button_width(part, size) + 8 for part in _parts(label))
+
+
+def _parts(label: str) -> list[str]:
+    """The keys of a label: of arrows each, else one."""
+    return label.split() if label[0] in ARROWS else [label]

@@ -289,7 +289,7 @@ class MatchSetupPage:
     def _lineup(self) -> tuple[tuple[int, str], ...]:
         """(seat, driver icon) of every occupied seat."""
         kinds = ((i, place) for i, place in enumerate(self.seats.places) if place.kind != EMPTY)
-        return tuple((i, place.device.kind if place.device else "ai") for i, place in kinds)
+        return tuple((i, self.context.controls.sign(place.device) if place.device else "ai") for i, place in kinds)
 
     def _picture(self, screen: pygame.Surface) -> None:
         """Draw the arena preview sliding in, with markers at the start positions."""
