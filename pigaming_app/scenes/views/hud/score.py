@@ -13,7 +13,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, ai_tab
-from pigaming_app.scenes.views.hud.parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
+from pigaming_app.scenes.views.hud.parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits, number_size
 from pigaming_app.ui.draw import (
     ICE,
     LABEL,
@@ -30,6 +30,7 @@ from pigaming_app.ui.draw import (
     dim,
     icon,
     mix,
+    readable,
 )
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
@@ -146,7 +147,7 @@ class ScoreHud:
         """Pieces of a panel."""
         x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
         text = numeral(score)
-        size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
+        size = number_size(text, slot.w - 176, readable(SUB), SUB, LABEL)
         bits: list[Bit] = [(frame(slot.seat, slot.w, leads, brain, turbo is not None), (x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
         if turbo is not None:
@@ -159,7 +160,7 @@ class ScoreHud:
 
     def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
         text = numeral(points)
-        size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
+        size = number_size(text, SUM_W - 16, readable(SUB), SUB, LABEL)
         bits: list[Bit] = [(sum_frame(leads, panel is self.sums[1]), (panel.x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, panel.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
         self.background.bake(pygame.Rect(panel.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
