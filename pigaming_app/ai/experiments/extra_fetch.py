@@ -46,11 +46,11 @@ class ExtraFetch:
     def _follow(self, process: "Popen[bytes]") -> None:
         """Read its lines: shares, then its result."""
         last = FAILED
-        for line in process.stdout or []:
-            last = line.decode(errors="replace").strip()
-            if last.replace(".", "").isdigit():
-                self.share = float(last)
-        process.wait()
+        with process:
+            for line in process.stdout or []:
+                last = line.decode(errors="replace").strip()
+                if last.replace(".", "").isdigit():
+                    self.share = float(last)
         importlib.invalidate_caches()
         self.state = last if last.isalpha() else FAILED
         log.info("fetched: %s", self.state)

@@ -8,7 +8,7 @@ from pigaming_app.ai.experiments.extra_fetch import BUILT, DONE, FETCHING, FOREI
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.play.pause import sheet_title
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, STEEL, THIN, cut_box
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, STEEL, THIN, cut_box
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import paragraph
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -18,7 +18,7 @@ from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, overlay
 FINAL = (FETCHING, BUILT, FOREIGN, RESTART)  # states in which another try is of no use
 IDLE = 120.0  # s without input until the Lab returns
 ROOM, TEXT_Y, PITCH = W - 160, HEAD + 60, 64  # px: width of the sentences, middle of the first line, line pitch
-BAR = pygame.Rect(X + 80, HEAD + 260, W - 160, 44)
+BAR = pygame.Rect(X + 80, HEAD + 244, W - 160, 44)
 
 
 class FetchPage:
@@ -78,4 +78,3 @@ class FetchPage:
         sheet_title(layer, None, words("lab.fetch_title"), ICE if state == FETCHING else ALARM)
         if state == FETCHING:
             layer.glow.line(cut_box(BAR.x, BAR.y, BAR.w, BAR.h, 10), STEEL, THIN, True)
-            layer.canvas.body("numba", BAR.centerx, BAR.bottom + 50, STEEL, "c", BODY)
