@@ -13,7 +13,7 @@ NAMED_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}  # secon
 TURN, POINT = "turn", "point"
 HELPED_TURN, HELPED_POINT = "helped_turn", "helped_point"  # with steering help
 ONE_BUTTON = "one_button"  # an AI drives; its entry in `driving` shows a stick on pages without a match
-CHAUFFEUR = "level3"  # the AI that drives for one button
+CHAUFFEUR = "level3"  # the AI that drives for one button, and for somebody who is away
 USUAL_DRIVING: Mapping[str, Driving] = {TURN: turn_and_drive, POINT: point_where_to_go, ONE_BUTTON: turn_and_drive}
 
 

@@ -12,6 +12,7 @@ import re
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
@@ -74,14 +75,13 @@ def _claimed() -> tuple[Path, IO[str]]:
     """The first writable place and its lock file, locked until it is closed or this process ends. Raises StartError."""
     for place in environment_folders():
         try:
-            place.parent.mkdir(parents=True, exist_ok=True)
-            lock = open(place.with_name(f"{place.name}.lock"), "a", encoding="utf-8")  # noqa: SIM115
+            lock = lock_of(place)
         except OSError as error:
             if error.errno not in NOT_ALLOWED:
                 raise StartError(_cause(str(error), place, [])) from error
             continue
         if not place.exists() or os.access(place, os.W_OK):
-            _wait_for(lock)
+            wait_for(lock)
             return place, lock
         lock.close()
     parents = [str(place.parent) for place in environment_folders()]
@@ -90,7 +90,14 @@ def _claimed() -> tuple[Path, IO[str]]:
     raise StartError(f"neither {' nor '.join(parents)} can be written: allow one of them.")
 
 
-def _wait_for(lock: IO[str]) -> None:
+def lock_of(place: Path) -> IO[str]:
+    """The lock file of an environment, still unlocked. Raises OSError."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    return open(place.with_name(f"{place.name}.lock"), "a", encoding="utf-8")
+
+
+def wait_for(lock: IO[str]) -> None:
+    """Lock it, after another process that has it."""
     waited = False
     while not _locked(lock):
         if not waited:
@@ -139,15 +146,23 @@ def create(place: Path) -> None:
         raise StartError(_cause(output, place, []))
 
 
-def install(place: Path, groups: set[str]) -> None:
-    """Install the missing packages of these groups, and record the groups as complete. Raises StartError."""
+def report_file(name: str, version: str, size: str) -> None:
+    """Report a file that is being downloaded."""
+    report(f"  {name} {version}, {size}")
+
+
+def install(place: Path, groups: set[str], downloads: Callable[[str, str, str], object] = report_file) -> None:
+    """Install the missing packages of these groups, and record the groups as complete. Raises StartError.
+
+    `downloads` is called for each file, with its name, version and size.
+    """
     wanted = requirements(groups)
     try:
         (place / "ready").unlink(missing_ok=True)
         installed = packages([site_packages(place)])
         if missing := [requirement for requirement in wanted if is_missing(installed, requirement)]:
             report(f"fetching {_names(missing)} (only once; it may take a minute).")
-        code, output = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], names=True)
+        code, output = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], downloads)
         if code:
             raise StartError(_cause(output, place, wanted))
         _write(place / "ready", "\n".join([fingerprint(place), *sorted(groups)]))
@@ -165,8 +180,8 @@ def _write(path: Path, text: str) -> None:
     os.replace(draft, path)
 
 
-def _run(command: list[str], names: bool = False) -> tuple[int, str]:
-    """Run a tool to completion; returns exit code and output. `names`: print each file that it downloads."""
+def _run(command: list[str], downloads: Callable[[str, str, str], object] | None = None) -> tuple[int, str]:
+    """Run a tool to completion; returns exit code and output. `downloads`: called for each file that it downloads."""
     variables = {**os.environ, "PIP_USER": "0", "PIP_REQUIRE_VIRTUALENV": "0"}
     try:
         process = subprocess.Popen(
@@ -185,8 +200,9 @@ def _run(command: list[str], names: bool = False) -> tuple[int, str]:
         try:
             for line in process.stdout or []:
                 output.append(line)
-                if names and (match := re.match(r"\s*Downloading (?:\S*/)?(\w+)-([^-]+)-\S+\.whl \((.+?)\)", line)):
-                    report(f"  {match[1]} {match[2]}, {match[3]}")
+                match = re.match(r"\s*Downloading (?:\S*/)?(\w+)-([^-]+)-\S+\.whl \((.+?)\)", line)
+                if downloads and match:
+                    downloads(match[1], match[2], match[3])
         except KeyboardInterrupt:
             process.terminate()
             raise

@@ -54,7 +54,7 @@ def _print(result: league.Duel) -> None:
     left, right = shown[result.left], shown[result.right]
     width = max(10, len(left) + 1, len(right) + 1)
     print(f"{'':{width}}{'wins':>7}{'ties':>7}{'losses':>7}{'mean score':>12}")
-    print(f"{left:{width}}{result.wins:7}{result.ties:7}{result.losses:7}{result.mean_score_left:12.2f}")
-    print(f"{right:{width}}{result.losses:7}{result.ties:7}{result.wins:7}{result.mean_score_right:12.2f}")
+    print(f"{left:{width}}{result.wins:7}{result.ties:7}{result.losses:7}{result.mean_score_left:z12.2f}")
+    print(f"{right:{width}}{result.losses:7}{result.ties:7}{result.wins:7}{result.mean_score_right:z12.2f}")
     print(f"{left} wins {100 * result.wins / result.matches:.1f} % of {result.matches} matches", end=" ")
     print(f"(Wilson 95 %: {100 * low:.1f} to {100 * high:.1f} %), {result.ticks_per_second:,.0f} ticks/s")

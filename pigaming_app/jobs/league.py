@@ -92,7 +92,7 @@ def _row(standing: LeagueRow) -> str:
     results = f"{standing.wins} / {standing.ties} / {standing.losses}"
     between = f"[{low:.1f}, {high:.1f}]"
     wins = f"{100 * standing.wins / played:.1f} %"
-    return f"{round(rating.rating):+7} {around:15}{results:>17}{wins:>8} {between:16}{standing.mean_score:11.2f}"
+    return f"{round(rating.rating):+7} {around:15}{results:>17}{wins:>8} {between:16}{standing.mean_score:z11.2f}"
 
 
 def _cross(duels: Sequence[Duel], brains: Sequence[str], name: int) -> Iterator[str]:

@@ -288,6 +288,7 @@ class App:
         if self.seconds < POINTER_IGNORED:
             presses = [press for press in presses if press.button is not Button.POINT]
         self.context.idle = 0.0 if presses else self.context.idle + seconds
+        self.context.settings.keypad = controls.has_keypad
         before = stack.scenes[-1:]
         for press in presses:
             if stack.scenes:

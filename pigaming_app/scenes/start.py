@@ -76,6 +76,7 @@ def opened(options: Options) -> "Iterator[App]":
     context.day_log.delete_old(date.today())
     context.day_log.note("start")
     context.controls.remap(settings.controls)
+    context.controls.has_keypad = settings.keypad
     context.session = session = _session(options, settings, canvas)
     context.emergency_stops.append(session.close)
     if isinstance(session, RosSession):

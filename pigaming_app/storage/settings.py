@@ -229,6 +229,7 @@ class Settings:
     )  # of the robot on each radio; empty: as it announces
     pad_driving: str = _setting("", ShortText())  # driving style last chosen on a pad; empty: never
     keys_driving: str = _setting("", ShortText())  # the same on the keyboard
+    keypad: bool = _setting(False, Boolean())  # a key of the number pad was pressed once
     scoreboard: int = _setting(0, Range(0, 16))  # the display of the second screen, from 1; 0: none
     volume_cap: int = _setting(10, Range(0, 10))  # of music and sounds
     quiet_from: str = _setting("00:00", TimeOfDay())  # title and attract mode are silent from here

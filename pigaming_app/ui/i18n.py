@@ -90,12 +90,16 @@ class Words:
 
     def key_name(self, label: str) -> str:
         """The local name of the button labelled `label`: the space bar, for example, is translated."""
-        return self._texts.get(f"keys.{label}", label)
+        head, space, last = label.partition(" ") if label.startswith("NUM ") else ("", "", label)
+        return f"{head}{space}{self._texts.get(f'keys.{last}', last)}"
 
     def _localised(self, value: object) -> object:
         """A format value: numbers in local notation, everything else unchanged."""
         number = isinstance(value, float) or (isinstance(value, str) and DECIMAL.fullmatch(value))
-        return self.decimal(str(value)) if number else value
+        text = str(value)
+        if number and not any(digit in "123456789" for digit in text):
+            text = text.lstrip("+−-")
+        return self.decimal(text) if number else value
 
 
 @cache

@@ -18,7 +18,7 @@ from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.scenes.views.walled_background import Starts
 from pigaming_app.sim.arena import Arena
-from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, PLAYERS
+from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, PLAYERS, readable
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import Batch, put, step
@@ -44,7 +44,7 @@ class FootballHud(ScoreHud):
     def __init__(self, background: Background, state: Any, players: list[str], words: Words | None) -> None:
         super().__init__(background, state, players)
         self.lines = words("football.golden_goal").split("|") if words else []
-        self.size = min((fit_size(line, LABEL, CLOCK.w - 24) for line in self.lines), default=LABEL)
+        self.size = min((fit_size(line, readable(LABEL), CLOCK.w - 24) for line in self.lines), default=LABEL)
 
     def show_clock(self, state: Any) -> None:
         if not state.golden_goal or not self.lines:

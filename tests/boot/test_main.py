@@ -22,7 +22,7 @@ from pigaming_app.boot import interpreter, start
 ROOT = Path(__file__).resolve().parents[2]
 BARE = sys._base_executable
 FILES = ("main.py", "pyproject.toml", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
-FILES += tuple(f"pigaming_app/boot/{name}.py" for name in ("start", "interpreter", "environment"))
+FILES += tuple(f"pigaming_app/boot/{name}.py" for name in ("start", "interpreter", "environment", "fetch"))
 JOB = """
 import sys
 
@@ -361,6 +361,58 @@ def test_the_project_file_has_only_requirements_that_boot_supports():
 def test_no_registry_is_named():
     for name in FILES:
         assert not re.search(r"https?://|pypi|index-url", (ROOT / name).read_text())
+
+
+# Fetched by a running arcade
+
+
+def fetched(clone, extra="train", **more):
+    """The last line of the process that fetches an extra into the clone's environment."""
+    python = str(interpreter.python_of(clone / ".venv"))
+    command = [python, "-m", "pigaming_app.boot.fetch", extra]
+    done = subprocess.run(
+        command, cwd=clone, env=surroundings(clone, **more), capture_output=True, text=True, timeout=120
+    )
+    return done.stdout.split()[-1]
+
+
+def groups_of(clone):
+    return set((clone / ".venv" / "ready").read_text().splitlines()[1:])
+
+
+def test_a_running_arcade_adds_an_extra_that_the_next_start_keeps(furnished):
+    started(furnished)
+    assert groups_of(furnished) == {"arcade"}
+    assert fetched(furnished) == "done"
+    assert "numba" in calls(furnished)[-1]
+    assert groups_of(furnished) == {"arcade", "train"}
+    before = len(calls(furnished))
+    started(furnished, "duel")
+    assert len(calls(furnished)) == before, "nothing is missing"
+
+
+@pytest.mark.parametrize(
+    ("mood", "reason"),
+    [
+        ("numba:Retrying after connection broken", "offline"),
+        ("numba:OSError: [Errno 28] No space left on device", "full"),
+        ("numba:something else", "failed"),
+    ],
+)
+def test_an_extra_that_cannot_be_fetched_leaves_the_environment_ready(furnished, mood, reason):
+    started(furnished)
+    assert fetched(furnished, MOOD=mood) == reason
+    assert groups_of(furnished) == {"arcade"}
+    assert started(furnished).stdout == f"{furnished / '.venv'}\n"
+
+
+def test_an_environment_of_somebody_else_is_left_alone(furnished):
+    command = [BARE, "-m", "pigaming_app.boot.fetch", "train"]
+    done = subprocess.run(
+        command, cwd=furnished, env=surroundings(furnished), capture_output=True, text=True, timeout=60
+    )
+    assert done.stdout == "foreign\n"
+    assert not (furnished / ".venv" / "ready").exists()
 
 
 def no_writing_below(folder):

@@ -4,6 +4,7 @@
 """
 
 import functools
+import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -24,6 +25,7 @@ SAFE = pygame.Rect(60, 16, 1800, 1048)  # slightly more than the safe area of me
 Painting = Callable[..., Steps[pygame.Surface]]
 SMALLEST = 9 * 1920 / 1024  # px, minimum height of capitals: 9 px in a window of 1024 x 768
 KEPT = [f"pigaming_app.ui.{name}" for name in ("i18n", "draw.theme", "widgets.word_filter")]  # texts and fonts
+SIGNED_ZERO = re.compile(r"(?<![\d.,])[+−-]0(?![.,]?\d*[1-9])(?!\d)")
 NEAR = 3  # px, minimum distance between a text and an outline
 
 
@@ -161,6 +163,7 @@ def marks_of(ink: Any) -> list[Mark]:
 def faults(screen: Screen, safe: pygame.Rect = SAFE) -> list[str]:
     """Overlaps, crossed outlines, texts too small to read, and marks outside of the safe area."""
     found = [f"{mark.text!r} is too small" for mark in screen.texts if _too_small(mark)]
+    found += [f"{mark.text!r} has a sign at zero" for mark in screen.texts if SIGNED_ZERO.search(mark.text)]
     found += [f"{mark.text!r} leaves the picture" for mark in screen.texts if not safe.contains(_rect(mark))]
     for one, other in combinations(screen.texts, 2):
         if _shared(one, other) and one.text != other.text:

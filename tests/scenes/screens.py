@@ -8,6 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import pygame
 import pytest
 
 from pigaming_app.ai.game_ai import ONE_BUTTON, POINT
@@ -48,6 +49,7 @@ from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers
@@ -442,6 +444,14 @@ def drawn_arenas(arcade: Arcade, game: str, page: bool = False) -> Scene:
     return scene
 
 
+def fetch_page(arcade: Arcade, state: str) -> Scene:
+    """What networks need is being fetched, or was not."""
+    fetch: Any = SimpleNamespace(state=state, share=0.4, start=lambda: None)
+    arcade.context.network_fetch = fetch
+    return FetchPage(arcade.context, lambda: pygame.Surface((1920, 1080)), lambda: None)
+
+
+FETCH_STATES = ("fetching", "offline", "full", "restart", "foreign", "failed", "built")
 PROBLEMS = (
     "gap",
     "start",
@@ -466,6 +476,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "gallery": partial(drawn_arenas, game="race"),
     "page of a drawing": partial(drawn_arenas, game="pitanks", page=True),
     "name of a drawing": lambda arcade: ArenaName(arcade.context, "race", "new-1", WIDEST, lambda name: None),
+    **{f"lab fetch {state}": partial(fetch_page, state=state) for state in FETCH_STATES},
     "events": events,
     **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
     "event setup order": event_setup(Format.GRAND_PRIX, "order"),

@@ -1,12 +1,23 @@
 """Larger text: it is larger, and still nothing overlaps."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
+import pygame
 import pytest
 
+from pigaming_app.games.arenas import shipped_arenas
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.match_words import limits_line
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import BODY, read_large, readable
+from pigaming_app.ui.draw.glow import GlowCanvas
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -14,10 +25,13 @@ from pigaming_app.ui.widgets.button_prompts import type_size
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.cache import empty_cache
-from tests.scenes.measuring import faults, measuring
-from tests.scenes.screens import SCREENS
+from tests.scenes.measuring import faults, forget, measuring
+from tests.scenes.screens import SCREENS, seats
+from tests.scenes.test_layout import LISTS, relevant
 
-WITH_LARGE = [name for name in SCREENS if name.startswith(("options", "operator", "lobby", "robots menu", "ladder"))]
+LARGE = ("options", "operator", "lobby", "robots menu", "ladder", "how to play", "setup")
+WITH_LARGE = [name for name in SCREENS if name.startswith(LARGE)]
+RULES = [(game, variant) for game in games() for variant in games()[game].variants]
 
 
 @pytest.fixture
@@ -39,19 +53,99 @@ def test_nothing_overlaps(
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     with measuring(monkeypatch) as screen:
         scene = SCREENS[name](arcade)
-        for _ in range(12 if name.startswith(("options", "operator", "robots menu")) else 1):
+        for _ in range(12 if name.startswith(LISTS) else 1):
             scene.update(0.4)
             screen.marks.clear()
             scene.draw(screen)
-            assert faults(screen) == []
+            assert relevant(name, faults(screen)) == []
             scene.handle(InputEvent(Button.DOWN, KEYS[0]))
+
+
+def sizes(monkeypatch: pytest.MonkeyPatch, draw: Callable[[], object], large: bool) -> dict[str, int]:
+    """The type size of each text that is rendered, px."""
+    found: dict[str, int] = {}
+    plain = GlowCanvas.text
+
+    def noted(ink: GlowCanvas, said: str, size: int, *rest: Any, **named: Any) -> GlowCanvas:
+        found[said] = max(size, found.get(said, 0))
+        return plain(ink, said, size, *rest, **named)
+
+    with empty_cache(), monkeypatch.context() as patch:
+        forget()
+        patch.setattr(GlowCanvas, "text", noted)
+        read_large(large)
+        draw()
+    read_large(False)
+    forget()
+    return found
+
+
+def drawn(scene: Scene) -> Callable[[], object]:
+    return lambda: scene.draw(pygame.Surface((1920, 1080)))
+
+
+@pytest.mark.parametrize(("game", "variant"), RULES)
+def test_hud_and_rules_of_a_match_are_larger(
+    controls: Controls, monkeypatch: pytest.MonkeyPatch, game: str, variant: str
+) -> None:
+    """Of every game: the score or place, the clock, the drivers, and the card of the rule set."""
+    arcade, rules = Arcade(controls, "de"), games()[game].variants[variant]
+    one, two, three, four = (Seat("human" if i < 2 else "level3", team) for i, team in enumerate(rules.teams))
+    arena = shipped_arenas(game)[0]
+    setup = Setup(game, arena, (one, two, three, four), rules.default_minutes, 3, variant, rules.default_goal)
+
+    def play() -> None:
+        scene = MatchScene(arcade.context, setup, KEYS[:2])
+        scene.match.state.tick = 40  # a second of race has no clock
+        drawn(scene)()
+        scene.match.state.tick = 0
+        drawn(scene)()
+
+    usual, larger = (sizes(monkeypatch, play, large) for large in (False, True))
+    words = arcade.context.words
+    number, driver = "1" if game == "race" else "0", "WASD + LEERTASTE"
+    for text in (number, ":", driver, words(f"setup.{game}_{variant}")):
+        assert larger[text] > usual[text], text
+    lines = set(words(f"rules.{game}_{variant}").split())
+    assert lines <= set(" ".join(larger).split())
+    assert max(larger[text] for text in larger if lines & {*text.split()}) > BODY
+
+
+def size_of(sentence: str, found: dict[str, int]) -> int:
+    """The type size in which a sentence was set, on one line or more, px."""
+    plain = " ".join(sentence.split())
+    return found[max((text for text in found if " ".join(text.split()) in plain), key=len)]
+
+
+@pytest.mark.parametrize("language", ["de", "pt"])
+def test_how_to_play_and_rule_texts_are_larger(
+    controls: Controls, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    arcade = Arcade(controls, language)
+    words = arcade.context.words
+    for game in games():
+        page, rules = HowTo(arcade.context, game), words(f"rules.{game}_{games()[game].default.name}")
+        limits = limits_line(words, game, page.minutes(), page._variant())
+        captions = [words(f"howto.{name}") for name, _ in page.lessons()]
+        usual, larger = (sizes(monkeypatch, drawn(page), large) for large in (False, True))
+        assert size_of(limits, larger) > size_of(limits, usual)
+        before, after = ([size_of(caption, found) for caption in captions] for found in (usual, larger))
+        assert all(one <= other for one, other in zip(before, after, strict=True))
+        assert sum(after) > sum(before)
+
+        def setup(game: str = game) -> None:
+            drawn(MatchSetupPage(arcade.context, game, seats(game)))()
+
+        usual, larger = (sizes(monkeypatch, setup, large) for large in (False, True))
+        assert size_of(rules, larger) > size_of(rules, usual)
+    assert readable(BODY) == BODY
 
 
 @pytest.mark.usefixtures("_large")
 def test_texts_are_larger_where_they_fit() -> None:
     assert readable(BODY) > BODY
     assert type_size((("A", "Ready"),), 800) == readable(BODY)
-    assert type_size((("A", "Ready for the next match"),), 500) == BODY
+    assert type_size((("A", "Ready for the next match"),), 620) == BODY
 
 
 def test_by_default_they_are_as_usual() -> None:

@@ -1,16 +1,19 @@
 """Composed sentences: winners, laps, rule limits, drivers."""
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.ai.registry import AIS
+from pigaming_app.games.game import FREE, Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_words import limits_line, rule_numbers, tagline
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.results.headline import headline, winning_color
+from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.draw import PLAYERS
@@ -22,6 +25,7 @@ from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import measuring
 from tests.scenes.screens import seats
 
+AI_SIGNS = {"en": ["AI"], "de": ["KI"], "es": ["IA"], "fr": ["IA"], "pt": ["Computador"]}
 ALONE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
 
 
@@ -62,15 +66,57 @@ WHO_WINS = [
 def test_a_winner_is_called_what_it_is(
     game: str, brains: str, teams: tuple[int, ...], winners: tuple[int, ...], english: str, portuguese: str
 ) -> None:
-    outcome, setup = ended(game, brains, teams, winners)
-    assert headline(Words("en"), outcome, setup) == english
-    assert headline(Words("pt"), outcome, setup) == portuguese
+    match = after(ended(game, brains, teams, winners))
+    assert headline(Words("en"), match) == english
+    assert headline(Words("pt"), match) == portuguese
+
+
+def after(played: tuple[Outcome, Setup], away: Sequence[int] = (), **more: Any) -> EndedMatch:
+    """The match after its end: with people on all seats of people but those in `away`."""
+    outcome, setup = played
+    there = [seat.brain == "human" and i not in away for i, seat in enumerate(setup.seats)]
+    return EndedMatch(setup, outcome, [KEYS[i] if here else None for i, here in enumerate(there)], **more)
 
 
 def test_an_ai_that_drove_on_for_somebody_is_called_one() -> None:
-    outcome, setup = ended("race", "human human off off", ALONE, (1,))
-    assert headline(Words("en"), outcome, setup, [1]) == "The AI for player 2 wins!"
-    assert headline(Words("en"), outcome, setup, [0]) == "Player 2 wins!"
+    played = ended("race", "human human off off", ALONE, (1,))
+    assert headline(Words("en"), after(played, [1])) == "The AI for player 2 wins!"
+    assert headline(Words("en"), after(played, [0])) == "Player 2 wins!"
+
+
+def test_a_person_who_took_over_from_an_ai_is_called_a_person() -> None:
+    outcome, setup = ended("race", "human level5 off off", ALONE, (1,))
+    match = EndedMatch(setup, outcome, (KEYS[0], KEYS[1], None, None))
+    assert headline(Words("en"), match) == "Player 2 wins!"
+    assert (match.humans, match.absent, match.brain(1)) == ([0, 1], [], "")
+
+
+NAMES = ("ANNA", "BEN")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("game", [game for game in games() if games()[game].default.team_mode == FREE])
+def test_no_ai_is_announced_as_a_person_in_any_language(game: str, language: str) -> None:
+    """Whoever drives on the winner's seat, and however it came to that, the line of an AI is no person's."""
+    words = Words(language)
+    for seat in (0, 1):
+        for names in ((), NAMES):
+            people = {
+                headline(words, after(ended(game, brains, ALONE, (seat,)), names=names))
+                for brains in ("human human off off", "human human human human")
+            }
+            for brain in AIS[game].brains:
+                line = headline(words, after(ended(game, f"{brain} {brain} off off", ALONE, (seat,)), names=names))
+                assert line not in people
+                assert any(sign in line for sign in AI_SIGNS[language]), line
+            away = ended(game, "human human off off", ALONE, (seat,))
+            stood_in = ended(game, "level3 level3 off off", ALONE, (seat,))
+            for line in (
+                headline(words, after(away, [0, 1], names=names)),
+                headline(words, after(stood_in, names=names, stood_in=[0, 1])),
+            ):
+                assert line not in people
+                assert any(sign in line for sign in AI_SIGNS[language]), line
 
 
 def test_the_line_of_a_team_has_the_teams_colour() -> None:

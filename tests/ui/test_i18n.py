@@ -47,7 +47,8 @@ def test_french_signs_stay_with_their_word() -> None:
 def test_every_language_has_its_own_texts() -> None:
     """Nobody forgot to translate: few texts are the same in two languages, as names and units are."""
     for one, other in combinations(LANGUAGES, 2):
-        same = [key for key, text in texts(one).items() if text == texts(other)[key] and " " in text]
+        ours = {key: text for key, text in texts(one).items() if " " in text and not key.startswith("keys.")}
+        same = [key for key, text in ours.items() if text == texts(other)[key]]
         assert len(same) < 40, (one, other)
 
 
@@ -69,7 +70,7 @@ def test_the_first_language_is_that_of_the_system(monkeypatch: pytest.MonkeyPatc
 
 
 def test_what_is_printed_is_in_english_too() -> None:
-    assert with_english("de", "keys.SPACE", "options.off") == ["LEER", "Aus", "SPACE", "Off"]
+    assert with_english("de", "keys.SPACE", "options.off") == ["LEERTASTE", "Aus", "SPACE", "Off"]
     assert with_english("en", "keys.SPACE") == ["SPACE"]
 
 
@@ -161,7 +162,7 @@ def decimals(node: ast.FormattedValue) -> bool:
 
 def test_a_space_bar_has_a_name_and_a_button_is_called_what_is_printed_on_it() -> None:
     assert Words("pt").key_name("SPACE") == "ESPAÇO"
-    assert Words("pt").key_name("R CTRL") == "R CTRL"
+    assert Words("pt").key_name("START") == "START"
 
 
 def test_an_unknown_key_is_an_error() -> None:

@@ -57,5 +57,5 @@ def _table(rows: Sequence[Standing]) -> Iterator[str]:
     wide = max(14, *(len(row.entrant) + 1 for row in rows))
     yield f"{'':4}{'':{wide}}{'points':>8}{'wins':>6}{'played':>8}" + "".join(f"{key:>18}" for key in breaks)
     for row in rows:
-        values = "".join(f"{row.tie_breaks[key]:18.2f}" for key in breaks)
-        yield f"{row.place:>3} {row.entrant:{wide}}{row.points:8.2f}{row.wins:6}{row.played:8}{values}"
+        values = "".join(f"{row.tie_breaks[key]:z18.2f}" for key in breaks)
+        yield f"{row.place:>3} {row.entrant:{wide}}{row.points:z8.2f}{row.wins:6}{row.played:8}{values}"

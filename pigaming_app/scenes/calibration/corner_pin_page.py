@@ -38,6 +38,7 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.numbers import signed
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import DIRECTIONS
 
@@ -179,11 +180,6 @@ class CornerPinPage:
     def _say(self, sentence: str) -> None:
         self.sentence, self.sentence_left = sentence, SENTENCE_SECONDS
         self.context.sounds.play("back")
-
-
-def signed(number: int) -> str:
-    """A signed number with a true minus sign."""
-    return f"{number:+d}".replace("-", "−") if number else "0"
 
 
 @cached

@@ -70,6 +70,7 @@ class Editor:
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Draw, drag, choose tiles; X deletes, Y opens the tool bar, START plays, BACK lets go or leaves."""
+        self.bar.point(event)
         event, bench = self.prompts.as_button(event), self.bench
         self.reveal = 0.0 if event.button not in (Button.POINT, Button.FOUND, Button.LOST) else self.reveal
         if self.waiting and event.button in (Button.FIRE, Button.CLICK, Button.X, Button.BACK):
@@ -140,7 +141,7 @@ class Editor:
             draw_problems(screen, verdict.problems, self.clock)
         if bench.pointer.shown and not self.bar.open:
             draw_pointer(screen, bench.pointer.at)
-        self.bar.draw(screen, self.tiles)
+        self.bar.draw(screen, self.tiles, self.context.words)
         name = self.title if bench.named else self.context.words("editor.new")
         text(name, LABEL, ICE, "head", "l", 620).draw(screen, LEFT, HEAD_Y)
         line, color = self.line

@@ -10,7 +10,9 @@ from pigaming_app.scenes.editor.icons import draw_icon
 from pigaming_app.ui.draw import FOCUS, ICE, MIST, STEEL, THIN, cut_box, dim
 from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 W, H, GAP_X, ROWS = 122, 88, 20, 8  # px
@@ -36,7 +38,7 @@ class ToolBar:
 
     def __init__(self) -> None:
         self.focus = Focus([FocusSpot(name, box(i)) for i, name in enumerate(NAMES)])
-        self.open = False
+        self.open, self.pointed = False, ""  # `pointed`: the tile under the mouse
 
     def handle(self, event: InputEvent) -> bool:
         """Move the focus by a direction; false if it leaves to the right."""
@@ -55,7 +57,12 @@ class ToolBar:
     def update(self, seconds: float) -> None:
         self.focus.update(seconds)
 
-    def draw(self, screen: pygame.Surface, tiles: Mapping[str, Tile]) -> None:
+    def point(self, event: InputEvent) -> None:
+        """Follow the mouse; any other input hides the name of the tile under it."""
+        self.pointed = (self.hit(event) or "") if event.button is Button.POINT else ""
+
+    def draw(self, screen: pygame.Surface, tiles: Mapping[str, Tile], words: Words) -> None:
+        """Draw the tiles, and the name of the one with the focus or under the mouse."""
         for i, name in enumerate(NAMES):
             at = box(i).topleft
             if shown := tiles.get(name):
@@ -65,6 +72,10 @@ class ToolBar:
                 free().draw(screen, *at)
         if self.open:
             self.focus.draw(screen)
+        named = self.focus.name if self.open else self.pointed
+        if named in tiles and (key := f"editor.tool_{tiles[named].icon}") in words:
+            plate = caption(words(key), FOCUS)
+            plate.draw(screen, RIGHT_COLUMN + W + 24 + plate.width / 2, box(NAMES.index(named)).centery)
 
 
 def box(i: int) -> pygame.Rect:

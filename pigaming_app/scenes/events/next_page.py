@@ -17,6 +17,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
 from pigaming_app.scenes.events import next_view as view
+from pigaming_app.scenes.events.drivers import stood_in
 from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
@@ -368,6 +369,7 @@ class EventMatch:
         words, running = scene.context.words, self.running
         if not scene.match.over:
             return NextMatch(scene.context, running, words("events.unplayed"))
+        scene.stood_in = stood_in(running, self.fixture)
         outcome = outcome_of(self.fixture, scene.match.outcome().rows)
         try:
             notice = "" if running.change(lambda event: event.record(outcome)) else words("app.unsaved")

@@ -11,6 +11,7 @@ from pigaming_app.scenes.events.bracket_view import LATER, NEXT, OPEN, PLAYED, B
 from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.events.table_view import TableRow
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.numbers import numeral
 
 TABLE, TEAMS, BRACKET = "table", "teams", "bracket"  # kinds of pages
 
@@ -140,7 +141,7 @@ def figures_of(words: Words, row: Standing) -> tuple[str, ...]:
 
 def number(words: Words, value: float) -> str:
     """A number with at most one decimal."""
-    return words.decimal(f"{round(value, 1):g}")
+    return words.decimal(numeral(value, 1).removesuffix(".0"))
 
 
 def heads_of(words: Words, form: Format) -> tuple[str, ...]:

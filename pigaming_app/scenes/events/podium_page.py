@@ -12,9 +12,10 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, PLAYERS, SUB, TITLE
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, PLAYERS, SUB, THIN, TITLE, GlowCanvas, icon, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
-from pigaming_app.ui.draw.layers import RIGHT, backdrop
+from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop
+from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_text, text, word
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
@@ -25,6 +26,7 @@ FOOT, NAME_Y = 800, 872  # px: foot of the podium, middle of the names
 REST, REST_X, REST_Y, REST_PITCH = 6, 1330, 290, 104  # places beside the podium; px
 FEWEST_BESIDE = 3
 NAME_ROOM = STEP_W + APART - 20  # px
+SIGN_W = 72  # px, for the sign of an AI before its name
 
 
 class PodiumPage:
@@ -34,7 +36,7 @@ class PodiumPage:
         self.context, self.running = context, running
         self.best = podium_rows(running)
         steps = [Stand(row.place, (i,)) for i, row in enumerate(self.best)]
-        self.rest = places_below(running)
+        self.rest, self.robots = places_below(running), robots_of(running)
         self.podium = Podium(centre(self.rest), FOOT, steps)
         seats = list(range(len(self.best)))
         self.celebration = Celebration("pitanks", seats, [PLAYERS[seat] for seat in seats])
@@ -86,7 +88,8 @@ class PodiumPage:
         self.celebration.draw(screen)
         self.podium.draw(screen, self.age)
         shown = {i for i in range(len(self.best)) if self.age >= REVEALS[i] + RISE}
-        draw_names(screen, self.podium.x, self.best, self.rest if self.age >= FIRST + RISE else [], shown)
+        rest = self.rest if self.age >= FIRST + RISE else []
+        draw_names(screen, self.podium.x, self.best, rest, shown, self.robots)
         if self.age >= SKIP:
             self.prompts.draw(screen)
 
@@ -111,22 +114,41 @@ def draw_names(
     best: Sequence[Standing],
     rest: Sequence[Standing],
     shown: Collection[int],
+    robots: Collection[str],
     dx: int = 0,
     dy: int = 0,
 ) -> None:
     """Draw the names below the steps `shown`, by index, of a podium at x = `middle`, and the places beside it, all
-    moved by (dx, dy) px.
+    moved by (dx, dy) px. `robots`: the names that get the sign of an AI.
     """
     for i, row in enumerate(best):
         if i in shown:
-            name, size = fit_text(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero", BODY)
+            sign = SIGN_W if row.entrant in robots else 0
+            name, size = fit_text(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM - sign, "hero", BODY)
             x = dx + middle + (STEP_W + APART) * (ORDER.index(i) - 1)
-            word(name, size, FOCUS if i == 0 else ICE).draw(screen, x, dy + NAME_Y)
+            word(name, size, FOCUS if i == 0 else ICE).draw(screen, x + sign / 2, dy + NAME_Y)
+            if sign:
+                robot_sign().draw(screen, x - text_width(name, size, "hero") / 2, dy + NAME_Y)
     for i, row in enumerate(rest):
-        y = dy + REST_Y + REST_PITCH * i
+        x, y = dx + REST_X + 40, dy + REST_Y + REST_PITCH * i
         text(str(row.place), SUB, MIST, "head", "r").draw(screen, dx + REST_X, y)
-        name, size = fit_text(row.entrant, SUB, RIGHT - REST_X - 40, "hero", BODY)
-        text(name, size, ICE, "hero", "l").draw(screen, dx + REST_X + 40, y)
+        if row.entrant in robots:
+            robot_sign().draw(screen, x + SIGN_W / 2 - 8, y)
+            x += SIGN_W
+        name, size = fit_text(row.entrant, SUB, round(dx + RIGHT - x), "hero", BODY)
+        text(name, size, ICE, "hero", "l").draw(screen, x, y)
+
+
+@cached
+def robot_sign() -> LitImage:
+    """The sign of an AI, centred on (0, 0)."""
+    return LitImage(icon(GlowCanvas(96, 96), "ai", 48, 48, 28, MIST, THIN).lit(0.5), (-48, -48))
+
+
+def robots_of(running: RunningEvent) -> frozenset[str]:
+    """The entrants that are AIs."""
+    names = (entrant.name for entrant in running.event.entrants)
+    return frozenset(name for name in names if running.brain(name) and not running.is_person(name))
 
 
 def podium_rows(running: RunningEvent) -> list[Standing]:

@@ -19,6 +19,7 @@ import pygame
 from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
 from pigaming_app.events.spec import Fixture, Format, Standing
+from pigaming_app.scenes.events.overview import number
 from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
@@ -202,7 +203,7 @@ def _table(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
         x, y = MARGIN + (i // each) * (wide + gap), TABLE_TOP + (i % each + 0.5) * pitch
         _write(page, str(row.place), size, (x + 1.6 * size, y), SOFT, "r")
         _write(page, row.entrant, size, (x + 2.2 * size, y), INK, room=wide - 5.6 * size)
-        _write(page, words.decimal(f"{round(row.points, 1):g}"), size, (x + wide, y), INK, "r")
+        _write(page, number(words, row.points), size, (x + wide, y), INK, "r")
         pygame.draw.line(page, RULE, (x, y + pitch / 2), (x + wide, y + pitch / 2), 3)
         yield
 

@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.events.spec import Fixture
 from pigaming_app.scenes.events import next_view as view
-from pigaming_app.scenes.events.drivers import driver_label, people_of, suggested
+from pigaming_app.scenes.events.drivers import driver_label, people_of, stood_in, suggested
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
@@ -38,8 +38,7 @@ class Seats:
     @property
     def stood_in(self) -> list[int]:
         """Seats of people for whom an AI drives."""
-        names = self.fixture.entrants if self.fixture else ()
-        return [i for i, name in enumerate(names) if self.running.brain(name) and self.running.is_person(name)]
+        return stood_in(self.running, self.fixture) if self.fixture else []
 
     @property
     def waiting(self) -> list[int]:
@@ -87,7 +86,8 @@ class Seats:
 
     def label(self, seat: int) -> str:
         """The button that takes a seat."""
-        return self.context.words.key_name(self.context.controls.label(self.suggested(seat), Button.FIRE))
+        words, device = self.context.words, self.suggested(seat)
+        return words.key_name(self.context.controls.label(device, Button.FIRE)) if device else words("remap.fire")
 
     def draw(self, screen: pygame.Surface, clock: float) -> None:
         """Draw the cards. `clock`: s since the page opened."""

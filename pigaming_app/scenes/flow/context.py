@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
 from pigaming_app.events.day_log import DayLog, now
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import settings_problem
@@ -45,6 +46,7 @@ class Context:
     idle: float = 0.0  # seconds since the last input
     session: "RobotSession | None" = None  # of real robots
     compiler: Compiler = field(default_factory=Compiler)  # for tables in the Lab
+    network_fetch: ExtraFetch = field(default_factory=lambda: ExtraFetch("train"))  # what networks need in the Lab
     network_compiler: Compiler = field(default_factory=lambda: Compiler(COMPILE_NETWORKS))  # for networks in the Lab
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)

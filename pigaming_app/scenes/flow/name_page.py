@@ -28,8 +28,8 @@ class NamePage:
     """A page that asks for a name of at most `length` letters; `title`: key of its heading."""
 
     def __init__(self, context: Context, title: str, name: str, length: int, idle: float) -> None:
-        self.context, self.title, self.idle = context, title, idle
-        self.picker = LetterPicker(LETTERS, name[:length].ljust(length))
+        self.context, self.title, self.idle, self.length = context, title, idle, length
+        self.spell(name)
         self.pitch = min(W + GAP, (RIGHT - LEFT) // length)
         self.age = 0.0
         self.taken = False  # the name is in use; START again overwrites
@@ -43,6 +43,11 @@ class NamePage:
     def is_taken(self, name: str) -> bool:
         """True if something else has this name, so that START is to be pressed twice."""
         raise NotImplementedError
+
+    @property
+    def proposal(self) -> str:
+        """A name in place of an empty one, if there is one."""
+        return ""
 
     def is_possible(self, name: str) -> bool:
         """True for a valid name."""
@@ -108,6 +113,10 @@ class NamePage:
         text(line, BODY, color).draw(screen, 960, MIDDLE + 290)
         self.prompts.draw(screen)
 
+    def spell(self, name: str) -> None:
+        """Begin with a name."""
+        self.picker = LetterPicker(LETTERS, name[: self.length].ljust(self.length))
+
     def middle(self, slot: int) -> float:
         """Centre of a letter, x in px."""
         return 960 + (slot - (len(self.picker.letters) - 1) / 2) * self.pitch
@@ -136,6 +145,10 @@ class NamePage:
 
     def _save(self) -> StackOperation:
         """Save, unless the name is impossible, or in use and not yet confirmed."""
+        if not self.name and self.proposal:
+            self.spell(self.proposal)
+            self.context.sounds.play("move")
+            return None
         if not self.is_possible(self.name):
             self.unusable = True
             self.context.sounds.play("refused")

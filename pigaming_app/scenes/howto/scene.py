@@ -11,10 +11,12 @@ from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE, LessonPicture
 from pigaming_app.scenes.views.registry import SCREENS, shown_games
 from pigaming_app.ui.draw import (
+    ARROWS,
     BLACK,
     BODY,
     FOCUS,
     ICE,
+    KEYPAD,
     LABEL,
     MIST,
     STEEL,
@@ -23,20 +25,24 @@ from pigaming_app.ui.draw import (
     button,
     button_width,
     panel,
+    readable,
+    reads_large,
     regular_polygon,
     text_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text, wrap, wrap_balanced
+from pigaming_app.ui.draw.text import SMALLEST, fit_lines, fit_size, text, wrap, wrap_balanced
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_width, heading
 
 TOP, HIGH = 220, 620
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
+LARGE, PITCH, LOWER = 46, 46, 20  # px, of larger text: size and pitch of the limits on two lines; the foot is lower
 IDLE = 90.0  # seconds without input until the title
 GAP = 24  # px on either side of the arrows between heading and names
+APART = 44  # px between the keys of the row at the foot
 DOT = 32  # px from dot to dot of the pages
 LEAVE = (Button.FIRE, Button.BACK, Button.START, Button.CLICK)
 
@@ -88,12 +94,11 @@ class HowTo:
             screen.set_clip(None)
             frame(i + 1, box.w).draw(screen, *box.topleft)
             if key:
-                text(words(key) if key in words else key, LABEL, ICE, "head", "c", box.w - 40).draw(
-                    screen, box.centerx, TOP + 446
-                )
+                title = words(key) if key in words else key
+                text(title, readable(LABEL), ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
             caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
         self._foot(screen)
-        keys(self._keys()).draw(screen)
+        keys(self._keys()).draw(screen, 0, LOWER * reads_large())
 
     def _show(self, game: str, page: int = 0) -> None:
         if (game, page) != (self.game, self.page):
@@ -113,7 +118,13 @@ class HowTo:
             pages(name, self.page, count).draw(screen)
             left += pages_width(name, count) + 40
         limits = limits_line(words, self.game, self.minutes(), self._variant())
-        text(limits, BODY, ICE, "body", "l", round(RIGHT - left)).draw(screen, left, LIMITS_Y)
+        size, lines = BODY, [limits]
+        if reads_large():
+            size, lines = fit_lines(limits, RIGHT - left, 2, range(LARGE, SMALLEST, -2))
+            lines = wrap_balanced(limits, len(lines), size)
+        for i, line in enumerate(lines):
+            y = LIMITS_Y + PITCH * (i - (len(lines) - 1) / 2)
+            text(line, size, ICE, "body", "l", round(RIGHT - left)).draw(screen, left, y)
 
     def minutes(self) -> int:
         """The minutes of the last match, or by default those of another rule set that the page is about."""
@@ -150,14 +161,15 @@ class HowTo:
         words, controls = self.context.words, self.context.controls
         device = controls.last
         turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
+        keypad, drive = controls.name(device) == "Keypad", words("howto.hint_drive")
         pairs = [
-            (controls.moves(device) or "<>", words("howto.hint_drive")),
+            (KEYPAD, f"{drive} ({words('devices.Keypad')})") if keypad else (controls.moves(device) or "<>", drive),
             (controls.label(device, turbo), words("howto.hint_turbo")),
             (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
         if fire := SCREENS[self.game].fire:
-            pairs.insert(1, (words.key_name(controls.label(device, Button.FIRE)), words(f"howto.{fire}")))
-        return tuple((label, action) for label, action in pairs if label)
+            pairs.insert(1, (controls.label(device, Button.FIRE), words(f"howto.{fire}")))
+        return tuple((words.key_name(label), action) for label, action in pairs if label)
 
 
 def taught() -> list[str]:
@@ -199,11 +211,14 @@ def frame(number: int, w: int) -> Steps[LitImage]:
 @cached
 def caption(sentence: str, room: int) -> LitImage:
     """A caption in lines of similar length, centred on (0, 0)."""
-    lines = wrap_balanced(sentence, len(wrap(sentence, BODY, room)))
+    count = len(wrap(sentence, BODY, room))
+    sizes = range(readable(BODY), BODY, -2)
+    most = next((size for size in sizes if len(wrap(sentence, size, room)) <= max(2, count)), BODY)
+    lines = wrap_balanced(sentence, max(count, len(wrap(sentence, most, room))), most)
     layer = Layer(-room / 2, -70, room, 140)
     for i, line in enumerate(lines):
-        size = fit_size(line, BODY, room, "body")
-        layer.canvas.body(line, 0, 54 * (i - (len(lines) - 1) / 2), ICE, "c", size)
+        size = fit_size(line, most, room, "body")
+        layer.canvas.body(line, 0, 1.35 * most * (i - (len(lines) - 1) / 2), ICE, "c", size)
     return layer.render()
 
 
@@ -213,16 +228,28 @@ def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
     """The row at the foot: left-aligned, except for the last item at the right end."""
     layer = Layer(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
+    sizes = range(readable(BODY), SMALLEST, -2)
+    size = next((size for size in sizes if _row_width(items, size) <= RIGHT - LEFT), SMALLEST)
     for i, (label, action) in enumerate(items):
         if i == len(items) - 1:
-            x = RIGHT - _width(label) - 10 - text_width(action, BODY, "body")
-        for part in label.split():
-            x += button(layer.canvas, x, FOOT_Y, part) + 8
-        layer.canvas.body(action, x + 10, FOOT_Y, MIST)
-        x += 10 + text_width(action, BODY, "body") + 56
+            x = RIGHT - _width(label, size) - 10 - text_width(action, size, "body")
+        for part in _parts(label):
+            x += button(layer.canvas, x, FOOT_Y, part, size=size) + 8
+        layer.canvas.body(action, x + 10, FOOT_Y, MIST, size=size)
+        x += 10 + text_width(action, size, "body") + APART
     yield
     return (yield from layer.render_steps())
 
 
-def _width(label: str) -> float:
-    return sum(button_width(part) + 8 for part in label.split())
+def _row_width(items: Sequence[tuple[str, str]], size: int) -> float:
+    widths = [_width(label, size) + 10 + text_width(action, size, "body") for label, action in items]
+    return sum(widths) + APART * (len(items) - 1)
+
+
+def _width(label: str, size: int) -> float:
+    return sum(button_width(part, size) + 8 for part in _parts(label))
+
+
+def _parts(label: str) -> list[str]:
+    """The keys of a label: of arrows each, else one."""
+    return label.split() if label[0] in ARROWS else [label]

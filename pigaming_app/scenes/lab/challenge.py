@@ -15,6 +15,7 @@ from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
+from pigaming_app.ui.numbers import numeral
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, overlay
 
 MINUTES = 1.0
@@ -126,14 +127,11 @@ class ChallengeResult:
             sheet_title(layer, None, words("results.tie"), ICE)
         else:
             seat = 0 if own > theirs else ROBOT
-            sheet_title(
-                layer, seat, words("lab.you_win") if own > theirs else words("lab.it_wins", name=name), PLAYERS[seat]
-            )
+            yours = words("lab.you_win") if self.fight.inner.devices[0] else words("results.stand_in_wins", player=1)
+            sheet_title(layer, seat, yours if seat == 0 else words("lab.it_wins", name=name), PLAYERS[seat])
         middle = (HEAD + FOOT) / 2
         for seat, side, score, player_name in ((0, -1, own, words("lab.you")), (ROBOT, 1, theirs, name)):
-            layer.canvas.text(
-                str(score).replace("-", "−"), HERO - 70, 960 + side * 210, middle, PLAYERS[seat], "hero", "c"
-            )
+            layer.canvas.text(numeral(score), HERO - 70, 960 + side * 210, middle, PLAYERS[seat], "hero", "c")
             badge(layer.glow, seat, 960 + side * 430, middle - 28, 44)
             layer.canvas.body(player_name, 960 + side * 430, middle + 66, MIST, "c")
         layer.canvas.text(":", HERO - 90, 960, middle - 8, MIST, "hero", "c")

@@ -6,6 +6,7 @@ from pigaming_app.scenes.lab.layout import BAD, GOOD, NOTHING
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.numbers import signed
 
 LIMIT = 10
 RADIUS = 48  # px
@@ -33,8 +34,3 @@ def dial(value: int, held: bool) -> LitImage:
         for side in (-1, 1):
             layer.glow.fill([(side * ARROW, 0), (side * (ARROW - 18), -16), (side * (ARROW - 18), 16)], FOCUS)
     return layer.render()
-
-
-def signed(value: int) -> str:
-    """A number with its sign; none for zero."""
-    return f"{value:+d}".replace("-", "−") if value else "0"

@@ -15,9 +15,11 @@ from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.lab.host import dimmed_background
 from pigaming_app.scenes.lab.knob import LIMIT
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
 from pigaming_app.scenes.lab.learning_curve import EVEN
+from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.lab.network.kind_switch import KINDS, NETWORK, TABLE, kind_at, kind_rect
 from pigaming_app.scenes.lab.network.trainer import NetworkProgress, NetworkTrainer
 from pigaming_app.scenes.lab.progress import Progress
@@ -209,7 +211,7 @@ class Lab:
             self._next_speed(speed_at(at[0] - SPEED.left) if at else (here + 1) % len(SPEEDS))
         elif chosen == "kind":
             other = KINDS[1 - KINDS.index(self.kind)]
-            self._change_kind(kind_at(event.at[0], self.context.words) if event.at else other)
+            return self._change_kind(kind_at(event.at[0], self.context.words) if event.at else other)
         elif chosen and event.at:
             self._set(chosen, self._value(chosen) + (1 if event.at[0] > self.focus.rect(chosen).centerx else -1))
         elif chosen:
@@ -230,13 +232,23 @@ class Lab:
         self.trainer.speed = speed
         self.context.sounds.play("move")
 
-    def _change_kind(self, kind: str) -> None:
-        """Change to the other kind, if it can learn here, and explain it in one sentence."""
+    def _change_kind(self, kind: str) -> StackOperation:
+        """Change to the other kind, if it can learn here, and explain it in one sentence; first fetch what it needs."""
+        self.network.enable()
+        if kind == NETWORK and self.network.fetchable:
+            self.context.sounds.play("accept")
+            return self.leave(Push(FetchPage(self.context, lambda: dimmed_background(self), self._networks_are_ready)))
         if kind == NETWORK and not self.network.available:
             self.show_message(self.context.words(self.network.refusal), wrong=True)
         elif kind != self.kind:
             self.show_kind(kind)
             self.show_message(self.context.words(f"lab.{kind}_how"))
+        return None
+
+    def _networks_are_ready(self) -> None:
+        self.network.enable()
+        if self.network.available:
+            self._change_kind(NETWORK)
 
     def _report_trouble(self) -> None:
         """Show what has happened to the process of the network; without it, only the table is left."""

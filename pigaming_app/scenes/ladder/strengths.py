@@ -34,6 +34,7 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.numbers import signed
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.labels import heading, sign
 
@@ -136,7 +137,7 @@ class Strengths:
                 name = words(f"strengths.{brain}") if brain in NAMED else brain_name(words, self.game, brain)
                 ends = place(row.low), place(row.rating), place(row.high)
                 color = FOCUS if level_of(row.brain) else MIST
-                lit = bar(name, f"{row.rating:+.0f}".replace("-", "−"), ends, pitch, color)
+                lit = bar(name, signed(row.rating), ends, pitch, color)
                 lit.draw(screen, 0, TOP + pitch * i + pitch // 2, 1 - (1 - min(1.0, share)) ** 2)
 
 

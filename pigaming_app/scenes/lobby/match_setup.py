@@ -31,7 +31,7 @@ from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw import PLAYERS
+from pigaming_app.ui.draw import PLAYERS, reads_large
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
@@ -289,7 +289,7 @@ class MatchSetupPage:
     def _lineup(self) -> tuple[tuple[int, str], ...]:
         """(seat, driver icon) of every occupied seat."""
         kinds = ((i, place) for i, place in enumerate(self.seats.places) if place.kind != EMPTY)
-        return tuple((i, place.device.kind if place.device else "ai") for i, place in kinds)
+        return tuple((i, self.context.controls.sign(place.device) if place.device else "ai") for i, place in kinds)
 
     def _picture(self, screen: pygame.Surface) -> None:
         """Draw the arena preview sliding in, with markers at the start positions."""
@@ -360,8 +360,9 @@ def row_names(game: Game, variant: Variant) -> list[str]:
 
 def row_sizes(game: Game, variant: Variant) -> choice.RowSizes:
     """Sizes with which all rows fit above the start button."""
-    needed = sum(_height(name, choice.WIDE) + choice.WIDE.gap for name in row_names(game, variant))
-    return choice.WIDE if needed <= GO.top - FRAME.top else choice.TIGHT
+    wide, tight = (choice.LARGE_WIDE, choice.LARGE_TIGHT) if reads_large() else (choice.WIDE, choice.TIGHT)
+    needed = sum(_height(name, wide) + wide.gap for name in row_names(game, variant))
+    return wide if needed <= GO.top - FRAME.top else tight
 
 
 def _height(name: str, sizes: choice.RowSizes) -> int:

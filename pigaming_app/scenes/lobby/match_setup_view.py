@@ -36,7 +36,7 @@ FEW = 4  # chips that fit at full width
 
 @dataclass(frozen=True)
 class RowSizes:
-    """Heights of the rows in px, and positions in them: of the name, the value and a description of two lines."""
+    """Heights of the rows in px, and positions in them: of the name, the value and the lines of a description."""
 
     choice: int
     described: int  # height of a row with a description
@@ -44,13 +44,17 @@ class RowSizes:
     name: int
     value: int
     line: int
-    pitch: int  # of the two lines
+    pitch: int  # of these lines
     chip: int  # height of a chip
-    small: int  # type size of names, notes and descriptions
+    small: int  # type size of names and notes
+    most: int  # that of descriptions, at most
+    lines: int  # of a description, at most
 
 
-WIDE = RowSizes(140, 236, 16, 38, 94, 156, 48, 60, BODY)
-TIGHT = RowSizes(108, 184, 12, 25, 69, 118, 40, 46, 32)
+WIDE = RowSizes(140, 236, 16, 38, 94, 156, 48, 60, BODY, BODY, 2)
+TIGHT = RowSizes(108, 184, 12, 25, 69, 118, 40, 46, 32, 32, 2)
+LARGE_WIDE = RowSizes(124, 264, 12, 32, 84, 134, 48, 52, BODY, 44, 3)
+LARGE_TIGHT = RowSizes(98, 230, 10, 27, 66, 108, 44, 44, 32, BODY, 3)
 
 
 @cached
@@ -63,8 +67,8 @@ def row(sizes: RowSizes, name: str, value: str, note: str = "", line: str = "") 
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
         icon(layer.glow, sign, x, sizes.value, 20, MIST, LINE)
     room = W - 2 * PAD
-    size, parts = fit_lines(line, room, 2, range(sizes.small, SMALLEST, -2))
-    for i, part in enumerate(parts):
+    size, parts = fit_lines(line, room, sizes.lines, range(sizes.most, SMALLEST, -2))
+    for i, part in enumerate(parts if line else ()):
         layer.canvas.body(part, PAD, sizes.line + sizes.pitch * i, MIST, "l", size)
     return layer.render()
 

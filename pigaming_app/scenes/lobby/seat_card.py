@@ -39,7 +39,7 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, wrap
+from pigaming_app.ui.draw.text import fit_lines, fit_size, wrap
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W
 
@@ -91,6 +91,25 @@ def by_phone(player: int, text: str, call: str, others: str) -> Steps[LitImage]:
     layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, MIST)
     layer.canvas.text(call, fit_size(call, LABEL, W - 60), MIDDLE, ASKS_Y + 132, FOCUS, "head", "c")
     layer.canvas.body(others, MIDDLE, ASKS_Y + 176, MIST, "c", fit_size(others, 32, W - 60, "body"))
+    yield
+    return (yield from layer.render_steps())
+
+
+@cached
+@resumable
+def plug_in(player: int, text: str, call: str, others: str) -> Steps[LitImage]:
+    """Card of an empty seat for which there is no device: a pad and a phone, and how to get them."""
+    layer, color = Layer(0, 0, W, H), PLAYERS[player]
+    layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
+    badge(layer.glow, player, 72, 76, 36, dim(color, 0.75))
+    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, MIST)
+    icon(layer.glow, "pad", MIDDLE - 76, PLUS_Y, 66, MIST, THIN)
+    icon(layer.glow, "phone", MIDDLE + 92, PLUS_Y, 60, MIST, THIN)
+    yield
+    layer.canvas.body(call, MIDDLE, ASKS_Y, ICE, "c", fit_size(call, readable(BODY), W - 48, "body"))
+    size, lines = fit_lines(others, W - 48, 3, (readable(34), 34, 30))
+    for i, line in enumerate(lines):
+        layer.canvas.body(line, MIDDLE, ASKS_Y + 66 + 1.3 * size * i, MIST, "c", size)
     yield
     return (yield from layer.render_steps())
 

@@ -11,6 +11,7 @@ from pigaming_app.games.game import ALLIES, FREE, PAIRS
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.brain_names import stars_of
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.device_words import steering
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
@@ -91,11 +92,15 @@ class LobbyPage:
         )
 
     @property
+    def free(self) -> list[Device]:
+        """The devices that may still join: pads first, then keyboard clusters."""
+        return [device for device in self.context.controls.offered() if self.seats.seat_of(device) is None]
+
+    @property
     def invited(self) -> tuple[str, ...]:
-        """Distinct labels of the buttons with which free devices can join: pads first, then keyboard clusters."""
+        """Distinct labels of the buttons with which free devices can join."""
         controls, words = self.context.controls, self.context.words
-        free = [device for device in controls.players() if self.seats.seat_of(device) is None]
-        return tuple(dict.fromkeys(words.key_name(controls.label(device, Button.FIRE)) for device in free))
+        return tuple(dict.fromkeys(words.key_name(controls.label(device, Button.FIRE)) for device in self.free))
 
     @property
     def code_seat(self) -> int | None:
@@ -111,6 +116,11 @@ class LobbyPage:
                 card.by_phone(seat, title, words("lobby.by_phone"), words("lobby.or_press")).draw(screen, x, y)
                 draw_code(screen, self.context.phone_host.url, CODE_BOX.move(x, y))
                 return
+            if seat in self.seats.of_kind(EMPTY)[len(self.free) :]:
+                menus = {"options": words("title.options"), "controls": words("options.controls")}
+                phones = words("lobby.by_phone") if self.context.phone_host.url else words("lobby.phones", **menus)
+                card.plug_in(seat, title, words("lobby.plug"), phones).draw(screen, x, y)
+                return
             card.empty(seat, title).draw(screen, x, y)
             level = pulse(self.now.clock) if seat == self.seats.of_kind(EMPTY)[0] else 0
             card.invitation(seat, words("lobby.press_to_join"), self.invited, level).draw(screen, x, y)
@@ -125,8 +135,8 @@ class LobbyPage:
                 card.team(words("lobby.team", team=place.team + 1), place.team, color).draw(screen, x, y)
         if place.device:
             controls, style = self.context.controls, self.driving(place.device)
-            name = controls.moves(place.device) or words(f"devices.{controls.name(place.device)}")
-            card.driver(place.device.kind, name).draw(screen, x, y)
+            name = steering(words, controls, place.device)
+            card.driver(controls.sign(place.device), name).draw(screen, x, y)
             color = self._selected(seat, DRIVE)
             card.driving(words(f"lobby.drive_{style}"), PICTURES[style], color).draw(screen, x, y)
         else:

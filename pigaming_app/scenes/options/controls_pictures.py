@@ -25,7 +25,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.text import SMALLEST, fit_size
 from pigaming_app.ui.input.events import Button
 
 W, H = span(0, 3)[1], 340
@@ -99,6 +99,15 @@ def style(text: str, picture: str) -> LitImage:
 
 
 @cached
+def keypad(name: str) -> LitImage:
+    """The picture of the keypad and its name, beside the upper key of its card."""
+    layer = Layer(0, 0, W, 100)
+    icon(layer.glow, "keypad", 58, 58, 34, MIST, 3)
+    layer.canvas.body(name, W - 4, 18, MIST, "r", fit_size(name, 32, W - 194, "body"))
+    return layer.render()
+
+
+@cached
 def knob() -> LitImage:
     """The knob of a stick, centred on (0, 0)."""
     return LitImage(GlowCanvas(96, 96).disc(48, 48, 20, FOCUS).lit(1.0), (-48, -48))
@@ -116,7 +125,11 @@ def cap(label: str, w: int, h: int, down: bool) -> LitImage:
     if label in ARROWS:
         icon(layer.glow, ARROWS[label], w / 2, h / 2, 18, color, LINE)
     else:
-        layer.canvas.crisp.text(label, fit_size(label, BODY, w - 20), w / 2, h / 2, color, "head", "c")
+        lines = label.split(" ") if fit_size(label, BODY, w - 20) < SMALLEST else [label]
+        size = min(fit_size(line, BODY if len(lines) == 1 else SMALLEST, w - 20) for line in lines)
+        for i, line in enumerate(lines):
+            middle = h / 2 + 30 * (i - (len(lines) - 1) / 2)
+            layer.canvas.crisp.text(line, size, w / 2, middle, color, "head", "c")
     return layer.render()
 
 

@@ -24,6 +24,7 @@ from pigaming_app.ui.draw import ADD, ICE
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
+from pigaming_app.ui.input.keyboard import NUM
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite, heading
 
@@ -129,8 +130,10 @@ class ControlsTest:
         controls = self.context.controls
         drive, labels = controls.drive(device), {button: controls.label(device, button) for button in gadgets.KEYS}
         for button, box in gadgets.KEYS.items():
-            label = self.context.words.key_name(labels[button])
+            label = self.context.words.key_name(labels[button].removeprefix(NUM))
             gadgets.cap(label, *box.size, _down(drive, button)).draw(screen, x + box.x, y + box.y)
+        if controls.name(device) == "Keypad":
+            gadgets.keypad(self.context.words("devices.Keypad")).draw(screen, x, y)
         self._robot(screen, x + gadgets.ROBOT[0], y + gadgets.ROBOT[1], device, drive)
         self._style(screen, x + gadgets.STYLE[0], y + gadgets.STYLE[1], device)
 

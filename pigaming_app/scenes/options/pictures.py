@@ -163,13 +163,13 @@ KEY_ICONS = {"fire": "shoot", "turbo": "speed", "x": "plus", "start": "play", "n
 
 
 @cached
-def key(name: str, keys: bool, lit: bool) -> LitImage:
-    """The function `name` of a key, or of a button if not `keys`: a sign in its outline, which glows if `lit`."""
+def key(name: str, device: str, lit: bool) -> LitImage:
+    """The function `name` of a key or a button: a sign in its outline, which glows if `lit`. `device`: its icon."""
     ink, color = GlowCanvas(480, 340).set_transform(240, 170), FOCUS if lit else STEEL
     if name == "device":
-        icon(ink, "keys" if keys else "pad", 0, 10, 120, color, LINE)
+        icon(ink, device, 0, 10, 120, color, LINE)
         return LitImage(ink.lit(0.9), (-240, -170))
-    if keys:
+    if device != "pad":
         ink.line(cut_box(-110, -110, 220, 220, 24), color, LINE, True)
     else:
         ink.ring(0, 0, 116, color, LINE)

@@ -91,7 +91,7 @@ class RemapPage:
         line = focus if focus in ("device", "normal") else "function"
         dials.describe(screen, words(f"remap.{focus}"), words(f"remap.{line}_line"))
         lit = not self.awaited or self.clock % 1.0 < 0.5
-        pictures.key(focus, self.device in keyboard.DEFAULTS, lit).draw(screen, *dials.CENTRE)
+        pictures.key(focus, self._sign, lit).draw(screen, *dials.CENTRE)
         if self.navigation.sentence:
             call_to_action(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
         self.navigation.prompts.draw(screen)
@@ -116,11 +116,18 @@ class RemapPage:
     def _place(self) -> int:
         return self.devices.index(self.device)
 
+    @property
+    def _sign(self) -> str:
+        """The icon of the device."""
+        return self.context.controls.sign(_cluster(self.device)) if self.device in keyboard.DEFAULTS else "pad"
+
     def _name(self, device: str) -> str:
         if device not in keyboard.DEFAULTS:
             return self.context.words(f"devices.{device}")
-        number = [*keyboard.DEFAULTS].index(device)
-        return f"{self.context.words('devices.Keyboard')} {number + 1}"
+        cluster = _cluster(device)
+        kind = self.context.controls.name(cluster)
+        name = self.context.words(f"devices.{kind}")
+        return name if kind == "Keypad" else f"{name} {cluster.number + 1}"
 
     def _printed(self, code: int) -> str:
         known = self.device in keyboard.DEFAULTS
@@ -182,3 +189,8 @@ class RemapPage:
         except NotSaved as trouble:
             log.warning("%s", trouble)
             self.navigation.show_message(context.words("app.unsaved"))
+
+
+def _cluster(device: str) -> Device:
+    """The key cluster with this name in the settings."""
+    return Device("keys", [*keyboard.DEFAULTS].index(device))

@@ -119,7 +119,9 @@ class JoinByPhone:
         devices = self.devices()
         for seat in range(4):
             device = devices[seat] if seat < len(devices) else None
-            seat_sign(seat, device.kind if device else "").draw(screen, TEXT_X + SEAT_W * seat, SEATS_Y)
+            seat_sign(seat, self.context.controls.sign(device) if device else "").draw(
+                screen, TEXT_X + SEAT_W * seat, SEATS_Y
+            )
         waiting = [device for device in self.context.controls.handhelds() if device not in devices]
         count = sum(device.kind == "phone" for device in waiting)
         if count:

@@ -9,7 +9,22 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.ui.draw import BODY, ICE, LINE, MIST, PLAYERS, STEEL, THIN, TITLE, badge, button, icon, panel
+from pigaming_app.ui.draw import (
+    BODY,
+    ICE,
+    KEYPAD,
+    LINE,
+    MIST,
+    PLAYERS,
+    STEEL,
+    THIN,
+    TITLE,
+    badge,
+    button,
+    icon,
+    panel,
+    prompt_size,
+)
 from pigaming_app.ui.draw.frame_budget import Steps, budget
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.text import fit_size
@@ -81,13 +96,15 @@ class DeviceTable:
         layer = Layer(LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH)
         panel(layer.glow, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, PLAYERS[seat], THIN)
         badge(layer.glow, seat, LEFT + 84, y, 40)
-        icon(layer.glow, device.kind, NAMES + 40, y, 34, MIST, THIN)
+        icon(layer.glow, controls.sign(device), NAMES + 40, y, 34, MIST, THIN)
         name = words(f"devices.{controls.name(device)}")
         layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, MOVES - NAMES - 112, "body"))
         self._moves(layer, device, y)
         for x, function, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
-            wide = button(layer.canvas, x, y, words.key_name(controls.label(device, function)))
-            layer.canvas.body(words(name), x + wide + 18, y, MIST)
+            label, what = words.key_name(controls.label(device, function)), words(name)
+            size = prompt_size([(label, what)], TURBO - FIRES - 24)
+            wide = button(layer.canvas, x, y, label, size=size)
+            layer.canvas.body(what, x + wide + 18, y, MIST, size=size)
         return layer
 
     def _moves(self, layer: Layer, device: Device, y: float) -> None:
@@ -95,7 +112,9 @@ class DeviceTable:
         if device.has_stick:
             layer.glow.ring(x + 30, y, 30, ICE, THIN).ring(x + 30, y, 13, ICE, THIN)
             x += 78
-        for mark in self.context.controls.moves(device).replace(" ", ""):
+        controls = self.context.controls
+        keypad = controls.name(device) == "Keypad"
+        for mark in [KEYPAD] if keypad else controls.moves(device).replace(" ", ""):
             button(layer.canvas, x, y, mark)
             x += 66
         style = self.style_of(device)

@@ -52,7 +52,7 @@ class Ending:
         if self.rounds:
             self.rounds.add(self.match.outcome(), assisted)
             if not self.rounds.done:
-                self.round_break = RoundBreak(self.context.words, self.rounds)
+                self.round_break = RoundBreak(self.context.words, self.rounds, tuple(self.runner.players))
 
     def handle(self, event: InputEvent) -> None:
         """Skip the slow motion on a press."""

@@ -26,6 +26,7 @@ from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.numbers import numeral, signed
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, W, Y, overlay
 from pigaming_app.ui.widgets.dialog import X as SHEET_X
 from pigaming_app.ui.widgets.pips import pips
@@ -38,10 +39,10 @@ SCORES = SHEET_X + 560  # px, x of the points of the last round
 
 
 class RoundBreak:
-    """The page between two rounds, over the darkened picture of the last one."""
+    """The page between two rounds, over the darkened picture of the last one. `drivers`: of each seat at its end."""
 
-    def __init__(self, words: Words, rounds: Rounds) -> None:
-        self.words, self.rounds = words, rounds
+    def __init__(self, words: Words, rounds: Rounds, drivers: Sequence[str]) -> None:
+        self.words, self.rounds, self.drivers = words, rounds, drivers
         self.age = 0.0
         self.picture: pygame.Surface | None = None
 
@@ -70,7 +71,7 @@ class RoundBreak:
         for seat in last.winners:
             badge(layer.glow, seat, x + 46, Y + 116, 46)
             x += 116
-        title = round_title(self.words, last, self.rounds.number - 1)
+        title = round_title(self.words, last, self.rounds.number - 1, self.drivers)
         layer.canvas.text(title, fit_size(title, SUB, SHEET_X + W - 60 - x), x, Y + 116, ICE)
         rows = self.rounds.outcome().rows
         pitch = (FOOT - HEAD) / len(rows)
@@ -79,20 +80,22 @@ class RoundBreak:
             y = HEAD + pitch * (i + 0.5)
             badge(layer.glow, row.seat, SHEET_X + 118, y, 30)
             pips(layer, SHEET_X + 220, y, wins[row.seat], self.rounds.needed, PLAYERS[row.seat], 16)
-            gained = f"{points[row.seat]:+}".replace("-", "−") if points[row.seat] else "0"
-            layer.canvas.text(gained, LABEL, SCORES, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
-            total = self.words("rounds.total", points=str(row.score).replace("-", "−"))
+            layer.canvas.text(
+                signed(points[row.seat]), LABEL, SCORES, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r"
+            )
+            total = self.words("rounds.total", points=numeral(row.score))
             layer.canvas.body(total, SHEET_X + W - 72, y, MIST, "r", fit_size(total, BODY, 440, "body"))
 
 
-def round_title(words: Words, last: Outcome, number: int) -> str:
-    """The winner of a round, in one line."""
+def round_title(words: Words, last: Outcome, number: int, drivers: Sequence[str]) -> str:
+    """The winner of a round, in one line. `drivers`: "human" or the AI of each seat at its end."""
     if not last.winners:
         return words("rounds.tied", round=number)
     if len({row.team for row in last.rows}) < len(last.rows):
         team = next(row.team for row in last.rows if row.seat == last.winners[0])
         return words("rounds.team_won", round=number, team=team + 1)
-    return words("rounds.won", round=number, player=last.winners[0] + 1)
+    seat = last.winners[0]
+    return words("rounds.won" if drivers[seat] == "human" else "rounds.ai_won", round=number, player=seat + 1)
 
 
 def draw_margin(screen: pygame.Surface, words: Words, rounds: Rounds, seats: Sequence[int]) -> None:

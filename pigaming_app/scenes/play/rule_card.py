@@ -10,7 +10,7 @@ from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.match_words import sudden_death_key
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, STEEL, THIN, GlowCanvas, cut_box, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, STEEL, THIN, GlowCanvas, cut_box, readable, text_width
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, wrap_balanced
@@ -43,15 +43,16 @@ def rule_card(
 def card(title: str, sentence: str, count: int) -> Steps[Caption]:
     """A plate with a title and a sentence on at most `count` lines."""
     lines = in_lines(sentence, count)
-    size = min(fit_size(line, BODY, ROOM, "body") for line in lines)
-    wide = 2 * PAD + round(max(text_width(title, BODY), *(text_width(line, size, "body") for line in lines)))
-    high = 2 * PAD + TITLE_PITCH + LINE_PITCH * (len(lines) - 1)
+    head, title_pitch, pitch = readable(BODY), readable(TITLE_PITCH), readable(LINE_PITCH)
+    size = min(fit_size(line, head, readable(ROOM), "body") for line in lines)
+    wide = 2 * PAD + round(max(text_width(title, head), *(text_width(line, size, "body") for line in lines)))
+    high = 2 * PAD + title_pitch + pitch * (len(lines) - 1)
     ink = GlowCanvas(wide + 2 * MARGIN, high + 2 * MARGIN).set_transform(MARGIN, MARGIN)
     outline = cut_box(0, 0, wide, high)
     ink.solid(outline).line(outline, STEEL, THIN, True)
-    ink.text(title, BODY, wide / 2, PAD, FOCUS, "head", "c")
+    ink.text(title, head, wide / 2, PAD, FOCUS, "head", "c")
     for i, line in enumerate(lines):
-        ink.text(line, size, wide / 2, PAD + TITLE_PITCH + LINE_PITCH * i, ICE, "body", "c")
+        ink.text(line, size, wide / 2, PAD + title_pitch + pitch * i, ICE, "body", "c")
     yield
     image = yield from ink.sprite_steps(0.6)
     return Caption(image, wide, high)

@@ -13,6 +13,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain.overlay import BrainOverlay
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.device_words import steering
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
@@ -29,6 +30,7 @@ from pigaming_app.ui.draw import BODY, PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.input.keyboard import NUM
 from pigaming_app.ui.widgets.caption import Caption, caption
 
 PAUSED_BRIGHTNESS = 72  # of 255: brightness of a match behind a page
@@ -174,13 +176,13 @@ class MatchRunner:
         words = self.context.words
         if device:
             style = self.context.driving.of(device, self.match.setup.game, self.match.setup.variant)
-            sign = device.kind if style == TURN else PICTURES[style]
-        if device and device.has_stick:
-            return words(f"devices.{self.context.controls.name(device)}"), sign
-        if device:
-            moves = self.context.controls.moves(device)
+            controls = self.context.controls
+            sign = controls.sign(device) if style == TURN else PICTURES[style]
+            moves = steering(words, controls, device)
+            if device.has_stick:
+                return moves, sign
             steer = words("match.arrows") if "←" in moves else moves
-            return f"{steer} + {words.key_name(self.context.controls.label(device, Button.FIRE))}", sign
+            return f"{steer} + {words.key_name(controls.label(device, Button.FIRE).removeprefix(NUM))}", sign
         brain = self.players[seat]
         if brain == "human":
             return words("match.player", player=seat + 1), "pad"

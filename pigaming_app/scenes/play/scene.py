@@ -13,7 +13,7 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.ai.game_ai import ONE_BUTTON
+from pigaming_app.ai.game_ai import CHAUFFEUR, ONE_BUTTON
 from pigaming_app.ai.registry import make_brain, make_person, new_match
 from pigaming_app.events.day_log import PlayedMatch, now
 from pigaming_app.games.game import Setup
@@ -51,7 +51,6 @@ RESUME_STEP = 0.5  # seconds per number after an interruption
 HALT_AFTER = 60.0  # seconds without any input until the match is halted
 NOTICE_SECONDS = 3.0  # seconds for which a notice is shown
 NOTICE_AT = (960, 206)  # its centre on the canvas
-SUBSTITUTE_BRAIN = "level3"  # the brain that takes over for a person
 
 
 class MatchScene:
@@ -98,6 +97,7 @@ class MatchScene:
         self.began, self.noted = now(), False  # for the day log
         self.ai_assisted: set[int] = set()
         self.join_allowed = self.restart_allowed = after is None
+        self.stood_in: Sequence[int] = ()  # seats of people of an event for whom an AI drives: set by `after`
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans and arena is None:
@@ -391,10 +391,10 @@ class MatchScene:
         brain = (
             make_person(game, self.style_of(device), lambda: self._read(seat, device), new_seed())
             if device
-            else make_brain(game, SUBSTITUTE_BRAIN, new_seed())
+            else make_brain(game, CHAUFFEUR, new_seed())
         )
         self.match.sit(seat, brain)
-        self.runner.players[seat] = "human" if device else SUBSTITUTE_BRAIN
+        self.runner.players[seat] = "human" if device else CHAUFFEUR
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
@@ -445,9 +445,9 @@ class MatchScene:
         if self.after is None:
             results = self._results()
             return results.ended, results
-        absent = [seat for seat in self.humans if self.devices[seat] is None]
         following = self.after(self)
-        return EndedMatch(self.setup, self.match.outcome(), self.humans, absent, self.devices, self.names), following
+        ended = EndedMatch(self.setup, self.match.outcome(), tuple(self.devices), self.names, self.stood_in)
+        return ended, following
 
     def _results(self) -> Results:
         rounds = self.rounds if self.rounds and self.rounds.outcomes else None

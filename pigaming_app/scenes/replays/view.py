@@ -33,6 +33,7 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.numbers import numeral
 
 ROWS = 7
 TOP, HIGH, PITCH = 212, 88, 104  # px
@@ -109,7 +110,7 @@ def whole(arena: str, when: str, seats: tuple[tuple[int, str, int | None, bool],
         if won:
             icon(layer.glow, "crown", x + 76, y - 18, 15, FOCUS, 3)
         if score is not None:
-            said = str(score).replace("-", "−")
+            said = numeral(score)
             size = fit_size(said, LABEL, SLOT - 104, "hero")
             layer.canvas.text(said, size, x + 100, y + 4, mix(PLAYERS[seat], WHITE, 0.3), "hero")
         yield

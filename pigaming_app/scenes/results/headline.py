@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from pigaming_app.ai.brain_files import display_name
+from pigaming_app.ai.game_ai import CHAUFFEUR
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
@@ -16,39 +17,62 @@ from pigaming_app.ui.input.events import Device
 
 @dataclass(frozen=True)
 class EndedMatch:
-    """A match and how it ended. `absent`: seats of people replaced by an AI; `devices`: of each seat; `names`: of the
-    first seats in an event.
+    """A match and how it ended. `devices`: of each seat at its end; `names`: of the first seats in an event;
+    `stood_in`: seats of people of the event for whom an AI has driven from the start.
     """
 
     setup: Setup
     outcome: Outcome
-    humans: Sequence[int]
-    absent: Sequence[int]
     devices: Sequence[Device | None]
     names: Sequence[str] = ()
+    stood_in: Sequence[int] = ()
+
+    @property
+    def humans(self) -> list[int]:
+        """Seats of people, present or away."""
+        seats = sorted(row.seat for row in self.outcome.rows)
+        return [seat for seat in seats if self.devices[seat] or self.setup.seats[seat].brain == "human"]
+
+    @property
+    def absent(self) -> list[int]:
+        """Seats of people for whom an AI has driven."""
+        return [*(seat for seat in self.humans if not self.devices[seat]), *self.stood_in]
+
+    def brain(self, seat: int) -> str:
+        """The AI that drove a seat at the end; empty: a person."""
+        brain = self.setup.seats[seat].brain
+        return "" if self.devices[seat] else CHAUFFEUR if brain == "human" else brain
 
 
-def headline(
-    words: Words, outcome: Outcome, setup: Setup, absent: Sequence[int] = (), names: Sequence[str] = ()
-) -> str:
-    """Title for a completed match; an AI has driven for the people in `absent`. `names`: see `EndedMatch`."""
+def headline(words: Words, ended: EndedMatch) -> str:
+    """Title for a completed match."""
+    outcome, setup = ended.outcome, ended.setup
     if is_allied(setup):
         return words(f"results.stars_{stars(outcome)}")
     if not outcome.winners:
         return words("results.tie")
-    seat = outcome.winners[0]
-    if won := [names[winner] for winner in outcome.winners if winner < len(names)]:
-        return words("results.name_wins" if len(won) == 1 else "results.names_win", name=" + ".join(won))
+    seat, names = outcome.winners[0], [_entrant(words, ended, seat) for seat in outcome.winners]
+    if ended.names and len(names) > 1:
+        return words("results.names_win", name=" + ".join(names))
     if in_teams(outcome, setup):
         return words("results.team_wins", team=team_name(words, setup, setup.seats[seat].team))
-    brain = setup.seats[seat].brain
-    if brain == "human":
-        return words("results.stand_in_wins" if seat in absent else "results.wins", player=seat + 1)
+    brain = ended.brain(seat)
+    kind = "stand_in_" if seat in ended.absent else "ai_" if brain else ""
+    if seat < len(ended.names):
+        return words(f"results.{kind}name_wins", name=ended.names[seat])
+    if kind != "ai_":
+        return words(f"results.{kind}wins", player=seat + 1)
     name = (
         lit_stars(brain)
         or f"({words(f'lobby.{brain}').lower() if brain in AIS[setup.game].rivals else display_name(brain)})"
     )
     return words("results.ai_wins", player=seat + 1, name=name)
+
+
+def _entrant(words: Words, ended: EndedMatch, seat: int) -> str:
+    """The name of an entrant in a team, marked if an AI drove."""
+    name = ended.names[seat] if seat < len(ended.names) else ""
+    return words("results.ai_named", name=name) if ended.brain(seat) else name
 
 
 def in_teams(outcome: Outcome, setup: Setup) -> bool:

@@ -11,6 +11,7 @@ from pigaming_app.games.arenas import score_name
 from pigaming_app.games.game import ALLIES, RecordKind, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import Scores, ScoreTable
+from pigaming_app.ui.numbers import numeral
 
 NONE = "–"
 STRONG_LEVEL = 3  # the weakest level that counts
@@ -80,7 +81,7 @@ def contests(scores: Scores) -> list[ScoreTable]:
 
 def format_score(value: int, feat: RecordKind | ScoreTable) -> str:
     """Points, or milliseconds as minutes and seconds."""
-    return clock(value / 1000.0) if feat.timed else str(value).replace("-", "−")
+    return clock(value / 1000.0) if feat.timed else numeral(value)
 
 
 def clock(seconds: float) -> str:

@@ -8,6 +8,7 @@ import pygame
 
 from pigaming_app.ui.draw import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix, text_width
 from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.numbers import numeral
 
 Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)
 Point = tuple[float, float]
@@ -66,7 +67,7 @@ class Plot:
 
     def numbers(self) -> list[tuple[int, str]]:
         """y axis: value and label of each tick."""
-        return [(value, str(value).replace("-", "−")) for value in range(self.low, self.high + 1, self.step)]
+        return [(value, numeral(value)) for value in range(self.low, self.high + 1, self.step)]
 
     def marks(self) -> list[tuple[float, str]]:
         """x axis: value and label of each tick."""

@@ -1,15 +1,15 @@
 """The end of a match of several rounds: the podium, and the points of every round."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import pygame
 
-from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.results.headline import headline, winning_color
+from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands
-from pigaming_app.scenes.results.view import line, signed
+from pigaming_app.scenes.results.view import line
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.ui.draw import (
     BODY,
@@ -32,6 +32,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.numbers import numeral
 from pigaming_app.ui.widgets.labels import black_out
 from pigaming_app.ui.widgets.pips import pips
 
@@ -45,11 +46,9 @@ TABLE_AT = 0.2  # s, when the table appears
 class PodiumPage:
     """A page of `Results` for a match of several rounds; see `ResultsPage`."""
 
-    def __init__(
-        self, context: Context, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int], rounds: Rounds
-    ) -> None:
-        self.context, self.outcome, self.setup, self.finished = context, outcome, setup, finished
-        self.absent, self.rounds = absent, rounds
+    def __init__(self, context: Context, ended: EndedMatch, finished: bool, rounds: Rounds) -> None:
+        self.context, self.ended, self.finished, self.rounds = context, ended, finished, rounds
+        self.outcome = outcome = ended.outcome
         self.winners = outcome.winners if finished else ()
         x, w = span(0, 6)
         places = [(row.place, row.team, row.seat) for row in outcome.rows]
@@ -90,7 +89,7 @@ class PodiumPage:
 
     def _render_parts(self) -> Iterator[None]:
         """Render one widget per step."""
-        color = winning_color(self.outcome, self.setup) if self.winners else ICE
+        color = winning_color(self.outcome, self.ended.setup) if self.winners else ICE
         self.colored, self.steel = line(color, RIGHT - LEFT), line(STEEL, RIGHT - LEFT, THIN)
         yield
         self.title = self._title()
@@ -111,9 +110,9 @@ class PodiumPage:
             badge(layer.glow, seat, x + 52, 110, 50)
             x += 128
         x += 14 if self.winners else 0
-        ended = headline(words, self.outcome, self.setup, self.absent)
+        ended = headline(words, self.ended)
         said = ended if self.finished else words("results.ended")
-        color = winning_color(self.outcome, self.setup) if self.winners else ICE
+        color = winning_color(self.outcome, self.ended.setup) if self.winners else ICE
         layer.canvas.text(said, fit_size(said, TITLE, RIGHT - x), x, 112, color)
         return layer.render()
 
@@ -138,18 +137,18 @@ class PodiumPage:
         panel(layer.glow, x, y, w, ROW, PLAYERS[row.seat] if wins else STEEL, LINE if wins else THIN)
         middle = y + ROW / 2
         badge(layer.glow, row.seat, x + 76, middle, 38)
-        if (brain := self.setup.seats[row.seat].brain) != "human":
+        if brain := self.ended.brain(row.seat):
             ai_mark(layer.glow, brain, x + 146, middle, MIST)
         pips(layer, x + PIPS_X, middle, int(row.stats["wins"]), self.rounds.needed, PLAYERS[row.seat], PIP)
         for k, (points, ended) in enumerate(zip(self.rounds.points(row.seat), self.rounds.outcomes, strict=True)):
             color = FOCUS if row.seat in ended.winners else MIST
-            said = signed(points)
+            said = numeral(points)
             size = fit_size(said, LABEL, ROUND_PITCH - 16)
             right = x + ROUNDS_X + ROUND_PITCH * k
             layer.canvas.crisp.text(said, size, right, middle, color, "head", "r")
             if row.seat in ended.winners:
                 layer.canvas.crisp.line([(right - text_width(said, size), middle + 32), (right, middle + 32)], color, 4)
-        said = signed(row.score)
+        said = numeral(row.score)
         size = fit_size(said, SUB, 150, "hero")
         layer.canvas.text(said, size, x + w - 32, middle, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
         return layer.render()

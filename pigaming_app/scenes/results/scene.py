@@ -46,9 +46,6 @@ SceneFactory = Callable[
 class Page(Protocol):
     """The page without the votes."""
 
-    outcome: Outcome
-    setup: Setup
-    absent: Sequence[int]  # seats of people replaced by an AI
     ready_at: float  # s, when it is complete
 
     def prewarm(self, milliseconds: float) -> bool:
@@ -85,14 +82,10 @@ class Results:
         self.context, self.setup, self.rematch, self.game_choice = context, setup, rematch, game_choice
         self.recording = recording
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
-        humans = [seat for seat in seats if setup.seats[seat].brain == "human" or devices[seat]]
-        self.ballot = RematchVote(context, seats, humans, devices)
-        absent = [seat for seat in humans if devices[seat] is None]
-        self.ended = EndedMatch(setup, outcome, humans, absent, devices)
+        self.ended = EndedMatch(setup, outcome, tuple(devices))
+        self.ballot = RematchVote(context, seats, self.ended.humans, devices)
         self.page: Page = (
-            PodiumPage(context, outcome, setup, finished, absent, rounds)
-            if rounds
-            else ResultsPage(context, outcome, setup, finished, absent)
+            PodiumPage(context, self.ended, finished, rounds) if rounds else ResultsPage(context, self.ended, finished)
         )
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
         self.claims = qualifying(context, outcome, setup, own) if finished or rounds else []

@@ -13,6 +13,7 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.headline import is_allied, team_name
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
+from pigaming_app.ui.numbers import numeral
 
 
 class Runner(Protocol):
@@ -130,4 +131,4 @@ def score_text(setup: Setup, score: int) -> str:
     """A score as shown: laps with their number, else points or pallets."""
     if games()[setup.game].timed and setup.goal:
         return f"{min(score, setup.goal)}/{setup.goal}"
-    return str(score).replace("-", "−")
+    return numeral(score)

@@ -7,11 +7,11 @@ from itertools import groupby
 import pygame
 
 from pigaming_app.games.arenas import load
-from pigaming_app.games.game import Outcome, Row, Setup
+from pigaming_app.games.game import Row
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
-from pigaming_app.scenes.results.headline import headline, is_allied, stars, winning_color
+from pigaming_app.scenes.results.headline import EndedMatch, headline, is_allied, stars, winning_color
 from pigaming_app.scenes.results.high_score_tables import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
@@ -39,6 +39,7 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.numbers import numeral
 
 TOP, ROW, PITCH = 280, 120, 136
 TIMES = ("best", "total")  # columns in s
@@ -61,11 +62,9 @@ class Part:
 class ResultsPage:
     """The results page without the votes."""
 
-    def __init__(
-        self, context: Context, outcome: Outcome, setup: Setup, finished: bool, absent: Sequence[int] = ()
-    ) -> None:
-        self.context, self.outcome, self.setup, self.finished = context, outcome, setup, finished
-        self.absent = absent  # seats of people replaced by an AI
+    def __init__(self, context: Context, ended: EndedMatch, finished: bool) -> None:
+        self.context, self.ended, self.finished = context, ended, finished
+        self.outcome, self.setup = outcome, setup = ended.outcome, ended.setup
         self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
         game = games()[setup.game]
@@ -162,7 +161,7 @@ class ResultsPage:
             badge(layer.glow, seat, x + 52, 110, 50)
             x += 128
         x += 14 if self.winners and not self.stars else 0
-        ended = headline(words, self.outcome, self.setup, self.absent)
+        ended = headline(words, self.ended)
         text = ended if self.finished else words("results.ended")
         size = fit_size(text, TITLE, self.room - x - (130 if self.winners else 0))
         layer.canvas.text(text, size, x, 112, self._color())
@@ -216,7 +215,7 @@ class ResultsPage:
         wins = rows[0].seat in self.winners
         layer = Layer(x, y, w, h)
         panel(layer.glow, x, y, w, h, self._team_color(rows) if wins else STEEL, LINE if wins else THIN)
-        number = str(rows[0].place) if not self.by_team else signed(sum(row.score for row in rows))
+        number = str(rows[0].place) if not self.by_team else numeral(sum(row.score for row in rows))
         color = ICE if wins else MIST
         layer.canvas.text(number, fit_size(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
@@ -229,14 +228,14 @@ class ResultsPage:
     def _row(self, layer: Layer, row: Row, x: int, y: float, color: Color) -> None:
         """One robot: badge, score and the statistics of the game."""
         badge(layer.glow, row.seat, x + BADGE_X, y, 38)
-        brain = self.setup.seats[row.seat].brain
-        if brain != "human":
+        brain = self.ended.brain(row.seat)
+        if brain:
             ai_mark(layer.glow, brain, x + AI_X, y, MIST)
         ends = self._ends()
         for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
             text, room = self.context.words.decimal(cell(name, row)), right - before - APART_X
             if name == self.columns[0]:
-                size = fit_size(text, SUB, room - (50 if brain != "human" else 0), "hero")
+                size = fit_size(text, SUB, room - (50 if brain else 0), "hero")
                 layer.canvas.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
             else:
                 layer.canvas.crisp.text(text, fit_size(text, LABEL, room), x + right, y, color, "head", "r")
@@ -313,16 +312,11 @@ def line(color: Color, length: float, width: int = LINE) -> LitImage:
     return layer.render()
 
 
-def signed(number: int) -> str:
-    """A number with a proper minus sign."""
-    return str(number).replace("-", "−")
-
-
 def cell(name: str, row: Row) -> str:
     """Text of a row in a column."""
     if name == "score":
-        return signed(row.score)
+        return numeral(row.score)
     value = row.stats[name]
     if name in TIMES:
         return clock(value)
-    return f"{round(100 * value)}%" if name == "aim" else signed(round(value))
+    return f"{round(100 * value)}%" if name == "aim" else numeral(round(value))

@@ -56,6 +56,7 @@ NAME_Y, PROMPT_Y = 838, 984
 SCALES = {1: (4.4, 0), 2: (3.5, 520), 3: (2.9, 460), 4: (2.4, 400)}  # scale of so many robots, and px between them
 BARREL, RING = 64.0, 54.0  # px, before scaling: from a robot's centre to its muzzle; radius of the ring round it
 RAYS, RAY_PARTS, RAY_FLAT = 48, 5, 0.62  # rays, dashes of each, and their height relative to their width
+NAME_W, MOST_W = 1640, 1800  # px, of the headline; with its outline and glow, as it appears
 OUTLINE = 12  # px, black outline of the headline
 POPS, POP = 4, 0.12  # cached sizes of the headline as it appears, and s that it takes
 STAR_R, STAR_PITCH = 58, 170  # px
@@ -85,8 +86,8 @@ class WinnersMoment:
         half = (len(self.seats) - 1) / 2
         self.places = [(MIDDLE[0] + pitch * (i - half), MIDDLE[1]) for i in range(len(self.seats))]
         self.color = winning_color(self.outcome, self.setup)
-        self.name = headline(context.words, self.outcome, self.setup, ended.absent, ended.names)
-        self.size = fit_size(self.name, HERO * 3 // 4, 1640, "hero")
+        self.name = headline(context.words, ended)
+        self.size = fit_size(self.name, HERO * 3 // 4, NAME_W, "hero")
         self.celebration = Celebration(self.setup.game, self.seats, self._colors())
         cheerful = self.stars != 0
         self.volleys = [*VOLLEYS] if cheerful else []
@@ -265,7 +266,8 @@ def popped(text: str, size: int, color: Color, pop: int) -> Sprite:
     whole = title(text, size, color)
     if pop == POPS - 1:
         return whole
-    scale = 1.0 + 0.25 * (1.0 - (pop + 1) / POPS)
+    room = MOST_W / whole.image.get_width() - 1.0
+    scale = 1.0 + max(0.0, min(0.25, room)) * (1.0 - (pop + 1) / POPS)
     image = pygame.transform.smoothscale_by(whole.image, scale)
     return Sprite(image, round(whole.dx * scale), round(whole.dy * scale))
 

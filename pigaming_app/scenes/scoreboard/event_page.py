@@ -126,13 +126,14 @@ def _paint_card(one: Called, surface: pygame.Surface) -> None:
 def _podium(now: EventNow) -> Part:
     best, rest = podium_page.podium_rows(now.running), podium_page.places_below(now.running)
     box = (60, TOP, 1800, H)
-    content = tuple((row.place, row.entrant) for row in (*best, *rest))
+    robots = podium_page.robots_of(now.running)
+    content = (*((row.place, row.entrant) for row in (*best, *rest)), robots)
 
     def paint(surface: pygame.Surface) -> None:
         dx, dy, middle = -box[0], -box[1], podium_page.centre(rest)
         steps = [Stand(row.place, (i,)) for i, row in enumerate(best)]
         Podium(dx + middle, dy + podium_page.FOOT, steps).draw(surface, STILL)
-        podium_page.draw_names(surface, middle, best, rest, range(len(best)), dx, dy)
+        podium_page.draw_names(surface, middle, best, rest, range(len(best)), robots, dx, dy)
 
     return Part(box, content, paint)
 

@@ -19,6 +19,7 @@ from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.numbers import signed
 
 ABOVE = 66  # px from a robot up to the points that it has just made
 
@@ -76,7 +77,7 @@ class SimpleView(MatchView):
             robot = state.robots[seat]
             if robot.score > self.scores[seat]:
                 x, y, _ = self.current_poses[seat]
-                self.particles.score(x, y - self.reach(seat, ABOVE), f"+{robot.score - self.scores[seat]}", seat)
+                self.particles.score(x, y - self.reach(seat, ABOVE), signed(robot.score - self.scores[seat]), seat)
                 self.particles.burst(x, y, PLAYERS[seat], 16, 46, 60)
                 self.rumbles[seat] = GIVEN
                 cues.append(("pickup", seat, robot.x))

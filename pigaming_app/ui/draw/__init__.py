@@ -5,7 +5,18 @@ Scenes import these names from here rather than from theme, glow, icons and part
 
 from pigaming_app.ui.draw.glow import ADD, MULT, NEAR, PRE, WIDE, GlowCanvas, Halos, LayeredCanvas
 from pigaming_app.ui.draw.icons import ICONS, icon
-from pigaming_app.ui.draw.parts import ARROWS, SIGNS, badge, brackets, button, button_width, hints, panel
+from pigaming_app.ui.draw.parts import (
+    ARROWS,
+    KEYPAD,
+    SIGNS,
+    badge,
+    brackets,
+    button,
+    button_width,
+    hints,
+    panel,
+    prompt_size,
+)
 from pigaming_app.ui.draw.theme import (
     ALARM,
     BLACK,
@@ -40,6 +51,7 @@ from pigaming_app.ui.draw.theme import (
     mix,
     read_large,
     readable,
+    reads_large,
     regular_polygon,
     shape_points,
     star_points,
@@ -61,6 +73,7 @@ __all__ = [
     "HERO",
     "ICE",
     "ICONS",
+    "KEYPAD",
     "LABEL",
     "LINE",
     "MIST",
@@ -96,8 +109,10 @@ __all__ = [
     "icon",
     "mix",
     "panel",
+    "prompt_size",
     "read_large",
     "readable",
+    "reads_large",
     "regular_polygon",
     "shape_points",
     "star_points",

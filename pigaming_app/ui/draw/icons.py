@@ -98,6 +98,16 @@ def _keys(pen: Pen) -> None:
     pen.line((-0.4, 0.34), (0.4, 0.34))
 
 
+def _keypad(pen: Pen) -> None:
+    """Three rows of keys above a wide one."""
+    for row in range(4):
+        for column in range(3):
+            x, y = -0.78 + 0.56 * column, -0.98 + 0.5 * row
+            if row < 3 or column == 2:
+                pen.line(*cut_box(x, y, 0.44, 0.4, 0.06), closed=True)
+    pen.line(*cut_box(-0.78, 0.52, 1.0, 0.4, 0.06), closed=True)
+
+
 def _ai(pen: Pen) -> None:
     pen.line(*cut_box(-0.72, -0.42, 1.44, 1.1, 0.22), closed=True)
     pen.dot(-0.3, 0.08, 0.14)
@@ -271,6 +281,7 @@ ICONS: dict[str, Callable[[Pen], None]] = {
     "pad": _pad,
     "phone": _phone,
     "keys": _keys,
+    "keypad": _keypad,
     "ai": _ai,
     "check": _check,
     "crown": _crown,

@@ -23,7 +23,12 @@ from pigaming_app.ui.draw.theme import (
 )
 
 ARROWS = {"↑": "up", "↓": "down", "←": "left", "→": "right"}  # missing from our fonts
-SIGNS = {**ARROWS, "Cross": "cross", "Circle": "circle", "Square": "square", "Triangle": "triangle"}  # PlayStation's
+KEYPAD = "keypad"  # stands for the keys that steer on it
+SIGNS = {
+    **ARROWS,
+    **{"Cross": "cross", "Circle": "circle", "Square": "square", "Triangle": "triangle"},  # PlayStation's
+    KEYPAD: "keypad",
+}
 
 
 def badge(ink: GlowCanvas, player: int, x: float, y: float, r: float = 32, color: Color | None = None) -> None:
@@ -35,17 +40,17 @@ def badge(ink: GlowCanvas, player: int, x: float, y: float, r: float = 32, color
     ink.text(str(player + 1), round(r * size), x, y + r * low * 1.75, BLACK, "hero", "c")
 
 
-def button_width(label: str) -> float:
+def button_width(label: str, size: int = BODY) -> float:
     """Width of a button, px. "<>" is drawn as two arrows; keys of SIGNS are drawn as icons."""
     if len(label) == 1 or label in SIGNS:
         return 60
-    return 104 if label == "<>" else max(60, text_width(label, BODY) + 36)
+    return 104 if label == "<>" else max(60, text_width(label, size) + 36)
 
 
-def button(canvas: LayeredCanvas, x: float, y: float, label: str, color: Color = ICE, r: float = 30) -> float:
+def button(canvas: LayeredCanvas, x: float, y: float, label: str, color: Color = ICE, size: int = BODY) -> float:
     """Draw a pad button or key with the label printed on the device, from its left edge x. Returns its width."""
-    w = button_width(label)
-    if label in ARROWS or w != 60:
+    w, r = button_width(label, size), 30
+    if label in ARROWS or label == KEYPAD or w != 60:
         canvas.glow.line(cut_box(x, y - r + 2, w, 2 * r - 4, 10), color, THIN, True)
     else:
         canvas.glow.ring(x + r, y, r - 2, color, THIN)
@@ -55,8 +60,17 @@ def button(canvas: LayeredCanvas, x: float, y: float, label: str, color: Color =
     elif label in SIGNS:
         icon(canvas.crisp, SIGNS[label], x + w / 2, y, 16, color, 5)
     else:
-        canvas.crisp.text(label, BODY, x + w / 2, y, color, "head", "c")
+        canvas.crisp.text(label, size, x + w / 2, y, color, "head", "c")
     return w
+
+
+def prompt_size(prompts: Sequence[tuple[str, str]], room: float, gap: float = 0.0) -> int:
+    """The largest type size up to BODY, px, at which buttons with their texts, `gap` px apart, fit `room` px."""
+    for size in range(BODY, 28, -2):
+        widths = [button_width(label, size) + 18 + text_width(what, size, "body") for label, what in prompts]
+        if sum(widths) + gap * (len(widths) - 1) <= room:
+            return size
+    return 28
 
 
 def hints(canvas: LayeredCanvas, items: Sequence[tuple[str, str]], y: float = 980, gap: float = 56) -> None:

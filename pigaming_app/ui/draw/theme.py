@@ -50,6 +50,11 @@ def read_large(large: bool) -> None:
     _Reading.scale = LARGER if large else 1.0
 
 
+def reads_large() -> bool:
+    """True if readable texts are larger than usual."""
+    return _Reading.scale > 1.0
+
+
 def readable(size: int) -> int:
     """The size at which a text is set whose box has room for larger ones, px."""
     return round(size * _Reading.scale)

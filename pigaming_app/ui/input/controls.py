@@ -170,8 +170,27 @@ class Controls:
         """Every device that can drive a robot: connected pads and phones, and the key clusters."""
         return [*self.handhelds(), *(Device("keys", number) for number in range(len(keyboard.CLUSTERS)))]
 
+    def offered(self) -> list[Device]:
+        """The same without a keypad of which no key was ever pressed: laptops have none."""
+        return [device for device in self.players() if self.has_keypad or self.name(device) != "Keypad"]
+
+    @property
+    def has_keypad(self) -> bool:
+        """True if a key of the keypad was pressed, now or in an earlier start."""
+        return self._keyboard.has_keypad
+
+    @has_keypad.setter
+    def has_keypad(self, known: bool) -> None:
+        self._keyboard.has_keypad = known
+
+    def sign(self, device: Device) -> str:
+        """The icon of a device."""
+        return "keypad" if self.name(device) == "Keypad" else device.kind
+
     def name(self, device: Device) -> str:
-        """The type of a device: Xbox, PlayStation, Nintendo, Joystick, Phone, Keyboard or Mouse."""
+        """The type of a device: Xbox, PlayStation, Nintendo, Joystick, Phone, Keyboard, Keypad or Mouse."""
+        if device.kind == "keys" and self._keyboard.clusters[device.number].on_keypad:
+            return "Keypad"
         if device.kind == "pad":
             pad = self._pads.plugged.get(device.number)
             return pad.kind if pad else "Joystick"
@@ -203,6 +222,8 @@ class Controls:
                 yield self._lost(Device("pad", event.instance_id))
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._release_keys()
+        elif event.type == pygame.KEYMAPCHANGED:
+            self._keyboard.new_layout()
         elif event.type == pygame.MOUSEMOTION:
             yield InputEvent(Button.POINT, _MOUSE, at=self._to_canvas(event.pos))
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:

@@ -6,6 +6,8 @@ devices act, by the most recently used seated one.
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
+from typing import Any, cast
 
 import pygame
 
@@ -13,10 +15,22 @@ from pigaming_app.ui.input.events import Button, Device, StickState
 from pigaming_app.ui.input.filters import ButtonChange
 from pigaming_app.ui.input.remap import Tables, merged
 
+KEYPAD = frozenset(range(pygame.KSCAN_KP_DIVIDE, pygame.KSCAN_KP_PERIOD + 1))  # the keys that most laptops lack
+NUM = "NUM "  # before the label of a key on the keypad
+FUNCTIONS = {
+    "up": Button.UP,
+    "left": Button.LEFT,
+    "down": Button.DOWN,
+    "right": Button.RIGHT,
+    "fire": Button.FIRE,
+    "turbo": Button.LEAVE_SEAT,
+}  # of each cluster, by the names of its fields
+STEERING = ("up", "left", "down", "right")
+
 
 @dataclass(frozen=True)
 class Cluster:
-    """The scancodes of one cluster and the labels of its keys."""
+    """The scancodes of one cluster, those that are shown first."""
 
     up: tuple[int, ...]
     left: tuple[int, ...]
@@ -24,13 +38,21 @@ class Cluster:
     right: tuple[int, ...]
     fire: tuple[int, ...]
     turbo: tuple[int, ...]
-    moves: str
-    key_name: dict[Button, str]
 
+    def label(self, button: Button) -> str:
+        """What is printed on the key for a button; empty if there is none."""
+        return next((key_label(getattr(self, name)[0]) for name, other in FUNCTIONS.items() if other is button), "")
 
-def _labels(up: str, left: str, down: str, right: str, fire: str, turbo: str) -> dict[Button, str]:
-    buttons = (Button.UP, Button.LEFT, Button.DOWN, Button.RIGHT, Button.FIRE, Button.LEAVE_SEAT)
-    return dict(zip(buttons, (up, left, down, right, fire, turbo), strict=True))
+    @property
+    def moves(self) -> str:
+        """The signs on the four steering keys."""
+        up, left, down, right = (self.label(FUNCTIONS[name]).removeprefix(NUM) for name in STEERING)
+        return f"{left} {up} {down} {right}" if up == "↑" else up + left + down + right
+
+    @property
+    def on_keypad(self) -> bool:
+        """True if it steers with keys of the keypad."""
+        return all(getattr(self, name)[0] in KEYPAD for name in STEERING)
 
 
 CLUSTERS = (
@@ -41,8 +63,6 @@ CLUSTERS = (
         (pygame.KSCAN_D,),
         (pygame.KSCAN_SPACE,),
         (pygame.KSCAN_LSHIFT,),
-        "WASD",
-        _labels("W", "A", "S", "D", "SPACE", "SHIFT"),
     ),
     Cluster(
         (pygame.KSCAN_UP,),
@@ -51,8 +71,6 @@ CLUSTERS = (
         (pygame.KSCAN_RIGHT,),
         (pygame.KSCAN_RCTRL, pygame.KSCAN_SLASH),  # many laptops have no right Ctrl
         (pygame.KSCAN_RSHIFT,),
-        "← ↑ ↓ →",
-        _labels("↑", "←", "↓", "→", "R CTRL", "R SHIFT"),
     ),
     Cluster(
         (pygame.KSCAN_I,),
@@ -61,8 +79,6 @@ CLUSTERS = (
         (pygame.KSCAN_L,),
         (pygame.KSCAN_U,),
         (pygame.KSCAN_O,),
-        "IJKL",
-        _labels("I", "J", "K", "L", "U", "O"),
     ),
     Cluster(
         (pygame.KSCAN_KP8,),
@@ -71,8 +87,6 @@ CLUSTERS = (
         (pygame.KSCAN_KP6,),
         (pygame.KSCAN_KP0, pygame.KSCAN_KP_ENTER),
         (pygame.KSCAN_KP_PLUS,),
-        "8456",
-        _labels("8", "4", "5", "6", "0", "+"),
     ),
 )
 
@@ -87,49 +101,47 @@ _SHARED = {
     pygame.KSCAN_F1: Button.STOP,
 }
 SHARED = frozenset(_SHARED.values())
-_SHARED_LABELS = {
-    Button.START: "ENTER",
-    Button.BACK: "ESC",
-    Button.Y: "TAB",
-    Button.X: "X",
-    Button.BRAIN: "F4",
-    Button.STOP: "F1",
-}
+_SHOWN = {button: code for code, button in reversed(_SHARED.items())}  # the key of each that is shown
 _SYSTEM_MODIFIERS = pygame.KMOD_LALT | pygame.KMOD_GUI  # modifiers of window-manager shortcuts
+_UNUSABLE = {*_SHARED, *range(pygame.KSCAN_F1, pygame.KSCAN_F12 + 1)}
+_UNUSABLE |= {pygame.KSCAN_LALT, pygame.KSCAN_LGUI, pygame.KSCAN_RGUI}
 
-
-FUNCTIONS = {
-    "up": Button.UP,
-    "left": Button.LEFT,
-    "down": Button.DOWN,
-    "right": Button.RIGHT,
-    "fire": Button.FIRE,
-    "turbo": Button.LEAVE_SEAT,
-}  # of each cluster, by the names of its fields
 DEFAULTS = {
     f"keys{number}": {name: getattr(cluster, name)[0] for name in FUNCTIONS}
     for number, cluster in enumerate(CLUSTERS, start=1)
 }  # the first key of each function
-_PRINTED = {
-    code: cluster.key_name[button]
-    for cluster in CLUSTERS
-    for name, button in FUNCTIONS.items()
-    for code in getattr(cluster, name)[:1]
-}  # on the keys of the clusters
+_NAMED = {
+    pygame.KSCAN_UP: "↑",
+    pygame.KSCAN_LEFT: "←",
+    pygame.KSCAN_DOWN: "↓",
+    pygame.KSCAN_RIGHT: "→",
+    pygame.KSCAN_LSHIFT: "SHIFT",
+    pygame.KSCAN_RETURN: "ENTER",
+    pygame.KSCAN_ESCAPE: "ESC",
+}
 _SCANCODE = 1 << 30  # marks a keycode that is a scancode, see SDL_Keycode
 
 
 def key_label(code: int) -> str:
-    """What is printed on a key, on an English keyboard."""
+    """What is printed on a key: on one with a sign that of the present layout, on others their English name."""
+    if sign := _signs(pygame.display.get_init()).get(code):
+        return sign
     name = pygame.key.name(code | _SCANCODE, use_compat=False).upper()
-    return _PRINTED.get(code) or name.replace("LEFT ", "L ").replace("RIGHT ", "R ").replace("KEYPAD ", "")
+    return _NAMED.get(code) or name.replace("LEFT ", "L ").replace("RIGHT ", "R ").replace("KEYPAD ", NUM)
+
+
+@cache
+def _signs(known: bool) -> Mapping[int, str]:
+    """The sign on each key of the present layout, by scancode, of those that our fonts have. `known`: SDL knows it."""
+    scancodes = pygame.key.ScancodeWrapper(cast(Any, range(512)))  # a keycode as an index yields its key's scancode
+    signs = {scancodes[code]: chr(code) for code in (*range(161, 256), *range(126, 32, -1))}
+    return {code: sign.upper() if len(sign.upper()) == 1 else sign for code, sign in signs.items() if code}
 
 
 def usable(function: str, code: int) -> bool:
     """True if a key can have a function: menus do not need it; one that steers has one character."""
-    label = key_label(code)
-    shared = code in _SHARED or pygame.KSCAN_F1 <= code <= pygame.KSCAN_F12
-    return not shared and 0 < len(label) <= (1 if function in ("up", "left", "down", "right") else 9)
+    label, steers = key_label(code), function in STEERING
+    return code not in _UNUSABLE and 0 < len(label.removeprefix(NUM) if steers else label) <= (1 if steers else 9)
 
 
 def _changed(tables: Tables) -> tuple[Cluster, ...]:
@@ -142,11 +154,7 @@ def _changed(tables: Tables) -> tuple[Cluster, ...]:
             for name, code in codes.items()
             if code == DEFAULTS[device][name]
         }
-        keys = {name: keys.get(name, (code,)) for name, code in codes.items()}
-        labels = {button: key_label(codes[name]) for name, button in FUNCTIONS.items()}
-        steered = [labels[button] for button in (Button.UP, Button.LEFT, Button.DOWN, Button.RIGHT)]
-        same = all(codes[name] == DEFAULTS[device][name] for name in ("up", "left", "down", "right"))
-        clusters.append(Cluster(**keys, moves=cluster.moves if same else "".join(steered), key_name=labels))
+        clusters.append(Cluster(**{name: keys.get(name, (code,)) for name, code in codes.items()}))
     return tuple(clusters)
 
 
@@ -155,6 +163,7 @@ class Keyboard:
 
     def __init__(self) -> None:
         self._down: set[int] = set()
+        self.has_keypad = False  # a key of it was pressed, now or in an earlier start
         self.remap({})
         self.latest = tuple(Device("keys", number) for number in range(len(CLUSTERS)))  # most recently used first
 
@@ -181,6 +190,7 @@ class Keyboard:
         if down == (code in self._down) or (down and event.mod & _SYSTEM_MODIFIERS):
             return
         (self._down.add if down else self._down.discard)(code)
+        self.has_keypad = self.has_keypad or code in KEYPAD
         if code in self._own:
             device, button = self._own[code]
             if down:
@@ -192,6 +202,10 @@ class Keyboard:
     def release(self) -> None:
         """Release all keys: the window lost the focus, so their KEYUP events will not arrive."""
         self._down.clear()
+
+    def new_layout(self) -> None:
+        """Read the signs on the keys again: the user has changed the layout."""
+        _signs.cache_clear()
 
     def drive(self, number: int) -> StickState:
         """The current state of a cluster."""
@@ -205,4 +219,6 @@ class Keyboard:
 
     def label(self, number: int, button: Button) -> str:
         """The label of a cluster's key for a button; empty if there is none."""
-        return self.clusters[number].key_name.get(button) or _SHARED_LABELS.get(button, "")
+        if button in SHARED:
+            return key_label(_SHOWN[button])
+        return self.clusters[number].label(button)

@@ -19,6 +19,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.draw.text import SMALLEST
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -85,7 +86,7 @@ class ButtonPrompts:
 def places(prompts: Sequence[tuple[str, str]], room: int) -> list[tuple[float, float]]:
     """Left and right end of each prompt, px."""
     size = type_size(prompts, room)
-    widths = [button_width(label) + 18 + text_width(text, size, "body") for label, text in prompts]
+    widths = _widths(prompts, size)
     fitting = [gap for gap in GAPS if sum(widths) + gap * (len(widths) - 1) <= room]
     gap = fitting[0] if fitting else GAPS[-1]
     x, ends = (1920 - sum(widths) - gap * (len(widths) - 1)) / 2, []
@@ -96,10 +97,15 @@ def places(prompts: Sequence[tuple[str, str]], room: int) -> list[tuple[float, f
 
 
 def type_size(prompts: Sequence[tuple[str, str]], room: int) -> int:
-    """The size of the texts, px: the readable one, if the row has room for it."""
-    size = readable(BODY)
-    wide = sum(button_width(label) + 18 + text_width(text, size, "body") + GAPS[-1] for label, text in prompts)
-    return size if wide <= room else BODY
+    """The size of the texts, px: the readable one if the row has room for it, else the largest that has."""
+    gaps = GAPS[-1] * (len(prompts) - 1)
+    sizes = [readable(BODY), *range(BODY, SMALLEST, -2), SMALLEST]
+    return next((size for size in sizes if sum(_widths(prompts, size)) + gaps <= room), SMALLEST)
+
+
+def _widths(prompts: Sequence[tuple[str, str]], size: int) -> list[float]:
+    """The width of each prompt, px; the labels of buttons are at most of size BODY."""
+    return [button_width(label, min(size, BODY)) + 18 + text_width(text, size, "body") for label, text in prompts]
 
 
 @cached
@@ -108,5 +114,6 @@ def row(prompts: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
     ends, size = places(prompts, room), type_size(prompts, room)
     layer = Layer(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
     for (label, text), (left, _) in zip(prompts, ends, strict=True):
-        layer.canvas.body(text, left + button(layer.canvas, left, y, label) + 18, y, MIST, "l", size)
+        wide = button(layer.canvas, left, y, label, size=min(size, BODY))
+        layer.canvas.body(text, left + wide + 18, y, MIST, "l", size)
     return layer.render()

@@ -17,11 +17,13 @@ from pigaming_app.ui.draw import (
     badge,
     cut_box,
     icon,
+    readable,
     text_width,
 )
 from pigaming_app.ui.draw.surface_cache import cached
 
 MARGIN = 24  # px of glow round a plate
+ROOM = 1500  # px of a larger text
 
 
 @dataclass(frozen=True)
@@ -65,12 +67,15 @@ def caption(
     text: str,
     color: Color = STEEL,
     ink_color: Color = ICE,
-    size: int = BODY,
+    size: int = 0,
     player: int | None = None,
     sign: str | None = None,
     face: str = "body",
 ) -> Caption:
-    """A plate outlined in `color`, with a player's badge and an icon before the text if given."""
+    """A plate outlined in `color`, with a player's badge and an icon before the text if given. `size`: of the type, px;
+    0: of readable texts.
+    """
+    size = size or (readable(BODY) if text_width(text, readable(BODY), face) <= ROOM else BODY)
     high = round(size * 1.7)
     lead = (0 if player is None else round(size * 1.35)) + (0 if sign is None else round(size * 1.35))
     wide = round(text_width(text, size, face)) + lead + 2 * round(size * 0.6)

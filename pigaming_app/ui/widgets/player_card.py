@@ -4,7 +4,6 @@ A card is W x H px, with its upper left corner at (0, 0).
 """
 
 from pigaming_app.ui.draw import (
-    BODY,
     FOCUS,
     ICE,
     LABEL,
@@ -16,6 +15,7 @@ from pigaming_app.ui.draw import (
     cut_box,
     dim,
     icon,
+    prompt_size,
     text_width,
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
@@ -45,10 +45,9 @@ def ask_bar(label: str, sentence: str, level: int) -> LitImage:
     """The bar that asks a player to press a button when ready."""
     if level < LEVELS:
         return dimmed(ask_bar(label, sentence, LEVELS), level / LEVELS)
-    wide = button_width(label)
-    size = fit_size(sentence, BODY, W - 40 - wide - 18, "body")
-    x = MIDDLE - (wide + 18 + text_width(sentence, size, "body")) / 2
+    size = prompt_size([(label, sentence)], W - 40)
+    x = MIDDLE - (button_width(label, size) + 18 + text_width(sentence, size, "body")) / 2
     layer = Layer(*BAR)
     layer.canvas.body(sentence, x, BAR_Y, ICE, "l", size)
-    button(layer.canvas, x + text_width(sentence, size, "body") + 18, BAR_Y, label, FOCUS)
+    button(layer.canvas, x + text_width(sentence, size, "body") + 18, BAR_Y, label, FOCUS, size)
     return layer.render()

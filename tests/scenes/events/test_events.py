@@ -20,7 +20,7 @@ from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.next_view import match_line
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import PodiumPage, robots_of
 from pigaming_app.scenes.events.poster import drawn
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
@@ -293,6 +293,17 @@ def test_people_take_the_seats_of_their_names_and_the_result_is_on_disk_at_once(
     assert arcade.shown(NextMatch).fixture != fixture
 
 
+def test_an_ai_that_wins_for_somebody_absent_is_called_one(arcade: Arcade) -> None:
+    page = at_next(arcade, running(an_event()))
+    assert page.fixture
+    absent = page.fixture.entrants[1]
+    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.Y)
+    arcade.wait(ALL_READY + 0.2)
+    finish(arcade, (1, 5))
+    assert arcade.shown(WinnersMoment).name == f"The AI for {absent} wins!"
+
+
 def test_each_pad_takes_its_own_seat_first(arcade: Arcade) -> None:
     with VirtualPad() as one, VirtualPad() as two:
         arcade.frame()
@@ -464,6 +475,7 @@ def test_a_match_of_ais_is_a_show_and_the_next_one_begins_by_itself(arcade: Arca
     at_next(arcade, run)
     arcade.press(Button.FIRE)
     finish(arcade, (3, 1))
+    assert arcade.shown(WinnersMoment).name == f"AI {run.event.fixtures[0].entrants[0]} wins!"
     arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
     assert len(saved(run).outcomes) == 1
     arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
@@ -474,6 +486,9 @@ def test_the_podium_ends_an_event_and_leads_to_the_table(arcade: Arcade) -> None
     at_next(arcade, run)
     page = arcade.shown(PodiumPage)
     assert page.best[0].entrant == run.event.standings[0].entrant
+    assert not page.robots
+    ais = running(played(an_event(Format.KNOCKOUT, 5, brains="level1")), "ais")
+    assert {row.entrant for row in PodiumPage(arcade.context, ais).best} <= robots_of(ais)
     arcade.wait(4.0, draw=True)
     arcade.press(Button.FIRE)
     arcade.shown(TablePage)

@@ -12,12 +12,14 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.scenes.lab import saved_robots, scene
 from pigaming_app.scenes.lab.challenge import ROBOT, Challenge
 from pigaming_app.scenes.lab.compare_page import ComparePage
 from pigaming_app.scenes.lab.layout import MATCH
 from pigaming_app.scenes.lab.menu import LabMenu
+from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.lab.network.kind_switch import NETWORK, TABLE, kind_rect
 from pigaming_app.scenes.lab.network.trainer import DEATHS, NetworkTrainer
 from pigaming_app.scenes.lab.scene import Lab
@@ -64,9 +66,13 @@ def wait(arcade: Arcade, condition: Callable[[], bool], timeout: float = 120.0) 
         time.sleep(0.01)
 
 
-def choose_network(arcade: Arcade) -> NetworkTrainer:
+def switch(arcade: Arcade) -> None:
     lab(arcade).focus.move_to("kind")
     arcade.press(Button.FIRE)
+
+
+def choose_network(arcade: Arcade) -> NetworkTrainer:
+    switch(arcade)
     return lab(arcade).network
 
 
@@ -201,17 +207,80 @@ def test_where_the_network_cannot_train_only_the_table_is_left(arcade: Arcade, b
     compiler.end()
 
 
-def test_without_numba_the_switch_gives_one_sentence(
+def test_without_numba_the_switch_fetches_it_and_tells_what_to_do(
     controls: Controls, home: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("pigaming_app.scenes.lab.network.trainer.can_compile", lambda: False)
     arcade = Arcade(controls, "pt")
-    arcade.open(Lab(arcade.context, fast=False))
+    arcade.context.network_fetch = fetching("print('offline')")
+    here = Lab(arcade.context, fast=False)
+    arcade.open(here)
     arcade.wait(0.5)
-    choose_network(arcade)
-    here = lab(arcade)
-    assert (here.kind, here.wrong, here.sentence) == (TABLE, True, arcade.context.words("lab.no_network"))
+    switch(arcade)
+    assert here.kind == TABLE
     assert not here.shown.networks
+    page = arcade.shown(FetchPage)
+    until(lambda: page.state == "offline")
+    arcade.shown(FetchPage)
+    arcade.press(Button.BACK)
+    assert lab(arcade) is here
+
+
+def fetching(program: str) -> ExtraFetch:
+    """A fetch whose process runs this program instead."""
+    return ExtraFetch("train", (sys.executable, "-c", program))
+
+
+def test_after_a_failure_another_try_fetches_it_and_the_network_half_opens(
+    controls: Controls, home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is fetched in the background, once: the page may be left, and found again."""
+    there, online = tmp_path / "there", tmp_path / "online"
+    monkeypatch.setattr("pigaming_app.scenes.lab.network.trainer.can_compile", there.exists)
+    arcade = Arcade(controls)
+    program = (
+        f"import pathlib, time\nif not pathlib.Path({str(online)!r}).exists(): print('full'); raise SystemExit\n"
+        f"print('0.250', flush=True)\nwhile pathlib.Path({str(online)!r}).read_text() != 'go': time.sleep(0.01)\n"
+        f"pathlib.Path({str(there)!r}).touch(); print('done')"
+    )
+    fetch = arcade.context.network_fetch = fetching(program)
+    here = Lab(arcade.context, fast=False)
+    arcade.open(here)
+    arcade.wait(0.5)
+    switch(arcade)
+    page = arcade.shown(FetchPage)
+    until(lambda: page.state == "full")
+    assert (Button.FIRE, "lab.hint_again") in page.prompts.items
+    online.write_text("wait")
+    arcade.press(Button.FIRE)
+    until(lambda: fetch.share == 0.25)
+    assert (Button.FIRE, "lab.hint_again") not in page.prompts.items
+    arcade.press(Button.BACK)
+    assert here.kind == TABLE
+    arcade.wait(0.5)
+    switch(arcade)
+    page = arcade.shown(FetchPage)
+    assert page.fetch is fetch
+    online.write_text("go")
+    until(lambda: fetch.state == "done")
+    arcade.until(lambda: arcade.stack.top is here, 2.0)
+    assert here.kind == NETWORK
+    assert here.network.available
+    here.network.end()
+
+
+def test_a_bundle_without_it_fetches_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+    fetch = fetching("print('done')")
+    fetch.start()
+    assert fetch.state == "built"
+
+
+def until(done: Callable[[], bool]) -> None:
+    end = time.monotonic() + 30.0
+    while not done():
+        assert time.monotonic() < end
+        time.sleep(0.01)
 
 
 def test_in_another_language_the_switch_has_another_width(arcade: Arcade) -> None:
@@ -237,6 +306,7 @@ def test_when_nobody_is_there_the_process_ends_and_the_next_visitors_begin_with_
 CRASHING = f"""
 import time
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
 from pigaming_app.scenes.lab.network.trainer import NetworkTrainer
 trainer = NetworkTrainer(1, Compiler({NOTHING!r}), {PLAIN!r})
 trainer.speed = 2

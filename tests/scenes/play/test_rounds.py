@@ -205,10 +205,12 @@ def test_texts_of_break_and_podium_keep_off_each_other(
 
 
 def test_the_title_of_a_break_names_winner_team_or_tie() -> None:
-    words = Words("en")
-    assert round_title(words, played({0: 1, 3: 2}), 1) == "Player 4 wins round 1!"
-    assert round_title(words, played({0: 1, 1: 2, 2: 3, 3: 0}, {0: 0, 1: 1, 2: 0, 3: 1}), 2) == "Team 1 wins round 2!"
-    assert round_title(words, played({0: 1, 1: 1}), 1) == "Round 1: a tie"
+    words, people, three = Words("en"), ("human",) * 4, ("human", "human", "human", "level3")
+    assert round_title(words, played({0: 1, 3: 2}), 1, people) == "Player 4 wins round 1!"
+    assert round_title(words, played({0: 1, 3: 2}), 1, three) == "AI 4 wins round 1!"
+    in_teams = played({0: 1, 1: 2, 2: 3, 3: 0}, {0: 0, 1: 1, 2: 0, 3: 1})
+    assert round_title(words, in_teams, 2, people) == "Team 1 wins round 2!"
+    assert round_title(words, played({0: 1, 1: 1}), 1, people) == "Round 1: a tie"
 
 
 @pytest.mark.parametrize(

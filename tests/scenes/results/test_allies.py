@@ -43,10 +43,10 @@ def test_the_headline_of_allies_names_their_stars_and_no_team(monkeypatch, arcad
     titles = []
     for number in range(4):
         ending = ended(monkeypatch, number)
-        setup = opened(arcade, ending).setup
-        assert is_allied(setup)
+        match = opened(arcade, ending).ended
+        assert is_allied(match.setup)
         assert stars(ending.outcome()) == number
-        titles.append(headline(Words(language), ending.outcome(), setup))
+        titles.append(headline(Words(language), match))
     assert len(set(titles)) == 4
     words = Words(language)
     assert not any(words(f"lobby.side_{side}") in title for side in (1, 2) for title in titles)

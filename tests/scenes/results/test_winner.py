@@ -11,7 +11,7 @@ from pigaming_app.scenes.lobby.scene import game_choice
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.celebration import Celebration, confetti
 from pigaming_app.scenes.results.scene import Results
-from pigaming_app.scenes.results.winner import LENGTH, SKIP, WinnersMoment, celebrated, title
+from pigaming_app.scenes.results.winner import LENGTH, MIDDLE, POPS, SKIP, WinnersMoment, celebrated, popped, title
 from pigaming_app.ui.draw import ICE, PLAYERS
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
@@ -55,6 +55,10 @@ def test_every_ending_has_its_moment_within_the_picture(controls: Controls, name
     arcade.open(scene)
     arcade.wait(LENGTH - 0.4, fps=10, draw=True)
     assert title(scene.name, scene.size, scene.color).image.get_width() <= 1920 - 2 * 96
+    for pop in range(POPS):
+        sprite = popped(scene.name, scene.size, scene.color, pop)
+        assert MIDDLE[0] + sprite.dx >= 48, "as it appears, too"
+        assert MIDDLE[0] + sprite.dx + sprite.image.get_width() <= 1920 - 48
     arcade.until(lambda: isinstance(arcade.stack.top, Results), 2.0)
     arcade.shown(Results)
 

@@ -20,7 +20,6 @@ from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SETTLE, SHOWN_FROM
 from pigaming_app.scenes.views.race.gaps import figure
 from pigaming_app.scenes.views.race.ghost_files import Ghost, file_of, ghost_of, load_ghost
-from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import RaceCard, card_bits
 from pigaming_app.scenes.views.race.lines import sign_post
 from pigaming_app.scenes.views.race.track import edges
@@ -31,6 +30,7 @@ from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.ui.draw.frame_budget import run_to_end
 from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.numbers import signed
 from tests.cases import one_in
 
 HUMANS = ["human"] * 4
@@ -290,7 +290,7 @@ def test_the_one_behind_is_as_many_seconds_behind_as_ago_the_leader_was_there():
 
 
 def test_a_gap_is_no_longer_than_four_characters():
-    texts = {0.0: "+0.0", 0.04: "+0.0", 9.94: "+9.9", 9.96: "+10", 42.4: "+42", 599.9: "+600", -0.1: "+0.0"}
+    texts = {0.0: "0.0", 0.04: "0.0", 9.94: "+9.9", 9.96: "+10", 42.4: "+42", 599.9: "+600", -0.1: "0.0"}
     assert {seconds: figure(seconds) for seconds in texts} == texts
 
 
@@ -591,7 +591,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
     view.watch(state)
     assert view.recorder.ghost_deltas[1] == (pytest.approx(-10.0), 192)
     assert [note.text for note in view.notes.notes] == ["−0.20"]
-    assert (signed(-15.5), signed(15.5), signed(0.1)) == ("−0.31", "+0.31", "+0.00")
+    assert (signed(-0.31, 2), signed(0.31, 2), signed(0.002, 2)) == ("−0.31", "+0.31", "0.00")
 
 
 def test_without_a_person_there_is_no_ghost_and_no_file(tmp_path):

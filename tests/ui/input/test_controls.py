@@ -291,6 +291,6 @@ def test_hints_follow_the_device_used_last(controls: Controls, pads: ExitStack) 
     assert controls.label(None, Button.BACK) == "B"
     controls.presses([pygame.Event(pygame.KEYDOWN, key=0, scancode=pygame.KSCAN_KP5, mod=0, unicode="")])
     assert controls.label(None, Button.BACK) == "ESC"
-    assert controls.label(None, Button.FIRE) == "0"
+    assert controls.label(None, Button.FIRE) == "NUM 0"
     assert controls.moves(controls.last) == "8456"
     assert controls.label(MOUSE, Button.FIRE) == ""

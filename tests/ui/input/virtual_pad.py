@@ -29,7 +29,7 @@ class VirtualPad:
     """A pad, connected on construction. Use it in a `with`, or call `unplug`."""
 
     def __init__(self, name: str = "Xbox 360 Controller", usb: tuple[int, int] = XBOX, plain: bool = False) -> None:
-        self._sdl = _sdl()
+        self._sdl = sdl_library()
         kind = _ARCADE_STICK if plain else _GAME_CONTROLLER
         buttons, hats = (12, 1) if plain else (len(_BUTTONS), 0)
         self.rumbles: list[tuple[int, int]] = []  # strengths of both motors, 0 to 65535, at each change
@@ -112,7 +112,7 @@ class _About(ctypes.Structure):
 
 
 @cache
-def _sdl() -> ctypes.CDLL:
+def sdl_library() -> ctypes.CDLL:
     home = Path(pygame.__file__).parent
     places = (home, home / ".dylibs", home.parent / "pygame_ce.libs")
     found = [path for place in places for name in ("libSDL2-2*", "SDL2.dll") for path in place.glob(name)]

@@ -31,6 +31,7 @@ PACES = (1.0, 10.0, inf)  # of the training, times real time, by speed
 SHOWN = (1, 10, 10)  # of the match that is shown, times real time
 MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
 HEARTBEAT = PATIENCE / 4  # s between two orders at most
+MISSING = "lab.no_network"  # text key
 DEATHS = 3  # ends of the process without a report in between, after which it is not started again
 
 log = logging.getLogger("pigaming")
@@ -73,7 +74,7 @@ class NetworkTrainer:
         """`compiler`: it compiles the loop of the process, which starts afterwards."""
         self._compiler, self._process = compiler, TrainingProcess(command)
         self.recipe, self.speed = NetworkRecipe(), 0
-        self.refusal = "" if can_compile() else "lab.no_network"  # text key of why no network can learn here
+        self.refusal = "" if can_compile() else MISSING  # text key of why no network can learn here
         self.compiling = False  # nothing is learned yet
         self.trouble = ""  # text key of what has happened to the process; the page clears it
         self._deaths = 0
@@ -91,6 +92,16 @@ class NetworkTrainer:
     def available(self) -> bool:
         """True if networks can learn here."""
         return not self.refusal
+
+    @property
+    def fetchable(self) -> bool:
+        """True if only what can be fetched is missing."""
+        return self.refusal == MISSING
+
+    def enable(self) -> None:
+        """Go on with what was fetched meanwhile."""
+        if self.fetchable and can_compile():
+            self.refusal = ""
 
     def feed(self, seconds: float) -> None:
         """Called every frame, `seconds` after the last call: keep the training running, and play on."""

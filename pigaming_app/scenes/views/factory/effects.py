@@ -20,6 +20,7 @@ from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.ui.draw import ALARM, FOCUS
+from pigaming_app.ui.numbers import signed
 
 POP = 0.12  # s, pop animation of a moved crate
 JINGLES = {ICE: "delivered_ice", FIRE: "delivered_fire"}
@@ -69,7 +70,7 @@ def react(
                     particles.glow(x, y, color)
                 notes.add(particles.clock, x, word_y, "delivered", color)
                 if event.player is not None:
-                    particles.score(x, y - 20, f"+{event.worth}", event.player)
+                    particles.score(x, y - 20, signed(event.worth), event.player)
             case "stolen":
                 particles.burst(x, y, TEAMS[1 - event.worth], 24, 30, 110)
                 if options.flashes != "off":

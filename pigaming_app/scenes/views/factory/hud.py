@@ -18,14 +18,15 @@ from pigaming_app.scenes.views.hud.ai_sign import ai_of, name_of
 from pigaming_app.scenes.views.hud.parts import CLOCK, HudParts
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, SUB, Color, GlowCanvas
+from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, SUB, Color, GlowCanvas, readable
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, glyph, wrap_balanced
 from pigaming_app.ui.i18n import Words
 
-ROBOT, CRATES = 268, 330  # px from a panel's outer edge
+ROBOT, CRATES = 268, 330  # px from a panel's outer edge, at least
+ROBOT_ROOM = 62  # px from the end of the number to the robots' middle
 CALLS = {"one_to_go": 2 * HZ, "stolen": HZ, "expired": HZ}  # ticks for which a call covers a panel
 CLOCK_Y = 82
 
@@ -90,7 +91,7 @@ class FactoryHud:
         for team in self.teams:
             yield partial(panels.pulse, team)
             for char in "0123456789":
-                yield from (partial(glyph, char, SUB, color) for color in (WHITE, FOCUS))
+                yield from (partial(glyph, char, readable(SUB), color) for color in (WHITE, FOCUS))
             for key in ("stolen", "expired") if state.rules.party else ("one_to_go",):
                 if self.words:
                     yield partial(panels.banner, self.words(f"factory.{key}"), call_color(key, team))
@@ -123,8 +124,10 @@ def team_bits(
     text, rest = str(number), f"/{goal}" if goal else ""
     wide = panels.count_width(text, rest)
     yield from panels.count_bits(text, rest, x + W - NUMBER - wide if mirrored else x + NUMBER, color)
-    yield from panels.robot_bits(mates, (x + W - ROBOT if mirrored else x + ROBOT,))
-    left, right = (x + 16, x + W - CRATES) if mirrored else (x + CRATES, x + W - 16)
+    robot = max(ROBOT, round(NUMBER + wide) + ROBOT_ROOM)
+    crates = robot + CRATES - ROBOT
+    yield from panels.robot_bits(mates, (x + W - robot if mirrored else x + robot,))
+    left, right = (x + 16, x + W - crates) if mirrored else (x + crates, x + W - 16)
     yield from order_cards.bits(team, shown, left, right, mirrored)
 
 
@@ -146,8 +149,8 @@ def overtime_bits(text: str) -> Iterator[Bit]:
 @cached
 def overtime(text: str) -> pygame.Surface:
     """A short call in two lines, as wide as the clock."""
-    lines = wrap_balanced(text, 2, LABEL, "hero")
-    size = min(fit_size(line, LABEL, CLOCK.w - 16, "hero") for line in lines)
+    lines = wrap_balanced(text, 2, readable(LABEL), "hero")
+    size = min(fit_size(line, readable(LABEL), CLOCK.w - 16, "hero") for line in lines)
     ink = GlowCanvas(CLOCK.w, H + 20)
     for i, line in enumerate(lines):
         ink.text(line, size, CLOCK.w / 2, (H + 20) / 2 + 52 * (i - (len(lines) - 1) / 2), FOCUS, "hero", "c")

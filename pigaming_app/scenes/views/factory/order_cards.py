@@ -10,7 +10,7 @@ from pigaming_app.games.factory.state import DELIVERED, TEAMS, Factory
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory.panels import MIDDLE, centred, small_crate
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, THIN, GlowCanvas, cut_box, dim
+from pigaming_app.ui.draw import ALARM, FOCUS, THIN, GlowCanvas, cut_box, dim, readable
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -80,7 +80,7 @@ def card(urgent: bool) -> pygame.Surface:
     ink = GlowCanvas(CARD_W + 40, CARD_H + 40, 3).set_transform(20 + CARD_W / 2, 20 + CARD_H / 2)
     outline = cut_box(-CARD_W / 2, -CARD_H / 2, CARD_W, CARD_H, 10)
     ink.fill(outline, dim(color, 0.12)).line(outline, color, THIN, True)
-    ink.text("×2", 30, 0, WORTH_DOWN, color, "hero", "c")
+    ink.text("×2", readable(30), 0, WORTH_DOWN, color, "hero", "c")
     ink.line([(-BAR_W / 2, BAR_DOWN), (BAR_W / 2, BAR_DOWN)], dim(color, 0.25), BAR_H)
     return ink.lit(0.5)
 

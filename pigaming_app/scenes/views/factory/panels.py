@@ -11,7 +11,21 @@ from pigaming_app.scenes.views.hud.ai_sign import driver_tab, level_mark
 from pigaming_app.scenes.views.hud.parts import number_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
-from pigaming_app.ui.draw import ICE, LABEL, LINE, MIST, PLAYERS, SUB, Color, GlowCanvas, badge, cut_box, dim, icon
+from pigaming_app.ui.draw import (
+    ICE,
+    LABEL,
+    LINE,
+    MIST,
+    PLAYERS,
+    SUB,
+    Color,
+    GlowCanvas,
+    badge,
+    cut_box,
+    dim,
+    icon,
+    readable,
+)
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, number_width
@@ -61,7 +75,7 @@ def banner(text: str, color: Color) -> pygame.Surface:
     """A whole panel with a call instead of its content."""
     ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     ink.fill(cut_box(0, 0, W, H), dim(color, 0.2)).line(cut_box(0, 0, W, H), color, LINE + 4, True)
-    ink.text(text, fit_size(text, SUB, W - 80, "hero"), W / 2, H / 2, color, "hero", "c")
+    ink.text(text, fit_size(text, readable(SUB), W - 80, "hero"), W / 2, H / 2, color, "hero", "c")
     return ink.lit(0.7)
 
 
@@ -79,7 +93,7 @@ def robot_sign(seat: int, brain: str, turbo: int) -> pygame.Surface:
     ink = GlowCanvas(120, 52, 3)
     badge(ink, seat, 34, 22, 18)
     if text := level_mark(brain):
-        ink.text(text, 30, 61, 22, ICE, "head")
+        ink.text(text, readable(30), 61, 22, ICE, "head")
     elif brain:
         icon(ink, "ai", 80, 20, 13, MIST, 3)
     ink.line([(14, 46), (104, 46)], dim(PLAYERS[seat], 0.2), 4)
@@ -107,13 +121,14 @@ def centred(image: pygame.Surface, x: float, y: float) -> Bit:
 
 def count_width(number: str, rest: str) -> float:
     """Width of a large number and what follows it in smaller type, px."""
-    return number_width(number, SUB) + 4 + number_width(rest, LABEL)
+    return number_width(number, readable(SUB)) + 4 + number_width(rest, readable(LABEL))
 
 
 def count_bits(number: str, rest: str, x: float, color: Color) -> Iterator[Bit]:
     """A large number from `x`, and what follows it in smaller type."""
-    yield from number_bits(number, SUB, x, MIDDLE, color)
-    yield from number_bits(rest, LABEL, x + number_width(number, SUB) + 4, MIDDLE + 7, MIST)
+    size, smaller = readable(SUB), readable(LABEL)
+    yield from number_bits(number, size, x, MIDDLE, color)
+    yield from number_bits(rest, smaller, x + number_width(number, size) + 4, MIDDLE + 0.35 * (size - smaller), MIST)
 
 
 def robot_bits(mates: tuple[Mate, ...], xs: tuple[float, ...]) -> Iterator[Bit]:

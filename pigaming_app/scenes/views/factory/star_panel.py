@@ -13,13 +13,13 @@ from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory import panels
 from pigaming_app.scenes.views.factory.order_cards import ORDER
 from pigaming_app.scenes.views.factory.panels import EDGE, MIDDLE, NUMBER, H, Mate, W, X, Y
-from pigaming_app.scenes.views.hud.parts import ALARM_SECONDS, CLOCK, HudParts, number_bits
+from pigaming_app.scenes.views.hud.parts import ALARM_SECONDS, CLOCK, HudParts, clock_bits
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, LINE, MIST, STEEL, THIN, TITLE, Color, GlowCanvas, star_points
+from pigaming_app.ui.draw import ALARM, FOCUS, LINE, MIST, STEEL, THIN, TITLE, Color, GlowCanvas, readable, star_points
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import glyph, number_width
+from pigaming_app.ui.draw.text import glyph
 
 CRATES, CRATE, PITCH, ROW = 306, 38, 54, 6  # px from the left edge; size; pitch; in a row of two rows, else one
 SINGLE = (4, 52, 80)  # at most so many pallets are in one row; px: their size and pitch
@@ -59,8 +59,7 @@ def _urgent(state: Factory, left: int) -> bool:
 
 
 def _clock_bits(seconds: int, color: Color) -> list[Bit]:
-    text = clock(seconds)
-    return number_bits(text, TITLE, 960 - number_width(text, TITLE) / 2, 82, color)
+    return clock_bits(clock(seconds), 82, color)
 
 
 def clock(seconds: int) -> str:
@@ -103,7 +102,7 @@ def star_sign(form: str, text: str) -> pygame.Surface:
         ink.line(shape, color, THIN, True)
     else:
         ink.fill(shape, color).line(shape, color, LINE, True)
-    ink.text(text, TIME, 0, TIME_DOWN, MIST if form == "lost" else WHITE, "hero", "c")
+    ink.text(text, readable(TIME), 0, TIME_DOWN, MIST if form == "lost" else WHITE, "hero", "c")
     return ink.lit(0.5)
 
 
@@ -116,4 +115,4 @@ def jobs(state: Factory) -> Iterator[Job]:
     for limit in limits(state):
         yield from (partial(star_sign, form, clock(limit // HZ)) for form in ("lit", "urgent", "lost"))
     for char in "0123456789:":
-        yield from (partial(glyph, char, TITLE, color) for color in (WHITE, ALARM))
+        yield from (partial(glyph, char, readable(TITLE), color) for color in (WHITE, ALARM))

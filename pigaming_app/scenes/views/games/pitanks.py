@@ -48,5 +48,5 @@ SCREENS = GameScreens(
     lambda variant: BusyPiTanks(variant=variant),
     fire="hint_fire",
     lessons=LESSONS,
-    lesson_pages=("plain", "party"),
+    lesson_pages=("pickups", "party"),
 )

@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, ICE, TITLE, Color
+from pigaming_app.ui.draw import ALARM, ICE, TITLE, Color, readable
 from pigaming_app.ui.draw.text import glyph, number_width
 
 Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin around their sprites
@@ -39,8 +39,18 @@ class HudParts:
         """Show the remaining time of a match; vertical centre of the digits at `y` px."""
         left = max(0, -(-(state.rules.ticks - state.tick) // HZ))
         text, color = f"{left // 60}:{left % 60:02}", ALARM if left <= ALARM_SECONDS else ICE
-        x = 960 - number_width(text, TITLE) / 2
-        self.show("clock", left, CLOCK.x, CLOCK.w, lambda: number_bits(text, TITLE, x, y, color))
+        self.show("clock", left, CLOCK.x, CLOCK.w, lambda: clock_bits(text, y, color))
+
+
+def clock_bits(text: str, y: float, color: Color, lead: int = 0) -> list[Bit]:
+    """The digits of the clock, in the middle of the picture behind `lead` px."""
+    size = number_size(text, CLOCK.w - lead, readable(TITLE), TITLE)
+    return number_bits(text, size, 960 + (lead - number_width(text, size)) / 2, y, color)
+
+
+def number_size(text: str, room: float, *sizes: int) -> int:
+    """The first of `sizes`, px, at which a number takes less than `room` px, else the last."""
+    return next((size for size in sizes if number_width(text, size) < room), sizes[-1])
 
 
 def number_bits(text: str, size: int, x: float, y: float, color: Color) -> list[Bit]:

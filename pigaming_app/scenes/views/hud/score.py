@@ -13,7 +13,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, driver_tab, name_of
-from pigaming_app.scenes.views.hud.parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
+from pigaming_app.scenes.views.hud.parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits, number_size
 from pigaming_app.ui.draw import (
     ICE,
     LABEL,
@@ -30,10 +30,12 @@ from pigaming_app.ui.draw import (
     dim,
     icon,
     mix,
+    readable,
 )
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
+from pigaming_app.ui.numbers import numeral
 
 SUM_W = 116  # px
 CELL = 17.75  # px, pitch of the turbo bar cells
@@ -149,8 +151,8 @@ class ScoreHud:
     ) -> list[Bit]:
         """Pieces of a panel."""
         x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
-        text = str(score).replace("-", "−")
-        size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
+        text = numeral(score)
+        size = number_size(text, slot.w - 176, readable(SUB), SUB, LABEL)
         bits: list[Bit] = [(frame(slot.seat, slot.w, leads, *driver, turbo is not None), (x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
         if turbo is not None:
@@ -162,8 +164,8 @@ class ScoreHud:
         return bits + self.extra_bits(extras, x + slot.w, middle, room)
 
     def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
-        text = str(points).replace("-", "−")
-        size = SUB if number_width(text, SUB) < SUM_W - 16 else LABEL
+        text = numeral(points)
+        size = number_size(text, SUM_W - 16, readable(SUB), SUB, LABEL)
         bits: list[Bit] = [(sum_frame(leads, panel is self.sums[1]), (panel.x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, panel.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
         self.background.bake(pygame.Rect(panel.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)

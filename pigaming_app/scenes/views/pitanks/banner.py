@@ -10,7 +10,7 @@ from pigaming_app.games.pitanks.scoring import is_finale, is_overtime
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.hud.parts import ALARM_SECONDS, CLOCK, EDGE, number_bits
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, SUB, GlowCanvas, dim
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, SUB, GlowCanvas, dim, readable
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, glyph, number_width, text
 from pigaming_app.ui.i18n import Words
@@ -28,7 +28,7 @@ class Banner:
     def __init__(self, words: Words | None) -> None:
         self.double = words("pitanks.double") if words else ""
         self.next_hit = words("pitanks.next_hit").split("|") if words else []
-        self.size = min((fit_size(line, LABEL, ROOM) for line in self.next_hit), default=LABEL)
+        self.size = min((fit_size(line, readable(LABEL), ROOM) for line in self.next_hit), default=LABEL)
 
     def content(self, state: Any) -> tuple[str, int] | None:
         """Phase of the match, and the seconds or cells that are left; None before the finale and after the end."""
@@ -44,7 +44,7 @@ class Banner:
         if phase == FINALE:
             clock = f"{left // 60}:{left % 60:02}"
             bits = number_bits(clock, SUB, 960 - number_width(clock, SUB) / 2, CLOCK_Y, _color(left))
-            return [*bits, _line(self.double, BELOW_Y)]
+            return [*bits, _line(self.double, BELOW_Y, readable(LABEL))]
         middle = CLOCK.centerx - ROOM // 2 - EDGE
         cut = EDGE + ROOM * left // CELLS
         whole = ROOM + 2 * EDGE
@@ -58,7 +58,7 @@ class Banner:
         """Prewarm jobs, if the rules have a finale."""
         if not state.rules.finale:
             return
-        yield partial(_line, self.double, 0)
+        yield partial(_line, self.double, 0, readable(LABEL))
         yield from (partial(_line, line, 0, self.size) for line in self.next_hit)
         for char in "0123456789:":
             for color in (ICE, ALARM):
@@ -71,7 +71,7 @@ def _color(seconds: int) -> tuple[int, int, int]:
     return ALARM if seconds <= ALARM_SECONDS else ICE
 
 
-def _line(line: str, y: int, size: int = LABEL) -> Bit:
+def _line(line: str, y: int, size: int) -> Bit:
     lit = text(line, size, FOCUS, "head", room=ROOM)
     return lit.image, (CLOCK.centerx + lit.at[0], y + lit.at[1]), None
 

@@ -9,6 +9,7 @@ from pigaming_app.scenes.views.pitanks.events import PiTanksEvent
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
+from pigaming_app.ui.numbers import signed
 
 BESIDE, ABOVE = 46.0, 66.0  # px from a robot to its score popup
 
@@ -50,10 +51,10 @@ def _show(event: PiTanksEvent, state: PiTanks, particles: Particles, options: Vi
             particles.burst(x, y, color, 30, 46, 120)
             _blast(x, y, color, particles, options)
             if state.rules.penalty:
-                particles.score(_clamp_x(x) + BESIDE, y - above, f"−{event.number}", player or 0)
+                particles.score(_clamp_x(x) + BESIDE, y - above, signed(-event.number), player or 0)
         case "scored":
             at = _clamp_x(x) - BESIDE if state.rules.penalty else x
-            particles.score(at, y - above, f"+{event.number}", player or 0)
+            particles.score(at, y - above, signed(event.number), player or 0)
         case "shielded":
             particles.burst(x, y, color, 26, 66, 90)
             particles.burst(x, y, FOCUS, 10, 66, 70)

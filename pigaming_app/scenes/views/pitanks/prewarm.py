@@ -9,10 +9,11 @@ from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.walled_background import wall_sprite
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix, readable
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
 from pigaming_app.ui.draw.text import glyph
+from pigaming_app.ui.numbers import signed
 
 
 def jobs(state: Any, walls: int, seats: Sequence[int]) -> Iterator[Job]:
@@ -43,16 +44,16 @@ def _party(seats: Sequence[int]) -> Iterator[Job]:
     yield party.stage
     for points in (2, 4):
         yield partial(party.bounty, points)
-        yield from (partial(things.popup, f"+{points}", seat) for seat in seats)  # fading it takes 0.1 ms
+        yield from (partial(things.popup, signed(points), seat) for seat in seats)  # fading it takes 0.1 ms
 
 
 def _numbers(seats: Sequence[int], popups: Sequence[str]) -> Iterator[Job]:
     for char in "0123456789−":
         for seat in seats:
-            yield partial(glyph, char, SUB, mix(PLAYERS[seat], WHITE, 0.8))
+            yield partial(glyph, char, readable(SUB), mix(PLAYERS[seat], WHITE, 0.8))
     for char in "0123456789:":
         for color in (ICE, ALARM):
-            yield partial(glyph, char, TITLE, color)
+            yield partial(glyph, char, readable(TITLE), color)
     for seat in seats:
         for text in popups:
             for level in range(things.POPUP_LEVELS, 0, -1):

@@ -10,17 +10,17 @@ from pigaming_app.scenes.views.particles import MAX_PARTICLES, Particle, Particl
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
-from pigaming_app.scenes.views.race.hud import signed
 from pigaming_app.scenes.views.race.hud_cards import GAIN, LOSS
 from pigaming_app.scenes.views.race.lines import CHECKPOINT, sign_color
 from pigaming_app.scenes.views.race.party.sprites import OIL, place_change
 from pigaming_app.scenes.views.race.recovery import BEAM_LASTS, beam
 from pigaming_app.scenes.views.view import Pose, SoundCue, ViewOptions, decimal
-from pigaming_app.sim.world import WIDTH
+from pigaming_app.sim.world import DT, WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
 from pigaming_app.ui.draw.text import glyph, number_width
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.numbers import signed
 
 SOUNDS = {  # by event, the most important first
     "close": "photo_finish",
@@ -197,9 +197,9 @@ class RaceEffects:
 
     def _difference(self, seat: int, delta: float | None, ghost_delta: Delta | None) -> None:
         if delta is not None:
-            self._say(seat, decimal(self.words, signed(delta)), GAIN if delta <= 0.0 else LOSS)
+            self._say(seat, decimal(self.words, signed(delta * DT, 2)), GAIN if delta <= 0.0 else LOSS)
         elif ghost_delta:
-            self._say(seat, decimal(self.words, signed(ghost_delta[0])), FOCUS)
+            self._say(seat, decimal(self.words, signed(ghost_delta[0] * DT, 2)), FOCUS)
 
     def _say(self, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
         self.notes.add(self.particles.clock, seat, text, color, sprite)

@@ -4,6 +4,7 @@ from bisect import bisect_left
 
 from pigaming_app.games.race.state import Race
 from pigaming_app.sim.world import DT
+from pigaming_app.ui.numbers import signed
 
 EVERY = 25  # ticks between two readings, so that the tenths are readable
 
@@ -37,4 +38,4 @@ class Gaps:
 def figure(seconds: float) -> str:
     """A gap in at most four characters: tenths below ten seconds, whole seconds above."""
     tenths = round(10 * max(0.0, seconds))
-    return f"+{tenths / 10:.1f}" if tenths < 100 else f"+{round(seconds)}"
+    return signed(tenths / 10, 1) if tenths < 100 else signed(seconds)

@@ -11,18 +11,19 @@ import pygame
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, name_of
-from pigaming_app.scenes.views.hud.parts import CLOCK, XS, H, HudParts, Y, number_bits
+from pigaming_app.scenes.views.hud.parts import CLOCK, XS, H, HudParts, Y
+from pigaming_app.scenes.views.hud.parts import clock_bits as digits
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import drives_wrong
 from pigaming_app.scenes.views.race.gaps import Gaps, figure
-from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, PLACE, RaceCard, W, card_bits
+from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, RaceCard, W, card_bits, place_size
 from pigaming_app.scenes.views.race.lines import flag, line_signs
 from pigaming_app.scenes.views.view import decimal
-from pigaming_app.sim.world import DT, HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, TITLE, WHITE, GlowCanvas
+from pigaming_app.sim.world import HZ
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, TITLE, WHITE, GlowCanvas, readable
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import glyph, number_width, wrap
+from pigaming_app.ui.draw.text import glyph, wrap
 from pigaming_app.ui.i18n import Words
 
 MOVED = int(1.2 * HZ)  # ticks for which an arrow marks a change of place
@@ -88,9 +89,9 @@ class RaceHud:
                 yield partial(race_cards.turbo, seat, full, False)
                 yield partial(race_cards.foot, seat, state.rules.laps, full)
         for char in "0123456789:":
-            yield from (partial(glyph, char, TITLE, color) for color in (ICE, ALARM))
+            yield from (partial(glyph, char, readable(TITLE), color) for color in (ICE, ALARM))
         for char in "1234":
-            yield from (partial(glyph, char, PLACE, color) for color in (WHITE, FOCUS))
+            yield from (partial(glyph, char, place_size(), color) for color in (WHITE, FOCUS))
         for char in "0123456789+" + decimal(self.words, "."):
             yield partial(glyph, char, FIGURE, ICE)
         for char in f"/{state.rules.laps}":
@@ -139,17 +140,16 @@ class RaceHud:
 
 def announced(text: str) -> tuple[str, ...]:
     """Lines of an announcement that fit in place of the clock."""
-    return tuple(wrap(text, LABEL, CLOCK.w - 16, "head"))
+    return tuple(wrap(text, readable(LABEL), CLOCK.w - 16, "head"))
 
 
 def clock_bits(kind: str, seconds: int) -> list[Bit]:
     """Race time or, beside a flag, the time left for the others."""
     text = f"{seconds // 60}:{seconds % 60:02}" if kind == "time" else str(seconds)
     lead = 0 if kind == "time" else 76
-    x = 960 - (number_width(text, TITLE) + lead) / 2
-    bits = number_bits(text, TITLE, x + lead, Y + H / 2, ICE if kind == "time" else ALARM)
+    bits = digits(text, Y + H / 2, ICE if kind == "time" else ALARM, lead)
     if lead:
-        bits.append((small_flag(), (round(x) - 28, Y + H // 2 - 60), None))
+        bits.append((small_flag(), (bits[0][1][0] - lead - 4, Y + H // 2 - 60), None))
     return bits
 
 
@@ -159,12 +159,6 @@ def _left(state: Race) -> int | None:
     if not state.first or not racing:
         return None
     return max(0, -(-(state.first + state.rules.patience - state.tick) // HZ))
-
-
-def signed(ticks: float) -> str:
-    """A signed difference of `ticks`, in seconds."""
-    hundredths = round(100 * ticks * DT)
-    return f"{'−' if hundredths < 0 else '+'}{abs(hundredths) / 100:.2f}"
 
 
 @cached

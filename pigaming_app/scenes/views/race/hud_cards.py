@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit
 from pigaming_app.scenes.views.hud.ai_sign import driver_tab
-from pigaming_app.scenes.views.hud.parts import CLOCK, PANEL_W, H, Y, number_bits
+from pigaming_app.scenes.views.hud.parts import CLOCK, PANEL_W, H, Y, number_bits, number_size
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.ui.draw import (
     ALARM,
@@ -31,6 +31,8 @@ from pigaming_app.ui.draw import (
     dim,
     icon,
     mix,
+    readable,
+    reads_large,
     regular_polygon,
 )
 from pigaming_app.ui.draw.sprites import Sprite, faded
@@ -44,6 +46,7 @@ PLACE, FIGURE, OF, ENDING = SUB, 58, BODY, 30  # font sizes: digits of 58 are 41
 ROW = 49  # px, vertical centre of the digits
 LEFT, LAP, RIGHT = 16, 103, W - 14  # px: left edge of place and lap, right edge of the gap
 GAP = 122  # px, maximum width of a gap
+LARGE_PLACE, LARGE_ROW, LARGE_LAP = 82, 45, 94  # px, of larger texts: there is no room for an ordinal suffix
 FOOT = W - 40  # px, length of the lap bar
 SIGNS = W - 132  # px, centre of the warnings
 ITEM = W - 68  # px, EDGE left of the centre of the item slot
@@ -79,10 +82,11 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
         (frame(card.seat, card.brain, card.name, bool(card.sign), card.done, card.item != "none"), corner, None)
     ]
     number = FOCUS if card.done and card.place == 1 else WHITE
-    text = str(card.place)
-    bits += number_bits(text, PLACE, x + LEFT, Y + ROW, number)
-    after = x + LEFT + round(number_width(text, PLACE)) + 1
-    bits.append((word(card.ending, number, ENDING), (after - EDGE, Y + ROW - 15 - EDGE), None))
+    text, large = str(card.place), reads_large()
+    bits += number_bits(text, place_size(), x + LEFT, Y + (LARGE_ROW if large else ROW), number)
+    after = x + LEFT + round(number_width(text, place_size())) + 1
+    if not large:
+        bits.append((word(card.ending, number, ENDING), (after - EDGE, Y + ROW - 15 - EDGE), None))
     if card.moved:
         bits.append((mover(card.moved > 0), (after + 15 - EDGE, Y + ROW + 16 - EDGE), None))
     if card.item != "none":
@@ -103,12 +107,12 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
 
 def _figures(card: RaceCard, x: int) -> list[Bit]:
     """Lap and gap; the leader has a crown instead, and a flag at the end."""
-    lap = str(card.lap)
-    bits = number_bits(lap, FIGURE, x + LAP, Y + ROW, ICE)
-    low = Y + ROW + 0.35 * (FIGURE - OF)  # common baseline
-    bits += number_bits(f"/{card.laps}", OF, x + LAP + number_width(lap, FIGURE), low, MIST)
+    lap, size, at = str(card.lap), readable(FIGURE), LARGE_LAP if reads_large() else LAP
+    bits = number_bits(lap, size, x + at, Y + ROW, ICE)
+    low = Y + ROW + 0.35 * (size - OF)  # common baseline
+    bits += number_bits(f"/{card.laps}", OF, x + at + number_width(lap, size), low, MIST)
     if card.gap:
-        size = FIGURE if number_width(card.gap, FIGURE) < GAP else OF  # a gap of minutes
+        size = number_size(card.gap, GAP, FIGURE, OF)  # OF: a gap of minutes
         return bits + number_bits(card.gap, size, x + RIGHT - number_width(card.gap, size), Y + ROW, ICE)
     return [*bits, (leader(card.done), (x + RIGHT - 60 - EDGE, Y - EDGE), None)]
 
@@ -117,6 +121,11 @@ def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], 
     """Bar lit up to `way` px."""
     x, y, split, (w, h) = at[0] - EDGE, at[1] - EDGE, EDGE + round(way), full.get_size()
     return [(full, (x, y), (0, 0, split, h)), (empty, (x + split, y), (split, 0, w - split, h))]
+
+
+def place_size() -> int:
+    """Type size of the place, px."""
+    return LARGE_PLACE if reads_large() else PLACE
 
 
 # ---- cached pieces
@@ -184,7 +193,7 @@ def banner(lines: tuple[str, ...], color: Color) -> pygame.Surface:
     """Words in place of the clock, in one or two lines."""
     ink = GlowCanvas(CLOCK.w, HUD_HEIGHT)
     for i, line in enumerate(lines):
-        size = fit_size(line, LABEL, CLOCK.w - 16)
+        size = fit_size(line, readable(LABEL), CLOCK.w - 16)
         ink.text(line, size, CLOCK.w / 2, Y + H / 2 + 54 * (i - (len(lines) - 1) / 2), color, "head", "c")
     return ink.lit(0.8)
 

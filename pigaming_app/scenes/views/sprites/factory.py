@@ -25,6 +25,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.numbers import signed
 
 TEAMS: tuple[Color, Color] = ((70, 210, 255), (255, 150, 40))
 STATES: dict[int, Color] = {
@@ -264,5 +265,5 @@ def _dash(color: Color) -> pygame.Surface:
 def count(number: int, team: int) -> Sprite:
     """Number of further pallets beside a warehouse."""
     ink = GlowCanvas(160, 80, 3).set_transform(80, 40)
-    ink.text(f"+{number}", 40, 0, 0, TEAMS[team], "hero", "c")
+    ink.text(signed(number), 40, 0, 0, TEAMS[team], "hero", "c")
     return trim(ink.lit(0.5), 80, 40)

@@ -22,6 +22,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.sprites import Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.numbers import signed
 
 STARS, STAR_TURNS = 5, 8  # stars round a robot; rotation steps from one star to the next
 STAR_R = 58  # px from a robot to its stars
@@ -71,7 +72,7 @@ def stage() -> Sprite:
 @cached
 def bounty(points: int) -> Sprite:
     """A crown and the points that a hit on this robot scores, on black."""
-    text = f"+{points}"
+    text = signed(points)
     w = round(text_width(text, LABEL, "hero")) + 74
     ink = GlowCanvas(w + 48, 112).set_transform(w / 2 + 24, 56)
     box = cut_box(-w / 2, -28, w, 56, 12)

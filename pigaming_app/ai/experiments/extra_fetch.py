@@ -1,0 +1,56 @@
+"""Background process that fetches an extra of the program, once per run of the arcade unless it fails.
+
+It outlives the page that shows it, and goes on if the arcade ends: the next start then has the extra.
+"""
+
+import importlib
+import logging
+import sys
+from subprocess import Popen
+from threading import Thread
+
+from pigaming_app.ai.experiments.compiler import launch
+
+NONE, FETCHING, DONE, BUILT, FAILED = "none", "fetching", "done", "built", "failed"
+FOREIGN, RESTART = "foreign", "restart"  # of the process, see boot/fetch.py
+COMMAND = (sys.executable, "-m", "pigaming_app.boot.fetch")
+
+log = logging.getLogger("pigaming")
+
+
+class ExtraFetch:
+    """Fetches one extra. `state`: NONE, FETCHING or DONE, or why it failed: BUILT (a bundle without it), FAILED, or a
+    reason of the process; `share`: fetched, 0 to 1.
+    """
+
+    def __init__(self, extra: str, command: tuple[str, ...] = COMMAND) -> None:
+        self._command = (*command, extra)
+        self.state, self.share = NONE, 0.0
+
+    def start(self) -> None:
+        """Start it, again if it has failed."""
+        if self.state in (FETCHING, DONE):
+            return
+        self.state, self.share = FETCHING, 0.0
+        if getattr(sys, "frozen", False):
+            self.state = BUILT
+            return
+        try:
+            process = launch(self._command, answers=True)
+        except OSError as error:
+            log.warning("%s", error)
+            self.state = FAILED
+            return
+        Thread(target=self._follow, args=(process,), daemon=True).start()
+
+    def _follow(self, process: "Popen[bytes]") -> None:
+        """Read its lines: shares, then its result."""
+        last = FAILED
+        with process:
+            for line in process.stdout or []:
+                last = line.decode(errors="replace").strip()
+                if last.replace(".", "").isdigit():
+                    self.share = float(last)
+        importlib.invalidate_caches()
+        self.state = last if last.isalpha() else FAILED
+        log.info("fetched: %s", self.state)

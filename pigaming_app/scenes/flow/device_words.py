@@ -1,0 +1,11 @@
+"""What people steer with, in words."""
+
+from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Device
+
+
+def steering(words: Words, controls: Controls, device: Device) -> str:
+    """The signs on the steering keys; of a number pad, a pad or a phone its name."""
+    name = controls.name(device)
+    return controls.moves(device) if name == "Keyboard" else words(f"devices.{name}")

@@ -1,0 +1,80 @@
+"""What networks need is fetched: a bar, what to do without it, and another try. It goes on when the page is left."""
+
+from collections.abc import Callable
+
+import pygame
+
+from pigaming_app.ai.experiments.extra_fetch import BUILT, DONE, FETCHING, FOREIGN, RESTART
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.play.pause import sheet_title
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, STEEL, THIN, cut_box
+from pigaming_app.ui.draw.layers import Layer
+from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
+from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, overlay
+
+FINAL = (FETCHING, BUILT, FOREIGN, RESTART)  # states in which another try is of no use
+IDLE = 120.0  # s without input until the Lab returns
+ROOM, TEXT_Y, PITCH = W - 160, HEAD + 60, 64  # px: width of the sentences, middle of the first line, line pitch
+BAR = pygame.Rect(X + 80, HEAD + 244, W - 160, 44)
+
+
+class FetchPage:
+    """The page over `behind`. `ready` is called once everything is there."""
+
+    def __init__(self, context: Context, behind: Callable[[], pygame.Surface], ready: Callable[[], object]) -> None:
+        self.context, self.behind, self.ready = context, behind, ready
+        self.fetch = context.network_fetch
+        self.fetch.start()
+        self.picture: tuple[str, pygame.Surface] | None = None
+
+    @property
+    def state(self) -> str:
+        """The state that is shown."""
+        return FETCHING if self.fetch.state == DONE else self.fetch.state
+
+    @property
+    def prompts(self) -> ButtonPrompts:
+        again = [(Button.FIRE, "lab.hint_again")] if self.state not in FINAL else []
+        return self.context.prompts([*again, (Button.BACK, "lab.hint_lab")], PROMPTS, W - 80)
+
+    def on_enter(self) -> None:
+        pass
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """BACK returns to the Lab; FIRE tries again after a failure."""
+        event = self.prompts.as_button(event)
+        if event.button is Button.BACK:
+            self.context.sounds.play("back")
+            return Pop()
+        if event.button in (Button.FIRE, Button.START) and self.state not in FINAL:
+            self.context.sounds.play("accept")
+            self.fetch.start()
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        if self.fetch.state == DONE:
+            self.context.sounds.play("win")
+            self.ready()
+            return Pop()
+        return Pop() if self.context.idle > IDLE else None
+
+    def draw(self, screen: pygame.Surface) -> None:
+        state, words = self.state, self.context.words
+        if self.picture is None or self.picture[0] != state:
+            color = ICE if state == FETCHING else ALARM
+            self.picture = state, overlay(self.behind(), color, self._paint, (words.language, state, id(self)))
+        screen.blit(self.picture[1], (0, 0))
+        for i, line in enumerate(paragraph(words(f"lab.fetch_{state}"), ROOM, 3)):
+            line.draw(screen, X + 80, TEXT_Y + PITCH * i)
+        if state == FETCHING:
+            pygame.draw.rect(screen, FOCUS, (BAR.x + 8, BAR.y + 8, round(self.fetch.share * (BAR.w - 16)), BAR.h - 16))
+        self.prompts.draw(screen)
+
+    def _paint(self, layer: Layer) -> None:
+        state, words = self.state, self.context.words
+        sheet_title(layer, None, words("lab.fetch_title"), ICE if state == FETCHING else ALARM)
+        if state == FETCHING:
+            layer.glow.line(cut_box(BAR.x, BAR.y, BAR.w, BAR.h, 10), STEEL, THIN, True)
