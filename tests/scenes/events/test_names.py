@@ -15,11 +15,12 @@ from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.results.headline import headline
+from pigaming_app.scenes.results.headline import EndedMatch, headline
 from pigaming_app.ui.draw import BODY, readable, text_width
 from pigaming_app.ui.draw.glow import GlowCanvas
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.widgets import setting_row
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.cache import empty_cache
@@ -92,7 +93,9 @@ def test_winners_are_named_in_teams_too(winners: tuple[int, ...], names: Sequenc
     teams = (0, 1, 0, 1) if len(winners) > 1 else (0, 1, 2, 3)
     rows = tuple(Row(seat, team, 1, 0, {}, {}, ()) for seat, team in enumerate(teams))
     match = setup("human human human level3", teams=teams)
-    assert headline(Words("en"), MatchOutcome(rows, winners, (), 60.0), match, (), names) == line
+    pads = [Device("pad", seat) for seat in range(3)]
+    ended = EndedMatch(match, MatchOutcome(rows, winners, (), 60.0), [*pads, None], names)
+    assert headline(Words("en"), ended) == line
 
 
 def test_a_result_is_one_line_of_large_type() -> None:
