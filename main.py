@@ -27,6 +27,10 @@ def main() -> int:
     folder = os.path.dirname(os.path.abspath(__file__))
     if folder not in sys.path:
         sys.path.insert(0, folder)
+    from pigaming_app.boot.version import is_asked, print_version
+
+    if is_asked(sys.argv[1:]):
+        return print_version()
     if getattr(sys, "frozen", False):  # a bundle needs no environment
         from pigaming_app.boot.bundled import run_module
 

@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import NoReturn
 
 from pigaming_app import FROZEN, INSTALLED
+from pigaming_app.boot.version import is_asked, print_version
 from pigaming_app.jobs import files
 from pigaming_app.jobs.terminal import console
 from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin
@@ -55,6 +56,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     for variable in BLAS:  # our matrices are small; whoever has much to do divides it among threads of its own
         os.environ.setdefault(variable, "1")  # read when NumPy is imported
     console.prepare()
+    if is_asked(words):
+        return print_version()
     try:
         code = _refused_in_one_line(words)
     except SystemExit as end:  # argparse, after --help
