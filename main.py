@@ -6,6 +6,7 @@ Old Python versions must be able to parse this file, to report that they are too
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 NEEDS = (3, 11)
@@ -24,6 +25,8 @@ def main() -> int:
     if refusal:
         print(refusal, file=sys.stderr)
         return 2
+    if hasattr(signal, "pthread_sigmask"):  # Ctrl-C waits until somebody can answer it
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     folder = os.path.dirname(os.path.abspath(__file__))
     if folder not in sys.path:
         sys.path.insert(0, folder)

@@ -11,7 +11,7 @@ from typing import NoReturn
 from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.boot.version import is_asked, print_version
 from pigaming_app.jobs import files
-from pigaming_app.jobs.terminal import console
+from pigaming_app.jobs.terminal import console, interrupt
 from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin
 
 PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
@@ -58,15 +58,32 @@ def main(argv: Sequence[str] | None = None) -> int:
     console.prepare()
     if is_asked(words):
         return print_version()
-    try:
-        code = _refused_in_one_line(words)
-    except SystemExit as end:  # argparse, after --help
-        code = int(end.code or 0)
-    except BrokenPipeError:
-        code = 1
-    except KeyboardInterrupt:
-        code = 130
+    with interrupt.watched() as interrupts:
+        try:
+            interrupts.allow(True)
+            code = _refused_in_one_line(words)
+            interrupts.allow(False)
+        except BaseException as error:
+            code = interrupt.CODE if interrupts.cut else _code_of(error)
+        if interrupts.cut:
+            console.flushed(code)
+            interrupts.end()
     return console.flushed(code)
+
+
+def _code_of(error: BaseException) -> int:
+    """The exit code after an exception. Raises it again where it is a mistake of the program."""
+    match error:
+        case SystemExit():  # argparse, after --help
+            return int(error.code or 0)
+        case BrokenPipeError():
+            return 1
+        case KeyboardInterrupt() if os.name == "nt":
+            console.print_error("stopped.")
+            return interrupt.CODE
+        case KeyboardInterrupt():  # by SIGTERM
+            return 0
+    raise error
 
 
 def _refused_in_one_line(words: list[str]) -> int:
