@@ -128,7 +128,7 @@ def _run(name: str, words: list[str]) -> int:
         files.sweep()
     try:
         return int(job.run(arguments))
-    except SystemExit as end:
-        if not is_of_plugin(end):
+    except BaseException as error:
+        if isinstance(error, Exception) or not is_of_plugin(error):  # plug-ins also raise SystemExit, KeyboardInterrupt
             raise
         return 1

@@ -23,7 +23,7 @@ def print_version() -> int:
     try:
         print(f"PiGaming {__version__}, commit {commit()}", flush=True)
     except OSError as error:
-        sys.stdout = None  # type: ignore[assignment]  # its buffer cannot be written at exit either
+        sys.stdout = None  # its buffer cannot be written at exit either
         print(f"PiGaming: the output cannot be written: {error.strerror}", file=sys.stderr)
         return 2
     return 0

@@ -16,6 +16,7 @@ from typing import Any
 from pigaming_app import ROOT
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.ai.plugin_faults import check
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
@@ -127,6 +128,7 @@ def _plain_run(game: str, variant: str, seed: int) -> float:
     matches = batch(game, variant, seed, 1, False)
     began = perf_counter()
     matches.play(PLAIN_TICKS)
+    check(game, matches.matches, over=False)
     return (perf_counter() - began) / matches.ticks()
 
 

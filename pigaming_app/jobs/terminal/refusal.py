@@ -1,5 +1,6 @@
 """Refusals of jobs: a request that cannot be carried out ends in one line and exit code 2."""
 
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -33,6 +34,8 @@ def refused(*errors: type[Exception]) -> Iterator[None]:
     try:
         yield
     except errors as error:
+        if _is_left_out(error):
+            raise
         raise Refusal(sentence(error)) from None
 
 
@@ -43,9 +46,20 @@ def sentence(error: Exception) -> str:
 
 def is_of_plugin(error: BaseException) -> bool:
     """True if an error is due to a plug-in, which is left out with one line on standard error."""
-    from pigaming_app.ai.plugin_faults import blame  # late: most jobs end without an error
+    if "pigaming_app.storage.plugins.parts" not in sys.modules:
+        return False
+    from pigaming_app.ai.plugin_faults import blame, suspect  # late: most jobs end without an error
 
-    return blame(error) is not None
+    if _is_left_out(error) or blame(error):
+        return True
+    return isinstance(error, Exception) and suspect(error, failures=1) is not None
+
+
+def _is_left_out(error: BaseException) -> bool:
+    """True if an error is that a game was left out, which a line has told."""
+    from pigaming_app.games.setup import LeftOut  # late, as above
+
+    return isinstance(error, LeftOut)
 
 
 def require(extra: str) -> None:

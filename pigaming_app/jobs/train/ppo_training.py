@@ -12,6 +12,7 @@ from time import monotonic
 
 from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.rollout import rehearse
 from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.checkpoint import encode, restore
@@ -23,10 +24,13 @@ from pigaming_app.ai.ppo.task import SHARDS, Task
 from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
 from pigaming_app.ai.ppo.win_rates import Score
 from pigaming_app.ai.registry import find_brain
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.jobs.train.outputs import csv_of, png_of, two_plots
 from pigaming_app.jobs.train.progress import bar, end_line, end_of, interrupts, note, show
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
 
 MEASURED_EVERY = 25  # updates
@@ -68,6 +72,7 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     if arguments.workers > SHARDS:
         raise Refusal(f"--workers: {arguments.workers}; the matches are divided among {SHARDS} at most")
     task = _task(arguments)
+    _rehearse(task)
     try:
         hyper = changed(task.hyper, arguments.set)
         training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
@@ -76,6 +81,15 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     if arguments.resume:
         restore(training, beside)
     return training
+
+
+def _rehearse(task: Task) -> None:
+    """Play a match of a plug-in's game before the training. Raises what it raises."""
+    variant = games()[task.game].variants[task.variants[0]]
+    one, two, three, four = (Seat("random", team) for team in variant.teams)
+    seats, minutes = (one, two, three, four), task.minutes[0]
+    setup = Setup(task.game, task.arenas[0], seats, minutes, 1, variant.name, variant.default_goal)
+    rehearse(setup, [find_brain(task.game, "random")] * ROBOTS)
 
 
 def _task(arguments: Namespace) -> Task:
