@@ -12,7 +12,7 @@ from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.boot.version import is_asked, print_version
 from pigaming_app.jobs import files
 from pigaming_app.jobs.terminal import console, interrupt
-from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin
+from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin, names_failed_plugin
 
 PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
 JOBS = {  # modules of `jobs`
@@ -126,9 +126,14 @@ def _run(name: str, words: list[str]) -> int:
     arguments.words = [name, *words]  # for a job that starts this program again
     if name != "doctor":  # it changes no files
         files.sweep()
+    wanted = "" if name == "games" else getattr(arguments, "game", "") or ""
+    if names_failed_plugin(wanted):
+        return 1
     try:
         return int(job.run(arguments))
     except BaseException as error:
+        if isinstance(error, Refusal) and names_failed_plugin(wanted):
+            return 1
         if isinstance(error, Exception) or not is_of_plugin(error):  # plug-ins also raise SystemExit, KeyboardInterrupt
             raise
         return 1

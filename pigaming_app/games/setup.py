@@ -4,11 +4,10 @@ from collections.abc import Sequence
 
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALLIES, ALONE, PAIRS, Game, Seat, Setup, Variant
-from pigaming_app.games.registry import OURS, games
+from pigaming_app.games.registry import games
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.plugins.consent import is_on
 from pigaming_app.storage.plugins.found import found
-from pigaming_app.storage.plugins.parts import has_failed
 
 PEOPLE = ("human", "off")
 MIN_MINUTES, MAX_MINUTES = 0.05, 60.0
@@ -16,10 +15,6 @@ MIN_MINUTES, MAX_MINUTES = 0.05, 60.0
 
 class ChoiceError(ValueError):
     """A choice is not available: the reason in one line."""
-
-
-class LeftOut(ChoiceError):
-    """The game is a plug-in that has failed, as a line on standard error has told."""
 
 
 def make_setup(
@@ -79,19 +74,15 @@ def check_teams(rules: Game, variant: Variant, playing: Sequence[int]) -> None:
         raise ChoiceError(f"{rules.name} is played by two teams, 0 and 1, of at most two robots each")
 
 
-def require_game(name: str, more: Sequence[str] = ()) -> None:
-    """Raises ChoiceError for a game that there is not, or that the operator has not switched on.
-
-    `more`: other words that would do in its place.
-    """
-    if name in OURS or (name in games() and not has_failed(name)):
+def require_game(name: str) -> None:
+    """Raises ChoiceError for a game that there is not, or that the operator has not switched on."""
+    if name in games():
         return
     if plugin := next((plugin for plugin in found() if plugin.name == name), None):
-        if is_on(plugin):
-            raise LeftOut(f"the game {name} in {plugin.folder} is left out")
-        state = "is new, and runs code of its own" if is_on(plugin) is None else "is switched off"
-        raise ChoiceError(f"the game {name} in {plugin.folder} {state}: main.py games on {name}")
-    require_one_of("game", name, [*games(), *more])
+        state = {None: "is new, and runs code of its own", False: "is switched off", True: "is left out"}[is_on(plugin)]
+        advice = "see above" if is_on(plugin) else f"main.py games on {name}"
+        raise ChoiceError(f"the game {name} in {plugin.folder} {state}: {advice}")
+    require_one_of("game", name, list(games()))
 
 
 def require_one_of(noun: str, name: str, choices: Sequence[str]) -> None:

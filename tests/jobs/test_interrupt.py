@@ -30,7 +30,8 @@ BODIES = {  # what keeps a job busy when Ctrl-C comes, once it has begun
     "    while numbers[0] >= 0: numbers[0] = (numbers[0] + 3) % 7\n"
     "numbers = numpy.ones(1, numpy.int64)\nloop(-numbers)\nbegin()\nloop(numbers)",
     "a thread": "from concurrent.futures import ThreadPoolExecutor as Pool\n"
-    "begin()\nwith Pool() as threads: threads.submit(subprocess.run, [sys.executable, '-c', 'import time; time.sleep(99)']).result()",
+    "command = [sys.executable, '-c', 'import time; time.sleep(99)']\n"
+    "begin()\nwith Pool() as threads: threads.submit(subprocess.run, command).result()",
     "a destructor": "class A:\n    def __del__(self):\n        time.sleep(99)\n"
     "begin()\na = A()\ndel a\nwhile True: pass",
     "a handler": "begin()\ntry: time.sleep(99)\nexcept BaseException:\n    while True: pass",

@@ -36,10 +36,10 @@ def run(arguments: Namespace) -> int:
 
 def _game(game: str, variant: str | None) -> dict[str, Any]:
     from pigaming_app.games.registry import games
-    from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
+    from pigaming_app.games.setup import ChoiceError, require_one_of
 
     with refused(ChoiceError):
-        require_game(game, more=(ROBOTS, PHONES))
+        require_one_of("game", game, [*games(), ROBOTS, PHONES])
         variant = variant or games()[game].default.name
         require_one_of("variant", variant, list(games()[game].variants))
     from pigaming_app.jobs.bench.figures import measure

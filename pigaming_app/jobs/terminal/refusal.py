@@ -20,6 +20,7 @@ EXTRAS = {  # a module, and the package's name
     "bundle": ("PyInstaller", "PyInstaller"),
     "bench": ("pymunk", "pymunk"),
 }
+PLUGINS = "pigaming_app.storage.plugins.parts"  # imported by jobs that may play games
 NOT_BUNDLED = "this bundle was built without it; a clone of the project fetches it"
 FETCHED = "connect this machine to the internet and start main.py again, which installs it"
 
@@ -34,8 +35,6 @@ def refused(*errors: type[Exception]) -> Iterator[None]:
     try:
         yield
     except errors as error:
-        if _is_left_out(error):
-            raise
         raise Refusal(sentence(error)) from None
 
 
@@ -46,20 +45,21 @@ def sentence(error: Exception) -> str:
 
 def is_of_plugin(error: BaseException) -> bool:
     """True if an error is due to a plug-in, which is left out with one line on standard error."""
-    if "pigaming_app.storage.plugins.parts" not in sys.modules:
+    if PLUGINS not in sys.modules:
         return False
     from pigaming_app.ai.plugin_faults import blame, suspect  # late: most jobs end without an error
 
-    if _is_left_out(error) or blame(error):
-        return True
-    return isinstance(error, Exception) and suspect(error, failures=1) is not None
+    return bool(blame(error) or (isinstance(error, Exception) and suspect(error, failures=1)))
 
 
-def _is_left_out(error: BaseException) -> bool:
-    """True if an error is that a game was left out, which a line has told."""
-    from pigaming_app.games.setup import LeftOut  # late, as above
+def names_failed_plugin(games: str) -> bool:
+    """True if one of some games, `race,tag`, is a plug-in's that has failed; a line on standard error has told it."""
+    if PLUGINS not in sys.modules:
+        return False
+    from pigaming_app.games.registry import OURS  # late, as above
+    from pigaming_app.storage.plugins.parts import has_failed
 
-    return isinstance(error, LeftOut)
+    return any(has_failed(game) for game in games.split(",") if game not in OURS)
 
 
 def require(extra: str) -> None:

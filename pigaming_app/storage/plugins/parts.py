@@ -66,8 +66,9 @@ def failure(plugin: Plugin) -> str:
 
 
 def has_failed(name: str) -> bool:
-    """Whether a part of the plug-in with this game has failed."""
-    return any(plugin.name == name and plugin in _failed for plugin in plugins())
+    """Whether a plug-in with this game has failed, and no other one plays it."""
+    named = [plugin for plugin in (*plugins(), *_failed) if plugin.name == name]
+    return bool(named) and all(plugin in _failed for plugin in named)
 
 
 def stopped() -> set[str]:
