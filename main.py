@@ -6,6 +6,7 @@ Old Python versions must be able to parse this file, to report that they are too
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 NEEDS = (3, 11)
@@ -24,9 +25,15 @@ def main() -> int:
     if refusal:
         print(refusal, file=sys.stderr)
         return 2
+    if hasattr(signal, "pthread_sigmask"):  # Ctrl-C waits until somebody can answer it
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     folder = os.path.dirname(os.path.abspath(__file__))
     if folder not in sys.path:
         sys.path.insert(0, folder)
+    from pigaming_app.boot.version import is_asked, print_version
+
+    if is_asked(sys.argv[1:]):
+        return print_version()
     if getattr(sys, "frozen", False):  # a bundle needs no environment
         from pigaming_app.boot.bundled import run_module
 

@@ -1,8 +1,12 @@
 """`python -m pigaming_app`: the same as `main.py`, without setting up the environment first."""
 
+import signal
 import sys
 
-from pigaming_app.cli import main
+if hasattr(signal, "pthread_sigmask"):  # as in main.py
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 if __name__ == "__main__":
+    from pigaming_app.cli import main
+
     sys.exit(main())

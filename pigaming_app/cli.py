@@ -9,9 +9,10 @@ from importlib import import_module
 from typing import NoReturn
 
 from pigaming_app import FROZEN, INSTALLED
+from pigaming_app.boot.version import is_asked, print_version
 from pigaming_app.jobs import files
-from pigaming_app.jobs.terminal import console
-from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin
+from pigaming_app.jobs.terminal import console, interrupt
+from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin, names_failed_plugin
 
 PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
 JOBS = {  # modules of `jobs`
@@ -55,15 +56,34 @@ def main(argv: Sequence[str] | None = None) -> int:
     for variable in BLAS:  # our matrices are small; whoever has much to do divides it among threads of its own
         os.environ.setdefault(variable, "1")  # read when NumPy is imported
     console.prepare()
-    try:
-        code = _refused_in_one_line(words)
-    except SystemExit as end:  # argparse, after --help
-        code = int(end.code or 0)
-    except BrokenPipeError:
-        code = 1
-    except KeyboardInterrupt:
-        code = 130
+    if is_asked(words):
+        return print_version()
+    with interrupt.watched() as interrupts:
+        try:
+            interrupts.allow(True)
+            code = _refused_in_one_line(words)
+            interrupts.allow(False)
+        except BaseException as error:
+            code = interrupt.CODE if interrupts.cut else _code_of(error)
+        if interrupts.cut:
+            console.flushed(code)
+            interrupts.end()
     return console.flushed(code)
+
+
+def _code_of(error: BaseException) -> int:
+    """The exit code after an exception. Raises it again where it is a mistake of the program."""
+    match error:
+        case SystemExit():  # argparse, after --help
+            return int(error.code or 0)
+        case BrokenPipeError():
+            return 1
+        case KeyboardInterrupt() if os.name == "nt":
+            console.print_error("stopped.")
+            return interrupt.CODE
+        case KeyboardInterrupt():  # by SIGTERM
+            return 0
+    raise error
 
 
 def _refused_in_one_line(words: list[str]) -> int:
@@ -106,9 +126,14 @@ def _run(name: str, words: list[str]) -> int:
     arguments.words = [name, *words]  # for a job that starts this program again
     if name != "doctor":  # it changes no files
         files.sweep()
+    wanted = "" if name == "games" else getattr(arguments, "game", "") or ""
+    if names_failed_plugin(wanted):
+        return 1
     try:
         return int(job.run(arguments))
-    except SystemExit as end:
-        if not is_of_plugin(end):
+    except BaseException as error:
+        if isinstance(error, Refusal) and names_failed_plugin(wanted):
+            return 1
+        if isinstance(error, Exception) or not is_of_plugin(error):  # plug-ins also raise SystemExit, KeyboardInterrupt
             raise
         return 1

@@ -23,7 +23,7 @@ MAY = {
     "gym": {"sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
     "events": {"games", "ai", "storage"},
     "jobs": {"boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
-    "cli": {"jobs"},
+    "cli": {"boot", "jobs"},
 }
 MODULES, FLOORS = 15, 8  # at most: in a folder, between the rooms (gym lies between scenes and jobs)
 ONLY_IN = {

@@ -106,7 +106,7 @@ def test_the_wheel_has_the_package_and_the_assets_and_no_tests(wheel):
     package = {name for name in packages if "__pycache__" not in name}
     assets = {name for name in names_below("assets") if "__pycache__" not in name}
     shipped = {name for name in assets if not name.startswith("assets/pictures/")}  # those are for README
-    assert inside == package | {f"pigaming_app/{name}" for name in shipped}
+    assert inside == package | {f"pigaming_app/{name}" for name in shipped} | {"pigaming_app/commit.txt"}
     for kind in ("fonts", "text", "arenas", "brains", "sounds"):
         assert any(name.startswith(f"pigaming_app/assets/{kind}/") for name in inside)
 
@@ -138,6 +138,13 @@ def test_the_wheel_declares_version_extras_and_program(environment):
         ("console_scripts", "pigaming", "pigaming_app.cli:main"),
         ("pigaming.games", "football", "pigaming_football"),
     }
+
+
+def test_it_names_its_version_and_the_commit_that_it_was_made_from(run):
+    head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    for word in ("-V", "--version"):
+        ended = run("pigaming", word)
+        assert ended.stdout == f"PiGaming {pigaming_app.__version__}, commit {head[:8]}\n"
 
 
 def test_a_match_is_played_from_elsewhere(run):

@@ -10,7 +10,7 @@ from pathlib import Path, PureWindowsPath
 from pigaming_app.ai.brain.archive import BrainFileError, names, read
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks import files as network_files
-from pigaming_app.ai.networks import onnx_files
+from pigaming_app.ai.networks.onnx import files as onnx_files
 from pigaming_app.ai.qlearning import table_files
 
 ONNX = ".onnx"

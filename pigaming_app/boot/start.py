@@ -5,6 +5,7 @@ creates or completes `.venv`.
 """
 
 import os
+import signal
 import sys
 from pathlib import Path
 
@@ -93,4 +94,13 @@ def environment(needed: set[str], optional: set[str]) -> Path | None:
         report(f"{sys.prefix} holds both pygame and pygame-ce, which overwrite each other: it is not used.")
     from pigaming_app.boot.environment import prepare
 
-    return prepare(needed, optional)
+    _answer_interrupts(True)
+    place = prepare(needed, optional)
+    _answer_interrupts(False)
+    return place
+
+
+def _answer_interrupts(answer: bool) -> None:
+    """Raise KeyboardInterrupt at Ctrl-C, or leave it pending for the job. Windows always raises it."""
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK if answer else signal.SIG_BLOCK, {signal.SIGINT})

@@ -20,6 +20,7 @@ def options(parser: ArgumentParser) -> None:
     mat_options(parser)
     parser.add_argument("--phones", action="store_true", help="phones may join as pads; saved in the settings")
     ros_options(parser)
+    parser.add_argument("-V", "--version", action="store_true", help="print version and commit")
     parser.add_argument("--frames", type=integer(), help=argparse.SUPPRESS)
 
 

@@ -15,9 +15,10 @@ from dataclasses import asdict, dataclass
 from importlib import metadata
 from pathlib import Path
 
-from pigaming_app import ASSETS, FROZEN, INSTALLED, ROOT
+from pigaming_app import ASSETS, FROZEN, INSTALLED, ROOT, __version__
 from pigaming_app.boot.interpreter import ARCADE, StartError, has_both_pygames, is_missing, packages
 from pigaming_app.boot.interpreter import requirements as listed
+from pigaming_app.boot.version import commit
 from pigaming_app.jobs.terminal.options import shared
 from pigaming_app.jobs.terminal.refusal import remedy
 from pigaming_app.storage.parsing import one_line, parse_json
@@ -25,7 +26,7 @@ from pigaming_app.storage.restarts import restarts
 from pigaming_app.storage.scores import migrations
 from pigaming_app.storage.settings import Folders, NoHome, folders
 
-MIN_FREE = 100_000_000  # bytes of free disk space, below which the report has a note
+MIN_FREE = 200_000_000  # bytes of free disk space, below which the report has a note
 TIMEOUT = 15.0  # s for the drivers to answer
 REINSTALL = "install the package again" if INSTALLED else "get the whole folder of the program again"
 RESTART = REINSTALL if INSTALLED or FROZEN else "start main.py again"
@@ -79,6 +80,7 @@ def report() -> list[Line]:
 
 
 def _system() -> Iterator[Line]:
+    yield Line("PiGaming", "ok", f"{__version__}, commit {commit()}")
     yield Line("Python", "ok", f"{platform.python_version()}, {sys.executable}")
     yield Line(
         "system", "ok", f"{platform.system()} {platform.release()}, {platform.machine()}, {os.cpu_count()} cores"
@@ -145,9 +147,23 @@ def _folders(where: Folders) -> Iterator[Line]:
         except OSError as error:
             yield Line(what, "note", f"{folder} ({error.strerror})", "it cannot be written, so nothing will be kept")
             continue
-        free = shutil.disk_usage(existing).free
-        full = f"only {free // 1_000_000} MB are free: make room, or nothing will be kept" if free < MIN_FREE else ""
-        yield Line(what, "note" if full else "ok", str(folder), full)
+        yield Line(what, "ok", str(folder))
+    yield from _free_space(where)
+
+
+def _free_space(where: Folders) -> Iterator[Line]:
+    """The free space of each disk that holds one of the folders."""
+    disks = {os.stat(place).st_dev: place for place in map(_nearest, (where.cache, where.data, where.config))}
+    for place in disks.values():
+        try:
+            free = shutil.disk_usage(place).free
+        except OSError as error:
+            yield Line(
+                "free space", "note", f"{place} ({error.strerror})", "it cannot be read; make sure there is some"
+            )
+            continue
+        full = "" if free >= MIN_FREE else f"make room: below {MIN_FREE // 1_000_000} MB files may not be kept"
+        yield Line("free space", "note" if full else "ok", f"{free // 1_000_000:,} MB for {place}", full)
 
 
 def _restarts(data: Path) -> Iterator[Line]:

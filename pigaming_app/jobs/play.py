@@ -7,11 +7,14 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
 from pigaming_app.ai.brain_files import display_name
+from pigaming_app.ai.experiments.rollout import longest
+from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.registry import known_brains, new_match
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.match import Match
@@ -41,6 +44,7 @@ from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.rng import SEEDS
 from pigaming_app.sim.world import DT, ROBOTS
 from pigaming_app.storage.parsing import ParseError, describe_error, quote, read_text
+from pigaming_app.storage.plugins.endless import overseer
 from pigaming_app.storage.safe_files import NotSaved, require_writable
 from pigaming_app.storage.settings import Settings, folders
 
@@ -223,14 +227,18 @@ def _headless(
     began = perf_counter()
     photographer = Photographer(match, arguments.screenshot, arguments.at) if arguments.screenshot else None
     played = 0.0  # s of the rounds before this one
+    most = bound(setup.game, longest(setup)) if overseer.is_overseen(setup.game) else inf
     while True:
-        while not match.over:
+        ticks = 0
+        while not match.over and ticks < most:
             match.tick()
+            ticks += 1
             if photographer:
                 photographer.watch()
             ahead = (played + match.seconds) / speed - (perf_counter() - began)
             if ahead > 0.0:
                 sleep(ahead)
+        check(setup.game, [match.state])
         if rounds is None:
             break
         rounds.add(match.outcome())

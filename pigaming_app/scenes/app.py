@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from pigaming_app.ai.brain_files import display_name
+from pigaming_app.ai.networks.onnx import failed
 from pigaming_app.ai.plugin_faults import blame, suspect
 from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.session.robot_session import RobotSession
@@ -361,6 +363,8 @@ class App:
                 log.warning(line)
             self.context.canvas.notices.clear()
             self.notices.add(self.context.words("app.display"))
+        while failed:
+            self.notices.add(self.context.words("app.brain_failed", brain=display_name(failed.pop())))
         self.notices.draw(screen, seconds)
         self.meter.draw(screen)
 

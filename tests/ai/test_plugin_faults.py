@@ -72,9 +72,11 @@ def test_numbers_that_are_none_are_named() -> None:
     assert list(wrong_numbers(match.state)) == []
     match.state.robots[1].score = 0.5
     match.state.robots[2].x = float("inf")
+    match.state.robots[3].score = 10**21
     assert list(wrong_numbers(match.state)) == [
         "PiTanks.robots[1].score is 0.5, no whole number",
         "PiTanks.robots[2].x is inf, no number",
+        "PiTanks.robots[3].score is 1e+21, beyond 64 bits",
     ]
 
 

@@ -22,7 +22,7 @@ from pigaming_app.boot import interpreter, start
 ROOT = Path(__file__).resolve().parents[2]
 BARE = sys._base_executable
 FILES = ("main.py", "pyproject.toml", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
-FILES += tuple(f"pigaming_app/boot/{name}.py" for name in ("start", "interpreter", "environment", "fetch"))
+FILES += tuple(f"pigaming_app/boot/{name}.py" for name in ("start", "interpreter", "environment", "fetch", "version"))
 JOB = """
 import sys
 

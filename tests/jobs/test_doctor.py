@@ -7,6 +7,8 @@ from types import SimpleNamespace
 
 import pytest
 
+from pigaming_app import __version__
+from pigaming_app.boot import version
 from pigaming_app.boot.interpreter import StartError
 from pigaming_app.cli import main
 from pigaming_app.jobs import doctor
@@ -123,9 +125,16 @@ def test_folders_that_cannot_be_written_are_named_and_none_is_made(monkeypatch, 
     assert "nothing will be kept" in line("scores").advice
 
 
-def test_a_disk_that_is_nearly_full_is_said(monkeypatch):
-    monkeypatch.setattr(doctor.shutil, "disk_usage", lambda _: SimpleNamespace(free=5_000_000))
-    assert "only 5 MB" in line("scores").advice
+@pytest.mark.parametrize(("free", "state"), [(199_999_999, "note"), (2_000_000_000, "ok")])
+def test_free_space_is_named_and_below_200_mb_a_finding(free, state, monkeypatch):
+    monkeypatch.setattr(doctor.shutil, "disk_usage", lambda _: SimpleNamespace(free=free))
+    found = line("free space")
+    assert (found.state, found.found.partition(" for ")[0]) == (state, f"{free // 1_000_000:,} MB")
+    assert bool(found.advice) == (state == "note")
+
+
+def test_version_and_commit_are_named():
+    assert line("PiGaming").found == f"{__version__}, commit {version.commit()}"
 
 
 def test_a_broken_engine_is_a_problem(monkeypatch):

@@ -25,6 +25,7 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened, run
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.widgets.notices import Notices
 from tests.scenes.arcade import Floor, setup
 
 NEEDS_OPENCV = pytest.mark.skipif(find_spec("cv2") is None, reason="OpenCV is not installed")
@@ -91,6 +92,14 @@ def test_a_scene_that_fails_gives_way_to_the_title_and_one_sentence(
     assert set(said) == {"Something went wrong. Back to the title."}
     assert "on purpose" in (home / "data" / "pigaming.log").read_text()
     assert "Traceback" not in capsys.readouterr().err
+
+
+def test_a_model_that_failed_in_a_match_is_named(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    monkeypatch.setattr("pigaming_app.scenes.app.failed", ["/somewhere/my policy.onnx"])
+    monkeypatch.setattr(Notices, "add", lambda notices, line: said.append(line))
+    assert run(Options(headless=True, frames=2, step=STEP)) == 0
+    assert said == ["my policy failed and now stands still."]
 
 
 def test_a_title_that_fails_for_ever_ends_the_arcade_in_one_line(

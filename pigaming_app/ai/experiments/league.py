@@ -15,13 +15,14 @@ from typing import Any, NamedTuple
 
 from pigaming_app.ai.brain_files import is_path, stem_of
 from pigaming_app.ai.experiments.ratings import Rating, ratings
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.experiments.rollout import Batch, longest, rehearse
+from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.registry import BRAINS, find_brain, known_brains
 from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup, require_game, require_one_of
 from pigaming_app.sim.kernel import can_compile
-from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.sim.world import ROBOTS
 
 MAX_MATCHES = 100_000  # in a duel; all are in memory at once
 MIN_COMPILED_MATCHES = 300_000  # ticks; below this compiling takes longer than interpreted play
@@ -164,7 +165,7 @@ def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None)
     game, matches = setups[0].game, len(setups)
     variant = games()[game].variants[setups[0].variant]
     allies = variant.team_mode == ALLIES
-    ticks = round((setups[0].minutes * 60 + variant.overtime) * HZ)
+    ticks = longest(setups[0])
     if fast is None:
         fast = can_compile() and matches * ticks > MIN_COMPILED_MATCHES
     kinds = {name: find_brain(game, name) for name in (left, right)}
@@ -174,12 +175,14 @@ def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None)
         halves = [(setups, [name] * ROBOTS) for name in (left, right)]
     else:
         halves = [*_both_ways(setups, _line_up(variant, left, right))]
+    if fast:
+        rehearse(setups[0], [kinds[name] for name in halves[0][1]])
     batches: list[Batch] = []
     for half, order in halves:
         twin = batches[0] if batches and half == halves[0][0][: len(half)] else None
         batches.append(Batch(half, [kinds[name] for name in order], fast, twin=twin))
     for batch in batches:
-        batch.play(ticks)
+        batch.play(bound(game, ticks))
     seconds = perf_counter() - began
     ends = [Ending(0.0, 0.0, 0, 0)] * matches
     if allies:
@@ -249,8 +252,9 @@ def _both_ways(setups: Sequence[Setup], brains: list[str]) -> Iterator[tuple[Seq
 
 def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[Ending]:
     """End of every match, as seen by `left`."""
-    rules = games()[game]
-    for state in batch.ended():
+    rules, states = games()[game], batch.ended()
+    check(game, states)
+    for state in states:
         left, right = ((rules.ranking_key(state, seat), _score(state, seat)) for seat in (0, 1))
         if swapped:
             left, right = right, left
@@ -259,8 +263,9 @@ def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[Ending]:
 
 def _allied_ends(game: str, lefts: Batch, rights: Batch) -> Iterator[Ending]:
     """End of every match of allies, played by `left` and by `right`."""
-    rules = games()[game]
-    for left, right in zip(lefts.ended(), rights.ended(), strict=True):
+    rules, states = games()[game], (lefts.ended(), rights.ended())
+    check(game, [*states[0], *states[1]])
+    for left, right in zip(*states, strict=True):
         keys = rules.ranking_key(left, 0), rules.ranking_key(right, 0)
         yield Ending(*keys, _score(left, 0), _score(right, 0))
 

@@ -7,13 +7,15 @@ from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.rollout import cast_with_baselines, compiled_rollout, plain_rollout
+from pigaming_app.ai.experiments.rollout import cast_with_baselines, compiled_rollout, longest, plain_rollout, rehearse
+from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import packed, unpack
-from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.plugins.endless import overseer
 
 OFF = "off"  # an empty seat
 
@@ -34,26 +36,29 @@ class LineUps:
         """
         states = initial_states(setups)
         minds = self._cast.minds([self._seated(setup) for setup in setups])
-        ticks = max(longest(setup) for setup in setups)
+        ticks = bound(self.game, max(longest(setup) for setup in setups))
         if not self.fast:
             plain_rollout(self.game, self._cast.families)(states, minds, self._cast.weights, ticks)
+            check(self.game, states)
             return states
+        rehearse(setups[0], [self.kinds[seat.brain] for seat in setups[0].seats])
         matches, loop = packed(states), compiled_rollout(self.game, self._cast.families)
+        weights = self._cast.weights
         share = -(-len(setups) // (os.cpu_count() or 1))
         with ThreadPoolExecutor() as threads:  # the loop runs without the GIL, and matches are independent
+            shares = [slice(i, i + share) for i in range(0, len(setups), share)]
             parts = [
-                threads.submit(loop, matches[i : i + share], minds[i : i + share], self._cast.weights, ticks)
-                for i in range(0, len(setups), share)
+                threads.submit(
+                    overseer.run, self.game, matches[part]["tick"].sum, loop, matches[part], minds[part], weights, ticks
+                )
+                for part in shares
             ]
         for part in parts:
             part.result()
-        return [unpack(games()[self.game].state, row) for row in matches]
+        ended: list[Any] = [unpack(games()[self.game].state, row) for row in matches]
+        check(self.game, ended)
+        return ended
 
     def _seated(self, setup: Setup) -> list[tuple[BrainKind, int]]:
         """Brain and seed of every seat, as `new_match` has them."""
         return [(self.kinds[seat.brain], setup.seed * ROBOTS + i) for i, seat in enumerate(setup.seats)]
-
-
-def longest(setup: Setup) -> int:
-    """Ticks after which a match is over."""
-    return round((setup.minutes * 60 + games()[setup.game].variants[setup.variant].overtime) * HZ)

@@ -11,13 +11,15 @@ from typing import Any
 from pigaming_app.ai.brain.baselines import IDLE, RANDOM
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.cast import Cast, Family, Think, dispatcher
+from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import copy, packed, unpack
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.storage.plugins.endless import overseer
 
 Loop = Callable[[Any, Any, Any, int], None]
 
@@ -88,13 +90,13 @@ class Batch:
         self.minds = self.cast.minds(
             [[(kind, setup.seed * ROBOTS + seat) for seat, kind in enumerate(self.kinds)] for setup in setups]
         )
-        game = setups[0].game
-        self.state = games()[game].state
-        self.loop: Loop = (compiled_rollout if fast else plain_rollout)(game, self.cast.families)
+        self.game = setups[0].game
+        self.state = games()[self.game].state
+        self.loop: Loop = (compiled_rollout if fast else plain_rollout)(self.game, self.cast.families)
 
     def play(self, ticks: int) -> None:
         """Advance every match by `ticks` ticks, or to its end."""
-        self.loop(self.matches, self.minds, self.cast.weights, ticks)
+        overseer.run(self.game, self.ticks, self.loop, self.matches, self.minds, self.cast.weights, ticks)
 
     def scores(self) -> list[list[int]]:
         """Scores of the seats, by match."""
@@ -109,3 +111,19 @@ class Batch:
     def ended(self) -> list[Any]:
         """All matches as plain records."""
         return [unpack(self.state, row) for row in self.matches] if self.fast else list(self.matches)
+
+
+def longest(setup: Setup) -> int:
+    """Ticks after which a match is over."""
+    return round((setup.minutes * 60 + games()[setup.game].variants[setup.variant].overtime) * HZ)
+
+
+def rehearse(setup: Setup, kinds: Sequence[BrainKind | None]) -> None:
+    """Play a match of a plug-in plain, before others are compiled: these convert numbers that plain ones refuse.
+
+    Raises GameFault, and whatever the plug-in raises.
+    """
+    if overseer.is_overseen(setup.game):
+        batch = Batch([setup], kinds, fast=False)
+        batch.play(bound(setup.game, longest(setup)))
+        check(setup.game, batch.matches)

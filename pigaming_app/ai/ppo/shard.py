@@ -14,6 +14,7 @@ from pigaming_app.ai.experiments.cast import Cast, dispatcher, family_of
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import HIDDEN, Policy, network_brain
+from pigaming_app.ai.plugin_faults import bound, late
 from pigaming_app.ai.ppo.forward import bend, make_layer, sample
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, LineUp, Task
 from pigaming_app.ai.registry import find_brain
@@ -24,7 +25,8 @@ from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled, compiled_before
 from pigaming_app.sim.record import packed
 from pigaming_app.sim.rng import SEEDS, seeded, training_seed
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.storage.plugins.endless import overseer
 
 NOBODY, LEARNING = -1, -2  # families of a seat that no brain of the cast plays; each learner has its own, downwards
 STARTS = 4  # prepared starts of every kind of match; all else that is random in it is drawn anew
@@ -171,6 +173,7 @@ class Shard:
         self.matches: Any = np.repeat(self._start(self.line_ups[0]), count)
         self.minds: Any = np.zeros((count, ROBOTS), self._nobody.dtype)
         self.streams: Any = np.full((count, ROBOTS), -1)
+        self._played = np.zeros(count, np.int64)  # ticks of each match, at least
         for i in range(count):
             self._begin(i, pool=1)
             ticks = int(self.matches["rules"]["ticks"][i])
@@ -191,14 +194,25 @@ class Shard:
         experience.players[:] = LEARNING - self.minds["family"][self.streams >= 0]
         networks = np.concatenate([self.cast.weights[self._number], pool])
         weights = tuple(networks if k == self._number else row for k, row in enumerate(self.cast.weights))
-        loop_of(self.task)(self.matches, self.minds, weights, self.streams, *policies, *experience)
+        arguments = self.matches, self.minds, weights, self.streams, *policies, *experience
+        overseer.run(self.task.game, self.matches["tick"].sum, loop_of(self.task), *arguments)
         ended = self.matches["over"] > 0
+        self._check_length(ended, decisions * PERIOD)
         if self.task.cut:
             ended |= self.random.random(len(ended)) < self.task.cut
         for i in np.flatnonzero(ended):
             self._begin(int(i), len(pool))
         self._count_streams()
         return experience
+
+    def _check_length(self, ended: Any, ticks: int) -> None:
+        """Count the ticks of matches that go on. Raises GameFault for a plug-in's match that does not end."""
+        self._played = np.where(ended, 0, self._played + ticks)
+        variants, game = games()[self.task.game].variants, self.task.game
+        overtime = max(variants[name].overtime for name in self.task.variants)
+        time = round((max(self.task.minutes) * 60 + overtime) * HZ)
+        if overseer.is_overseen(game) and self._played.max() > bound(game, time):
+            raise late(game)
 
     def warm(self) -> None:
         """Compile the loop, for a fresh shard."""

@@ -7,6 +7,7 @@ import numpy as np
 
 from pigaming_app.ai.experiments.cast import family_of
 from pigaming_app.ai.networks.encoding import PERIOD
+from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.ppo.shard import cast_of, empty_experience, loop_of, nobody
 from pigaming_app.ai.ppo.task import OFF, Task
 from pigaming_app.ai.registry import find_brain
@@ -15,6 +16,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import packed, unpack
 from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.storage.plugins.endless import overseer
 
 SEED = 1_000_000  # of the first match; no training plays it
 
@@ -57,10 +59,13 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
     networks = cast.weights[number].copy()
     networks[cast.mind_of(player, 0).row] = network[0]
     weights = tuple(networks if k == number else row for k, row in enumerate(cast.weights))
-    longest = max(round((task.minutes[0] * 60 + variant.overtime) * HZ) for variant in variants)
+    longest = bound(task.game, max(round((task.minutes[0] * 60 + variant.overtime) * HZ) for variant in variants))
     nothing = empty_experience(task, 0, -(-longest // PERIOD))
     policies = [np.zeros((1, 1, 1), np.float32)] * 3
-    loop_of(task)(
+    overseer.run(
+        task.game,
+        states["tick"].sum,
+        loop_of(task),
         states,
         packed([mind for row in seated for mind in row]).reshape(-1, ROBOTS),
         weights,
@@ -69,6 +74,7 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
         *nothing,
     )
     ends: list[Any] = [unpack(rules.state, state) for state in states]
+    check(task.game, ends)
     leads = [rules.ranking_key(end, i % 2) - rules.ranking_key(end, 1 - i % 2) for i, end in enumerate(ends)]
     wins, losses = sum(lead > 0 for lead in leads), sum(lead < 0 for lead in leads)
     return Score(wins, matches - wins - losses, losses)

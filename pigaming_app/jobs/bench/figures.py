@@ -8,9 +8,7 @@ that it does not end during the measurement.
 import os
 import platform
 import subprocess
-from concurrent.futures import ProcessPoolExecutor
 from itertools import count
-from multiprocessing import get_context
 from statistics import median
 from time import perf_counter, process_time, time
 from typing import Any
@@ -18,6 +16,7 @@ from typing import Any
 from pigaming_app import ROOT
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.ai.plugin_faults import check
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
@@ -25,9 +24,11 @@ from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import environments, networks, yardsticks
 from pigaming_app.jobs.bench.memory import driver
 from pigaming_app.jobs.bench.memory import measure as measure_memory
+from pigaming_app.jobs.bench.processes import processes
 from pigaming_app.jobs.bench.walk import measure as measure_screens
 from pigaming_app.jobs.bench.walk import second_screen
 from pigaming_app.jobs.terminal.command import own_command
+from pigaming_app.jobs.terminal.interrupt import OWN_GROUP
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
 
@@ -113,7 +114,7 @@ def start() -> float:
     """Seconds from the command that starts the arcade to the end of its first frame (and of the program)."""
     environment = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     began = perf_counter()
-    subprocess.run(own_command(["--frames", "1"], prepared=False), cwd=ROOT, env=environment, check=True)
+    subprocess.run(own_command(["--frames", "1"], prepared=False), cwd=ROOT, env=environment, check=True, **OWN_GROUP)
     return perf_counter() - began
 
 
@@ -127,6 +128,7 @@ def _plain_run(game: str, variant: str, seed: int) -> float:
     matches = batch(game, variant, seed, 1, False)
     began = perf_counter()
     matches.play(PLAIN_TICKS)
+    check(game, matches.matches, over=False)
     return (perf_counter() - began) / matches.ticks()
 
 
@@ -152,7 +154,7 @@ def _comparison(variant: str) -> dict[str, float | None]:
 
 def _two_processes(game: str, variant: str) -> float:
     """Ticks a second of two processes together, from the first start to the last end."""
-    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+    with processes(2) as pool:
         start_at = time() + 4.0
         spans = [job.result() for job in [pool.submit(work, game, variant, seed, start_at) for seed in (1, 2)]]
     ticks = sum(ticks for _, _, ticks in spans)

@@ -8,9 +8,8 @@ counts, except for times of computation, where the best counts: other programs c
 """
 
 from collections.abc import Callable, Mapping
-from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures import Future
 from importlib.util import find_spec
-from multiprocessing import get_context
 from typing import NamedTuple, TypeVar
 
 from pigaming_app.ai.registry import make_brain
@@ -28,6 +27,7 @@ from pigaming_app.hardware.proof.emergencies import EMERGENCIES, StopResult
 from pigaming_app.hardware.proof.testbed import Testbed, one_core
 from pigaming_app.hardware.proof.trials import ButtonMasher, FigureEight, MatchResult, TrackingResult
 from pigaming_app.jobs.bench import wifi
+from pigaming_app.jobs.bench.processes import processes
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.plugins.parts import plugins
 from pigaming_app.ui.i18n import english
@@ -83,7 +83,7 @@ class Job(NamedTuple):
 
 def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]:
     """All figures by name; `note` receives a line for each finding. Raises Unproven."""
-    with ProcessPoolExecutor(2, get_context("spawn"), one_core) as pool:
+    with processes(2, one_core) as pool:
         followed = {(fps, seed): pool.submit(follow_alone, seed, fps) for seed in (1, 2) for fps in RATES}
         stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
         calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]

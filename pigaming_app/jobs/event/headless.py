@@ -9,7 +9,8 @@ from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
-from pigaming_app.ai.experiments.line_ups import LineUps, longest
+from pigaming_app.ai.experiments.line_ups import LineUps
+from pigaming_app.ai.experiments.rollout import longest
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of, setup_of

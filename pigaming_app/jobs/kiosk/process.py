@@ -13,6 +13,7 @@ from threading import Thread
 from time import sleep
 
 from pigaming_app.jobs.kiosk.child import GRACE, VARIABLE
+from pigaming_app.jobs.terminal.interrupt import OWN_GROUP
 from pigaming_app.storage.heartbeat import Heartbeat
 
 LINES = 200  # of standard error, the last ones of which are kept
@@ -31,7 +32,7 @@ class ArcadeProcess:
         environment = {**os.environ, VARIABLE: name}
         try:
             self._process = subprocess.Popen(
-                command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, env=environment, errors="replace"
+                command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, env=environment, errors="replace", **OWN_GROUP
             )
         except BaseException:  # Ctrl+C as well: a process that is half started ends by its closed input
             self._free()

@@ -1,5 +1,6 @@
 """Refusals of jobs: a request that cannot be carried out ends in one line and exit code 2."""
 
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -19,6 +20,7 @@ EXTRAS = {  # a module, and the package's name
     "bundle": ("PyInstaller", "PyInstaller"),
     "bench": ("pymunk", "pymunk"),
 }
+PLUGINS = "pigaming_app.storage.plugins.parts"  # imported by jobs that may play games
 NOT_BUNDLED = "this bundle was built without it; a clone of the project fetches it"
 FETCHED = "connect this machine to the internet and start main.py again, which installs it"
 
@@ -43,9 +45,21 @@ def sentence(error: Exception) -> str:
 
 def is_of_plugin(error: BaseException) -> bool:
     """True if an error is due to a plug-in, which is left out with one line on standard error."""
-    from pigaming_app.ai.plugin_faults import blame  # late: most jobs end without an error
+    if PLUGINS not in sys.modules:
+        return False
+    from pigaming_app.ai.plugin_faults import blame, suspect  # late: most jobs end without an error
 
-    return blame(error) is not None
+    return bool(blame(error) or (isinstance(error, Exception) and suspect(error, failures=1)))
+
+
+def names_failed_plugin(games: str) -> bool:
+    """True if one of some games, `race,tag`, is a plug-in's that has failed; a line on standard error has told it."""
+    if PLUGINS not in sys.modules:
+        return False
+    from pigaming_app.games.registry import OURS  # late, as above
+    from pigaming_app.storage.plugins.parts import has_failed
+
+    return any(has_failed(game) for game in games.split(",") if game not in OURS)
 
 
 def require(extra: str) -> None:

@@ -12,6 +12,7 @@ from time import monotonic
 
 from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.rollout import rehearse
 from pigaming_app.ai.experiments.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.checkpoint import encode, restore
@@ -23,10 +24,13 @@ from pigaming_app.ai.ppo.task import SHARDS, Task
 from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
 from pigaming_app.ai.ppo.win_rates import Score
 from pigaming_app.ai.registry import find_brain
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.jobs.train.outputs import csv_of, png_of, two_plots
-from pigaming_app.jobs.train.progress import bar, end_line, interrupts, note, show
+from pigaming_app.jobs.train.progress import bar, end_line, end_of, interrupts, note, show
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
 
 MEASURED_EVERY = 25  # updates
@@ -44,19 +48,20 @@ def train_and_save(arguments: Namespace, beside: Path) -> int:
         refused(Diverged, NoCluster),
         ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads,
         _players(training, threads, arguments) as (gather, sync),
-        interrupts() as stopped,
     ):
-        note("Ctrl-C ends the training after the current update and saves the result")
-        save = partial(_save, training, sync, arguments.out, beside)
-        _train(training, gather, threads, save, stopped)
-        scores = training.measure(MEASURED_AT_END, threads)
-        save()
-        if arguments.csv:
-            write_atomic(arguments.csv, csv_of(columns(training.task), training.points))
-        if arguments.curve:
-            write_atomic(arguments.curve, _curve_of(training))
+        scores = training.measure(MEASURED, threads)  # also compiles
+        with interrupts() as stopped:
+            note("Ctrl-C ends the training after the current update and saves the result")
+            save = partial(_save, training, sync, arguments.out, beside)
+            _train(training, scores, gather, threads, save, stopped)
+            scores = training.measure(MEASURED_AT_END, threads)
+            save()
+            if arguments.csv:
+                write_atomic(arguments.csv, csv_of(columns(training.task), training.points))
+            if arguments.curve:
+                write_atomic(arguments.curve, _curve_of(training))
     _print(training, scores, arguments, bool(stopped))
-    return 130 if stopped else 0
+    return end_of(stopped)
 
 
 def _begin(arguments: Namespace, beside: Path) -> Training:
@@ -67,6 +72,7 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     if arguments.workers > SHARDS:
         raise Refusal(f"--workers: {arguments.workers}; the matches are divided among {SHARDS} at most")
     task = _task(arguments)
+    _rehearse(task)
     try:
         hyper = changed(task.hyper, arguments.set)
         training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
@@ -75,6 +81,15 @@ def _begin(arguments: Namespace, beside: Path) -> Training:
     if arguments.resume:
         restore(training, beside)
     return training
+
+
+def _rehearse(task: Task) -> None:
+    """Play a match of a plug-in's game before the training. Raises what it raises."""
+    variant = games()[task.game].variants[task.variants[0]]
+    one, two, three, four = (Seat("random", team) for team in variant.teams)
+    seats, minutes = (one, two, three, four), task.minutes[0]
+    setup = Setup(task.game, task.arenas[0], seats, minutes, 1, variant.name, variant.default_goal)
+    rehearse(setup, [find_brain(task.game, "random")] * ROBOTS)
 
 
 def _task(arguments: Namespace) -> Task:
@@ -98,9 +113,15 @@ def _players(
         yield shards.gather, shards.sync
 
 
-def _train(training: Training, gather: Gather, threads: Executor, save: Callable[[], None], stopped: list[int]) -> None:
-    """Train to the end of the plan, or until stopped."""
-    scores = training.measure(MEASURED, threads)  # also compiles
+def _train(
+    training: Training,
+    scores: Mapping[str, Score],
+    gather: Gather,
+    threads: Executor,
+    save: Callable[[], None],
+    stopped: list[int],
+) -> None:
+    """Train to the end of the plan, or until stopped. `scores`: of the network as it is."""
     saved = monotonic()
     while not training.finished and not stopped:
         training.update(gather, threads)
@@ -171,5 +192,3 @@ def _print(training: Training, scores: Mapping[str, Score], arguments: Namespace
     for rival, score in scores.items():
         low, high = wilson(score.wins, sum(score))
         print(f"against {rival}: {score.wins}-{score.ties}-{score.losses} (wins: {low:.0%} to {high:.0%})")
-    if stopped:
-        print("stopped before the end; continue with --resume")

@@ -6,6 +6,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from shutil import get_terminal_size
 
+from pigaming_app.jobs.terminal.console import print_error
+from pigaming_app.jobs.terminal.interrupt import CODE
+
 BAR = 24  # characters
 
 
@@ -33,6 +36,13 @@ def end_line() -> None:
     """End the line of progress in a terminal."""
     if sys.stderr.isatty():
         print(file=sys.stderr)
+
+
+def end_of(stopped: list[int]) -> int:
+    """The exit code of a training, and after Ctrl-C a line."""
+    if stopped:
+        print_error("stopped before the end; continue with --resume")
+    return CODE if stopped else 0
 
 
 @contextmanager

@@ -17,7 +17,7 @@ from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, requ
 from pigaming_app.jobs.terminal.options import decimal, game_option, integer, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.jobs.train.outputs import check_outputs, csv_of, output_options, png_of, two_plots
-from pigaming_app.jobs.train.progress import bar, end_line, interrupts, note, show
+from pigaming_app.jobs.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.scenes.files import load_table, save_table
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
@@ -77,7 +77,7 @@ def _train_and_save(arguments: Namespace) -> int:
         if arguments.curve:
             write_atomic(arguments.curve, _curve_of(points, arguments))
     _print(learner, arguments, points, seconds, bool(stopped))
-    return 130 if stopped else 0
+    return end_of(stopped)
 
 
 def _check(arguments: Namespace) -> None:
@@ -198,5 +198,3 @@ def _print(
         f"{learner.matches} matches, {learner.experiences:,} experiences, {learner.visited:,} states: {arguments.out}"
     )
     print(f"trained in {seconds:.1f} s ({how}){score}")
-    if stopped:
-        print("stopped before the end; continue with --resume")

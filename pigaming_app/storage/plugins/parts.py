@@ -17,9 +17,11 @@ from types import FrameType
 from typing import TypeVar
 
 from pigaming_app.storage.parsing import one_line
+from pigaming_app.storage.plugins import trial
 from pigaming_app.storage.plugins.consent import is_on
+from pigaming_app.storage.plugins.endless import overseer
 from pigaming_app.storage.plugins.found import Plugin, found
-from pigaming_app.storage.plugins.time_limit import time_limit
+from pigaming_app.storage.plugins.time_limit import TookTooLong, time_limit
 
 T = TypeVar("T")
 RULES, SCREENS, EDITOR = "", "screens", "editor"  # parts; the rules are in `__init__`
@@ -34,11 +36,17 @@ _stopped: set[str] = set()  # names of games that failed while they played: thei
 @cache
 def plugins() -> tuple[Plugin, ...]:
     """The plug-ins that may run, as they were when this was first called."""
-    on = [plugin for plugin in found() if is_on(plugin)]
-    for plugin in on:
-        if plugin.fault:
-            _leave_out(plugin, plugin.fault)
-    return tuple(plugin for plugin in on if not plugin.fault)
+    if trial.is_trial():
+        return ()
+    usable: list[Plugin] = []
+    for plugin in found():
+        if is_on(plugin):
+            if reason := plugin.fault or ("" if plugin.own else trial.fault(plugin, (RULES, *ABOVE), LOADING)):
+                _leave_out(plugin, reason)
+            else:
+                usable.append(plugin)
+    overseer.oversee(plugin for plugin in usable if not plugin.own)
+    return tuple(usable)
 
 
 @cache
@@ -55,6 +63,12 @@ def failures() -> tuple[str, ...]:
 def failure(plugin: Plugin) -> str:
     """The sentence of a plug-in that has failed so far, else nothing."""
     return _failed.get(plugin, "")
+
+
+def has_failed(name: str) -> bool:
+    """Whether a plug-in with this game has failed, and no other one plays it."""
+    named = [plugin for plugin in (*plugins(), *_failed) if plugin.name == name]
+    return bool(named) and all(plugin in _failed for plugin in named)
 
 
 def stopped() -> set[str]:
@@ -107,9 +121,11 @@ def leave_out(name: str, reason: str) -> None:
 def blame(error: BaseException) -> Plugin | None:
     """The plug-in in whose code an error arose while it played, which is left out from here on; None: elsewhere."""
     for plugin in plugins():
+        if isinstance(error, KeyboardInterrupt) and not _is_raised_by(plugin, error):
+            continue
         remote = "\n".join(reversed(str(error.__cause__ or "").splitlines()))  # a traceback in another process
         if place := _place(plugin, error) or _place_in_text(plugin, str(error)) or _place_in_text(plugin, remote):
-            return stop(plugin, f"{place}{type(error).__name__}: {' '.join(str(error).split())}")
+            return stop(plugin, f"{place}{_named(error)}")
     return None
 
 
@@ -152,8 +168,10 @@ def _loaded(plugin: Plugin, part: str, attribute: str) -> object:
             if part and find_spec(name) is None:  # this imports the package
                 return None
             module = import_module(name)
-    except (Exception, SystemExit) as error:
-        _leave_out(plugin, f"{_place(plugin, error)}{type(error).__name__}: {error}")
+    except BaseException as error:
+        if isinstance(error, KeyboardInterrupt) and not _is_raised_by(plugin, error):
+            raise
+        _leave_out(plugin, f"{_place(plugin, error)}{_named(error)}")
         return None
     if not hasattr(module, attribute) and part == RULES:
         _leave_out(plugin, f"{Path(module.__file__ or name).name}: {attribute} is missing")
@@ -169,6 +187,19 @@ def _leave_out(plugin: Plugin, reason: str) -> None:
     sentence = one_line(f"The game {plugin.name} in {plugin.folder} is left out: {reason.rstrip('.')}.")
     _failed[plugin] = sentence
     print(f"PiGaming: {sentence}", file=sys.stderr)
+
+
+def _named(error: BaseException) -> str:
+    """An error in one line."""
+    if isinstance(error, TookTooLong):
+        return str(error)
+    return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
+
+
+def _is_raised_by(plugin: Plugin, error: BaseException) -> bool:
+    """Whether the code of a plug-in itself raised an error, and not somebody who interrupted it."""
+    frames = traceback.extract_tb(error.__traceback__)
+    return bool(frames) and plugin.folder in Path(frames[-1].filename).parents
 
 
 def _place_in_text(plugin: Plugin, message: str) -> str:

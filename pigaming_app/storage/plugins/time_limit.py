@@ -57,7 +57,7 @@ class Watchdog:
             with self._lock:
                 if monotonic() - self._last > self._limit and self._in_foreign_code():
                     self._raised = True
-                    _raise_in(self._watched)
+                    raise_in(self._watched)
 
     def _in_foreign_code(self) -> bool:
         """The frame is kept no longer than this takes: its variables live as long, as a view that locks a surface."""
@@ -78,7 +78,7 @@ def time_limit(seconds: float) -> Iterator[None]:
             with lock:
                 if not done.is_set():
                     raised = True
-                    _raise_in(thread)
+                    raise_in(thread)
             wait = AGAIN
 
     try:
@@ -104,11 +104,11 @@ def _raise_here() -> NoReturn:
     Withdrawing it by NULL would leave the interpreter looking for one at every jump and call: up to a sixth
     slower, and endless under a profiler.
     """
-    _raise_in(threading.get_ident())
+    raise_in(threading.get_ident())
     while True:
         pass
 
 
-def _raise_in(thread: int) -> None:
+def raise_in(thread: int) -> None:
     """Raise TookTooLong in a thread at its next instruction."""
     ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), ctypes.py_object(TookTooLong))

@@ -1,5 +1,6 @@
 """Policies from elsewhere: an ONNX model plays like the network with the same numbers, and others are refused."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -9,17 +10,52 @@ import pytest
 from pigaming_app import ROOT
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.experiments.league import duel
+from pigaming_app.ai.networks.onnx import child
+from pigaming_app.ai.networks.onnx.files import OnnxPolicy
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.registry import find_brain, new_match
 from pigaming_app.cli import main
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.setup import ChoiceError
-from tests.ai.networks.tiny_onnx import DOUBLE, model
+from tests.ai.networks.tiny_onnx import DOUBLE, endless, field, model, node, tensor, troubled
 
 ENCODING = ENCODINGS["pitanks"]
 SIZE, LESS = ENCODING.size, ENCODING.size - 1
 MATRIX = np.random.default_rng(1).normal(size=(ENCODING.size, ENCODING.outputs)) / 4
 HEADS = np.split(MATRIX, np.cumsum([count for _, count in ENCODING.heads])[:-1], axis=1)
+
+
+def tensors(**arrays):
+    return b"".join(field(5, tensor(name, array)) for name, array in arrays.items())
+
+
+def looping(rounds):
+    once = tensors(rounds=np.array(rounds, "<i8"), yes=np.array(True), zero=np.zeros((1, 1), "<f4"))
+    return troubled(MATRIX, endless(), tensors=once)
+
+
+def large(side):
+    """A model that fills a matrix of this side with numbers for each decision: 4 bytes for each."""
+    nodes = [
+        node("ConstantOfShape", ("shape",), ("zeros",)),
+        node("ReduceMax", ("x",), ("most",), keepdims=1),
+        node("Add", ("zeros", "most"), ("sums",)),
+        node("ReduceMax", ("sums",), ("trouble",), keepdims=1),
+    ]
+    return troubled(MATRIX, *nodes, tensors=tensors(shape=np.array([side, side], "<i8")))
+
+
+def elsewhere(place):
+    """A model with a number in another file, among its own or in a branch."""
+    lies = field(1, 1) + field(1, 1) + field(2, 1) + field(8, b"e") + field(13, field(1, b"location") + field(2, b"w"))
+    lies += field(14, 1)
+    if place == "own":
+        return troubled(MATRIX, node("Identity", ("e",), ("trouble",)), tensors=field(5, lies))
+    constant = (
+        field(2, b"trouble") + field(4, b"Constant") + field(5, field(1, b"value") + field(5, lies) + field(20, 4))
+    )
+    inner = node("If", ("yes",), ("trouble",), then_branch=field(1, constant), else_branch=field(1, constant))
+    return troubled(MATRIX, inner, tensors=tensors(yes=np.array(True)))
 
 
 def test_a_missing_extra_is_one_line(tmp_path, monkeypatch, capsys):
@@ -61,6 +97,51 @@ class TestWithTheExtra:
     def test_a_duel_with_a_model_is_not_compiled(self):
         Path("a.onnx").write_bytes(model(MATRIX))
         assert duel("pitanks", "a.onnx", "idle", 2, 1, minutes=0.05, fast=True).matches == 2
+
+    def test_a_short_loop_is_no_trouble(self):
+        Path("a.onnx").write_bytes(looping(3))
+        assert len(find_brain("pitanks", "a.onnx").weights(False)[0].logits([0.0] * SIZE)) == ENCODING.outputs
+
+    @pytest.mark.parametrize(
+        ("raw", "reason"),
+        [
+            (looping(10**12), "a decision takes longer than 20 ms"),
+            (looping(100_000), "a decision takes longer than 20 ms"),
+            (large(20_000), "it needs more than 256 MB of memory"),
+            (elsewhere("own"), "its weights lie in another file; export it as one file"),
+            (elsewhere("branch"), "its weights lie in another file; export it as one file"),
+        ],
+    )
+    def test_a_model_beyond_its_limits_is_one_line(self, raw, reason, capsys):
+        Path("a.onnx").write_bytes(raw)
+        assert main(["play", "pitanks", "--headless", "--minutes", "0.1", "--seats", "a.onnx,hard"]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert line.startswith(f"PiGaming: a.onnx: {reason}")
+
+    @pytest.mark.parametrize(
+        ("raw", "reason"),
+        [
+            (looping(10**12), "a decision takes longer than 20 ms"),
+            (large(20_000), "it needs more than 256 MB of memory"),
+        ],
+    )
+    def test_one_that_fails_in_a_match_leaves_its_seat_idle(self, raw, reason, monkeypatch, capsys):
+        """As one whose trouble depends on its input."""
+        failures = []
+        monkeypatch.setattr(OnnxPolicy, "_try", lambda policy: None)
+        monkeypatch.setattr("pigaming_app.ai.networks.onnx.files.failed", failures)
+        Path("a.onnx").write_bytes(raw)
+        seats = Seat("a.onnx", 0), Seat("hard", 1), Seat("off", 2), Seat("off", 3)
+        match = new_match(Setup("pitanks", "classic", seats, 0.1, 1, "pickups"))
+        while not match.over:
+            match.tick()
+            action = match.state.actions[0]
+            assert (action.linear, action.angular, action.fire, action.turbo) == (0, 0, 0, 0)
+        assert capsys.readouterr().err == f"PiGaming: a.onnx: {reason}; its seat idles from here on\n"
+        assert failures == ["a.onnx"]
+        process = match.brains[0].weights._process._process
+        assert (process.returncode == child.TOO_LONG) == (raw == looping(10**12))
+        assert not os.path.exists(f"/proc/{process.pid}")
 
     @pytest.mark.parametrize(
         ("game", "raw", "reason"),

@@ -23,6 +23,41 @@ def model(*matrices, batch=1, kind=FLOAT):
     return field(1, 8) + field(7, graph) + field(8, field(1, b"") + field(2, 13))
 
 
+def troubled(matrix, *nodes, tensors=b""):
+    """A model of one matrix, to whose output is added what these nodes make of its input: `trouble`, (1, 1)."""
+    first = field(1, node("MatMul", ("x", "w"), ("y",)))
+    last = field(1, node("Add", ("y", "trouble"), ("z",)))
+    weights = field(5, tensor("w", matrix.astype("<f4")))
+    ends = field(11, value(b"x", FLOAT, 1, len(matrix))) + field(12, value(b"z", FLOAT, 1, matrix.shape[1]))
+    graph = first + b"".join(field(1, one) for one in nodes) + last + field(2, b"troubled") + weights + tensors + ends
+    return field(1, 8) + field(7, graph) + field(8, field(1, b"") + field(2, 13))
+
+
+def node(operator, inputs, outputs, **attributes):
+    """A NodeProto. An attribute is a whole number, or the bytes of a graph."""
+    names = b"".join(field(1, name.encode()) for name in inputs) + b"".join(field(2, name.encode()) for name in outputs)
+    told = b""
+    for name, content in attributes.items():
+        kind, place = (2, 3) if isinstance(content, int) else (5, 6)
+        told += field(5, field(1, name.encode()) + field(place, content) + field(20, kind))
+    return names + field(4, operator.encode()) + told
+
+
+def tensor(name, array):
+    """A TensorProto of float32, int64 or bool."""
+    kind = {"<f4": 1, "<i8": 7, "|b1": 9}[array.dtype.str]
+    shape = b"".join(field(1, size) for size in array.shape)
+    return shape + field(2, kind) + field(8, name.encode()) + field(9, array.tobytes())
+
+
+def endless(rounds="rounds"):
+    """A Loop over `rounds` that makes `trouble` of nothing."""
+    again = field(1, node("Identity", ("on",), ("still",))) + field(1, node("Sin", ("sum",), ("next",)))
+    ends = b"".join(field(11, value(*one)) for one in ((b"i", 7), (b"on", 9), (b"sum", FLOAT, 1, 1)))
+    ends += b"".join(field(12, value(*one)) for one in ((b"still", 9), (b"next", FLOAT, 1, 1)))
+    return node("Loop", (rounds, "yes", "zero"), ("trouble",), body=again + field(2, b"body") + ends)
+
+
 def value(name, kind, *shape):
     """A ValueInfoProto; a text stands for any length."""
     sizes = b"".join(field(1, field(2, n.encode()) if isinstance(n, str) else field(1, n)) for n in shape)

@@ -16,7 +16,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pigaming_app import ROOT
+from pigaming_app import ROOT, __version__
+from pigaming_app.boot.version import commit
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.jobs.bundle.build import is_bundle
 
@@ -208,6 +209,11 @@ def core_time(command: list[str]) -> float:
     subprocess.run(command, capture_output=True, check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def test_it_names_its_version_and_the_commit_that_it_was_made_from(inside: list[str]) -> None:
+    ended = run(inside, "--version")
+    assert ended.stdout == f"PiGaming {__version__}, commit {commit()}\n"
 
 
 def test_it_opens_in_a_kiosk(inside: list[str]) -> None:

@@ -1,0 +1,161 @@
+"""Faults of a plug-in in commands without a window: one line with file and reason, exit code 1, after a stated time.
+
+Each in a process of its own, as a user starts it, but with shorter times.
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.jobs.new_game import write
+from pigaming_app.storage.plugins.consent import switch
+from pigaming_app.storage.plugins.found import user_folder
+from tests.plugins.packages import ROOT, write_tag
+
+COMMAND = """
+import sys
+from pigaming_app.ai.experiments import league
+from pigaming_app.storage.plugins import endless
+endless.LIMIT, endless.GRACE, league.MIN_COMPILED_MATCHES = 0.6, 0.3, {compiled}
+from pigaming_app.cli import main
+sys.exit(main(sys.argv[1:]))
+"""
+PLAY = "play tag --headless --speed max --minutes 0.1 --seats hard,easy"
+DUEL = "duel tag hard idle --matches 2 --minutes 0.1"
+LEAGUE = "league tag hard idle --matches 2 --minutes 0.1"
+BENCH = "bench tag"
+TRAIN = "train ppo tag --updates 1 --set matches=16 --out tag.npz"
+OTHER = "duel pitanks easy idle --matches 2 --minutes 0.05"
+TICK, LOOP = "    match.tick += 1\n", "    while True: pass\n"
+SURPRISE = "GAME = Game(\n    surprise=lambda seed: [0 for _ in iter(int, 1)],"
+
+
+@pytest.fixture
+def tag(home: Path) -> Path:
+    folder = user_folder() / "tag"
+    write(folder, "tag")
+    switch("tag", True)
+    return folder
+
+
+def run(words: str, folder: Path, compiled: bool = False) -> subprocess.CompletedProcess[str]:
+    code = COMMAND.format(compiled=0 if compiled else 1 << 62)
+    quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-c", code, *words.split()]
+    return subprocess.run(command, capture_output=True, text=True, cwd=folder, env=os.environ | quiet, timeout=300)
+
+
+def change(folder: Path, file: str, old: str, new: str) -> None:
+    source = folder / file
+    assert old in source.read_text(), old
+    source.write_text(source.read_text().replace(old, new, 1))
+
+
+def refused(ended: subprocess.CompletedProcess[str], folder: Path) -> str:
+    """The reason, if the command has ended as it should."""
+    assert ended.returncode == 1, (ended.stdout, ended.stderr)
+    *before, line = ended.stderr.splitlines()
+    assert before in ([], ["compiling the training, once; it takes a minute"]), ended.stderr
+    begin = f"PiGaming: The game tag in {folder} is left out: "
+    assert line.startswith(begin), line
+    return line.removeprefix(begin)
+
+
+@pytest.mark.parametrize(
+    ("words", "old", "new", "reason"),
+    [
+        (PLAY, TICK, TICK + LOOP, "rules.py, line 56: it did not end."),
+        (LEAGUE, "    drop_coin(match)\n\n", f"    drop_coin(match)\n{LOOP}\n", "rules.py, line 39: it did not end."),
+        (BENCH, TICK, TICK + LOOP, "rules.py, line 56: it did not end."),
+        (TRAIN, TICK, TICK + LOOP, "rules.py, line 49: it did not end."),
+        (PLAY, TICK, TICK + "    __import__('time').sleep(99)\n", "rules.py, line 56: it did not end."),
+        (PLAY, "        match.over = 1", "        pass", "its match is not over 10 s after its time."),
+        (DUEL, "        match.over = 1", "        pass", "its match is not over 10 s after its time."),
+        (DUEL, "robot.score += 1", "robot.score += 0.5", ", no whole number."),
+        (DUEL, TICK, f"{TICK}    raise KeyboardInterrupt\n", "rules.py, line 56: KeyboardInterrupt."),
+    ],
+)
+def test_a_fault_in_a_match_is_one_line(tag: Path, words: str, old: str, new: str, reason: str) -> None:
+    if words == TRAIN:
+        write_tag(tag)
+    change(tag, "rules.py", old, new)
+    assert reason in refused(run(words, tag), tag)
+
+
+def test_an_arena_that_is_never_done(tag: Path) -> None:
+    change(tag, "__init__.py", "GAME = Game(", SURPRISE)
+    assert "it did not end" in refused(run(f"{PLAY} --arena surprise-7", tag), tag)
+
+
+def test_an_unusable_result_is_one_line(tag: Path) -> None:
+    change(tag, "__init__.py", "GAME = Game(", "GAME = Game(\n    ranking_key=lambda match, seat: None,")
+    assert "TypeError: " in refused(run(DUEL, tag), tag)
+
+
+@pytest.mark.parametrize(
+    ("words", "old", "new", "reason"),
+    [
+        (DUEL, "        match.over = 1", "        pass", "its match is not over 10 s after its time."),
+        (DUEL, "robot.score += 1", "robot.score += 0.5", ", no whole number."),
+        (DUEL, "steer(match, k, 1.0)", "steer(match, k, 1e999 * 0)", " is nan, no number."),
+    ],
+)
+def test_compiled_matches_refuse_the_same(tag: Path, words: str, old: str, new: str, reason: str) -> None:
+    """They are rehearsed plain: compiled, half a point would be cut off."""
+    change(tag, "rules.py", old, new)
+    assert reason in refused(run(words, tag, compiled=True), tag)
+
+
+ENDLESS = """
+import numba, numpy
+from pathlib import Path
+from pigaming_app.storage.plugins import endless
+from pigaming_app.storage.plugins.found import Plugin
+endless.LIMIT, endless.GRACE = 0.5, 0.2
+@numba.njit(nogil=True)
+def loop(numbers):
+    while numbers[0] >= 0:
+        numbers[0] = (numbers[0] + 3) % 7
+numbers = numpy.ones(1, numpy.int64)
+endless.overseer.oversee([Plugin("tag", "tag", Path("/tag"))])
+endless.overseer.run("tag", lambda: 5, loop, numbers)
+"""
+
+
+def test_compiled_code_that_makes_no_tick_is_ended() -> None:
+    ended = subprocess.run([sys.executable, "-c", ENDLESS], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    assert ended.returncode == 1
+    assert ended.stderr == "PiGaming: The game tag in /tag is left out: its compiled code made no tick.\n"
+
+
+@pytest.mark.parametrize(
+    ("file", "line", "reason"),
+    [
+        ("__init__.py", "raise KeyboardInterrupt", "__init__.py, line 1: KeyboardInterrupt."),
+        ("rules.py", "import sys; sys.exit()", "rules.py, line 1: SystemExit."),
+        ("ai.py", "raise BaseException('no')", "ai.py, line 1: BaseException: no."),
+        ("rules.py", "import os; os._exit(0)", "__init__.py: its import ends the process with exit code 0."),
+        ("screens.py", "import os; os.abort()", "screens.py: its import ends the process by signal 6."),
+    ],
+)
+def test_what_ends_a_process_at_import_ends_no_other_job(tag: Path, file: str, line: str, reason: str) -> None:
+    source = tag / file
+    source.write_text(f"{line}\n{source.read_text()}")
+    ended = run(OTHER, tag)
+    assert (ended.returncode, ended.stderr) == (0, f"PiGaming: The game tag in {tag} is left out: {reason}\n")
+    if line.startswith("raise Key"):
+        assert reason == refused(run(PLAY, tag), tag)
+
+
+def test_a_plug_in_is_tried_again_only_after_a_change(tag: Path) -> None:
+    trace = tag / "trace"
+    change(tag, "rules.py", "REACH = ", f"print(file=open({str(trace)!r}, 'a'))\nREACH = ")
+    for tried in (2, 3):  # imports: the trial, and each command
+        assert run(PLAY, tag).returncode == 0
+        assert len(trace.read_text()) == tried
+    change(tag, "rules.py", "REACH = 60.0", "REACH = 61.0")
+    assert run(PLAY, tag).returncode == 0
+    assert len(trace.read_text()) == 5
