@@ -24,6 +24,7 @@ from pigaming_app.scenes.preloaded import MODULES
 from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.safe_mode import DEFAULTS, is_safe
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import FILE, Settings, folders
 from pigaming_app.ui import memory as heap
@@ -58,6 +59,8 @@ def opened(options: Options) -> "Iterator[App]":
     data_folders = folders()
     first_start = not any(os.path.exists(data_folders.config / name) for name in (FILE, f"{FILE}.bak"))
     settings, damaged = Settings.load(data_folders.config)
+    if is_safe():
+        settings.use_defaults(DEFAULTS)
     if first_start:
         settings.language = system_language()
     scores, damaged_scores = Scores.load(data_folders.data)

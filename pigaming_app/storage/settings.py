@@ -8,6 +8,7 @@ the settings that it has changed.
 import logging
 import os
 import re
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, fields
 from datetime import time
 from pathlib import Path
@@ -25,6 +26,7 @@ MAX_NAME = 60  # characters
 MAX_GAMES = 64
 MAX_DEVICES = 16  # with changed controls, and functions of each
 MAX_MESSAGES = 5  # per file
+DRAWN = ("arena_id", "wifi_key")  # settings that identify this arena to its robots
 log = logging.getLogger("pigaming")
 
 
@@ -272,6 +274,33 @@ class Settings:
             raise ValueError(f"{name} = {value!r} is {error}")
         setattr(self, name, value)
 
+    def use_defaults(self, names: Iterable[str]) -> None:
+        """Use the defaults of these settings, which are not saved unless they are changed or kept."""
+        default = Settings()
+        for name in names:
+            setattr(self, name, getattr(default, name))
+        if self._base is not None:
+            self._base = self._base | {(None, name): getattr(default, name) for name in names}
+
+    def keep(self, names: Iterable[str]) -> None:
+        """Save these settings with the next changes, as they are."""
+        if self._base is not None:
+            self._base = {key: value for key, value in self._base.items() if key[0] or key[1] not in names}
+
+    def take_over(self, other: "Settings", names: Iterable[str] | None = None) -> list[str]:
+        """Take over the values of other settings, all or these, except what is drawn once for this installation.
+
+        Returns the names of those that differed.
+        """
+        for game in self.games:
+            other.choice(game)
+        values = _flat(other)
+        wanted = {*values} if names is None else {(None, name) for name in names}
+        changed = [key for key in _differing(values, _flat(self)) if key in wanted and key[1] not in DRAWN]
+        for key in changed:
+            self._set(key, values[key])
+        return [_name(key) for key in changed]
+
     def save(self, folder: Path) -> None:
         """Merge the changes of this instance into the file. Raises NotSaved; the file is then intact."""
         import tomli_w
@@ -317,8 +346,14 @@ def _differing(now: Flat, before: Flat) -> list[Key]:
     return [key for key, value in now.items() if before.get(key, getattr(_DEFAULT, key[1], None)) != value]
 
 
+def _name(key: Key) -> str:
+    """A setting's name in messages."""
+    game, name = key
+    return one_line(name if game is None else f"games.{game}.{name}")
+
+
 def _names(keys: list[Key]) -> str:
-    return ", ".join(one_line(name if game is None else f"games.{game}.{name}") for game, name in keys[:MAX_MESSAGES])
+    return ", ".join(map(_name, keys[:MAX_MESSAGES]))
 
 
 def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str]:

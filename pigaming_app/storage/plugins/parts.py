@@ -20,6 +20,7 @@ from pigaming_app.storage.parsing import one_line
 from pigaming_app.storage.plugins.consent import is_on
 from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.plugins.time_limit import time_limit
+from pigaming_app.storage.safe_mode import is_safe
 
 T = TypeVar("T")
 RULES, SCREENS = "", "screens"  # parts; the rules are in `__init__`
@@ -33,8 +34,8 @@ _stopped: set[str] = set()  # names of games that failed while they played: thei
 
 @cache
 def plugins() -> tuple[Plugin, ...]:
-    """The plug-ins that may run, as they were when this was first called."""
-    on = [plugin for plugin in found() if is_on(plugin)]
+    """The plug-ins that may run, as they were when this was first called; in safe mode only those of this program."""
+    on = [plugin for plugin in found() if (plugin.own if is_safe() else is_on(plugin))]
     for plugin in on:
         if plugin.fault:
             _leave_out(plugin, plugin.fault)

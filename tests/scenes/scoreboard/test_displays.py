@@ -35,11 +35,11 @@ class Displays:
         self.sizes = [(1920, 1080), (1366, 768), (1280, 800)][:count]
         self.opened: list[tuple[int, int]] = []
         monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: list(self.sizes))
-        real = pygame.Window
+        opened = self.opened
 
-        class Noted(real):  # type: ignore[misc, valid-type]
-            def __init__(window, title: str, size: tuple[int, int], *rest: object, **options: object) -> None:
-                self.opened.append(size)
+        class Noted(pygame.Window):
+            def __init__(self, title: str, size: tuple[int, int], *rest: object, **options: object) -> None:
+                opened.append(size)
                 super().__init__(title, size, *rest, **options)
 
         monkeypatch.setattr(pygame, "Window", Noted)
