@@ -1,4 +1,4 @@
-"""Safe mode, after failed starts: screens, phones and plug-ins have defaults, whatever the files and the options are."""
+"""Safe mode, after failed starts: screens, phones and plug-ins have defaults, whatever files and options contain."""
 
 import os
 

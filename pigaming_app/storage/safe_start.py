@@ -1,4 +1,4 @@
-"""Settings with which an arcade has run for a minute, kept beside the newest ones: a kiosk that crashes returns to them.
+"""Settings with which an arcade has run for a minute, kept beside the newest: a kiosk that crashes returns to them.
 
 `tried/` in the configuration folder has the same files; `taken_back.json` in it names what was taken back, until the
 operator has seen it.

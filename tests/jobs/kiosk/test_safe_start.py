@@ -1,4 +1,4 @@
-"""Safe start: real kiosks that a second screen ends, by a saved setting or by an option; counting by a simulated clock."""
+"""Safe start: real kiosks ended by a second screen, of a setting or of an option; and counting by a simulated clock."""
 
 import sys
 from pathlib import Path
