@@ -20,6 +20,7 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.app import App, Options
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_choice import choose_kiosk_rules
 from pigaming_app.scenes.preloaded import MODULES
 from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
 from pigaming_app.storage.parsing import describe_error
@@ -66,6 +67,9 @@ def opened(options: Options) -> "Iterator[App]":
     scores, damaged_scores = Scores.load(data_folders.data)
     for name, value in options.changed_settings.items():
         settings.choose(name, value)
+    if options.kiosk:
+        choose_kiosk_rules(settings)
+    settings.settle()
     windowed = options.headless or options.emulator_seed is not None  # next to the emulated camera's window
     canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
     crash_file = _open_log(data_folders.data)

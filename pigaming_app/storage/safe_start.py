@@ -74,8 +74,9 @@ def taken_back(config: Path) -> list[str]:
 
 
 def forget(config: Path) -> None:
-    """The operator has seen what was taken back. Raises OSError."""
-    (config / TRIED / NOTE).unlink(missing_ok=True)
+    """The operator has seen what was taken back."""
+    with contextlib.suppress(OSError):
+        (config / TRIED / NOTE).unlink()
 
 
 def keep_defaults(config: Path, settings: Settings) -> None:

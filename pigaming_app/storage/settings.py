@@ -27,6 +27,7 @@ MAX_GAMES = 64
 MAX_DEVICES = 16  # with changed controls, and functions of each
 MAX_MESSAGES = 5  # per file
 DRAWN = ("arena_id", "wifi_key")  # settings that identify this arena to its robots
+VISITORS = ("language", "strength")  # settings that visitors choose, beside those of each game
 log = logging.getLogger("pigaming")
 
 
@@ -236,12 +237,14 @@ class Settings:
     quiet_from: str = _setting("00:00", TimeOfDay())  # title and attract mode are silent from here
     quiet_until: str = _setting("00:00", TimeOfDay())  # to here; the same time: never
     group_minutes: int = _setting(0, Range(0, 120))  # from the title to the title; 0: no limit
+    keep_choices: bool = _setting(False, Boolean())  # visitors' choices stay and are saved
     controls: dict[str, dict[str, int]] = field(
         default_factory=dict, metadata={"validator": ChangedControls()}
     )  # changed keys and buttons, by key cluster (keys1 to keys4) and by kind of pad
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:
+        self._house: Flat | None = None  # choices of the house, while visitors make theirs; None: there are no visitors
         self._base: Flat | None = None  # as last loaded or saved; None: never, so all values count as changed
         self._seen: Flat = {}  # content of the file at that time
 
@@ -274,6 +277,22 @@ class Settings:
             raise ValueError(f"{name} = {value!r} is {error}")
         setattr(self, name, value)
 
+    def settle(self, *names: str) -> None:
+        """Make the present choices those of the house: all, or of VISITORS those named once there are visitors."""
+        now = _choices(self)
+        if not names:
+            self._house = now
+        elif self._house is not None:
+            self._house = self._house | {(None, name): now[None, name] for name in names}
+
+    def return_to_house(self) -> None:
+        """Give up the visitors' choices, unless they are kept."""
+        if self._house is None or self.keep_choices:
+            return
+        self.games = {}
+        for key, value in self._house.items():
+            self._set(key, value)
+
     def use_defaults(self, names: Iterable[str]) -> None:
         """Use the defaults of these settings, which are not saved unless they are changed or kept."""
         default = Settings()
@@ -305,7 +324,7 @@ class Settings:
         """Merge the changes of this instance into the file. Raises NotSaved; the file is then intact."""
         import tomli_w
 
-        path, own = folder / FILE, _flat(self)
+        path, own = folder / FILE, self._own()
         with locked(path):
             merged, problems = Settings.load(folder)
             for sentence in [*problems, *self._foreign(_flat(merged))]:
@@ -315,9 +334,15 @@ class Settings:
             write_with_backup(path, tomli_w.dumps(asdict(merged)))
         self._base, self._seen = own, _flat(merged)
 
+    def _own(self) -> Flat:
+        """The settings to be saved: choices of the house in place of the visitors', unless these are kept."""
+        if self._house is None or self.keep_choices:
+            return _flat(self)
+        return {key: value for key, value in _flat(self).items() if key not in _choices(self)} | self._house
+
     def _changed(self) -> list[Key]:
         """The settings changed by this instance since it last loaded or saved."""
-        own = _flat(self)
+        own = self._own()
         return [*own] if self._base is None else _differing(own, self._base)
 
     def _foreign(self, stored: Flat) -> list[str]:
@@ -339,6 +364,11 @@ def _flat(settings: Settings) -> Flat:
     for game, choice in settings.games.items():
         flat |= {(game, name): value for name, value in asdict(choice).items()}
     return flat
+
+
+def _choices(settings: Settings) -> Flat:
+    """The settings that visitors choose."""
+    return {key: value for key, value in _flat(settings).items() if key[0] is not None or key[1] in VISITORS}
 
 
 def _differing(now: Flat, before: Flat) -> list[Key]:
