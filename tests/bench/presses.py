@@ -13,6 +13,8 @@ from pigaming_app.scenes.flow.stack import Home, Stack
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import read_large
+from pigaming_app.ui.draw.frame_budget import drop_paused
+from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.memory import return_freed_blocks
@@ -21,8 +23,7 @@ from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.screens import SCREENS
 
 BUTTONS = tuple(set(Button) - {Button.POINT, Button.CLICK, Button.FOUND, Button.LOST})
-EACH = 12  # presses on a screen, or on those to which they lead
-SETTLED = 1  # rounds after which all that is kept has been loaded
+MOST_MB = 24.0  # growth
 
 
 @dataclass(frozen=True)
@@ -36,31 +37,35 @@ class Usage:
 
 
 def usage(presses: int) -> Usage:
-    """What this process uses now."""
+    """What this process uses now, without the caches of sprites."""
+    surfaces.clear()
+    drop_paused()
     gc.collect()
     return_freed_blocks()
     return Usage(presses, len(os.listdir("/proc/self/fd")), threading.active_count(), resident_mb() or 0.0)
 
 
-def rounds(presses: int, seed: int = 1) -> Iterator[Usage]:
+def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
     """The usage on the title after each round over all screens, until there were so many presses.
 
-    PIGAMING_HOME is a folder of its own.
+    `each`: presses on a screen, or on those to which they lead. PIGAMING_HOME is a folder of its own.
     """
     chance, made = random.Random(seed), 0
     canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    arcade = Arcade(Controls(canvas.to_canvas))
-    arcade.context.canvas = canvas
+    controls = Controls(canvas.to_canvas)
     while made < presses:
         for make in SCREENS.values():
+            arcade = Arcade(controls)
+            arcade.context.canvas = canvas
             arcade.stack = Stack(Title(arcade.context))
             with stand_ins():
                 arcade.open(make(arcade))
-                for _ in range(EACH):
+                for _ in range(each):
                     made += 1
                     press(arcade, chance)
             with stand_ins():
                 arcade.stack.apply(Home())
+            arcade.context.phone_host.close()
         read_large(False)
         yield usage(made)
 
@@ -87,7 +92,9 @@ def press(arcade: Arcade, chance: random.Random) -> None:
         arcade.stack = Stack(Title(arcade.context))
 
 
-def grown(found: Sequence[Usage]) -> Usage:
-    """How much more is used at the end than once all screens have been loaded."""
-    first, last = found[SETTLED], found[-1]
-    return Usage(last.presses, last.files - first.files, last.threads - first.threads, last.mb - first.mb)
+def growth(found: Sequence[Usage]) -> list[str]:
+    """What has grown since the second round, by when all that is kept has been loaded; empty: nothing."""
+    first, last = found[1], found[-1]
+    changes = {"open files": last.files - first.files, "threads": last.threads - first.threads}
+    grown = [f"{more} more {name}" for name, more in changes.items() if more > 0]
+    return [*grown, *([f"{last.mb - first.mb:.0f} MB more"] if last.mb - first.mb > MOST_MB else [])]

@@ -2,6 +2,7 @@
 
 import gc
 import random
+import sys
 import weakref
 from collections.abc import Hashable
 from pathlib import Path
@@ -27,7 +28,8 @@ from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.bench.memory import press
-from tests.cases import one_in
+from tests.bench.presses import growth, rounds
+from tests.cases import one_in, repeated
 from tests.scenes.arcade import Arcade, Floor
 
 pytestmark = pytest.mark.usefixtures("_cache_as_in_the_arcade")
@@ -193,3 +195,14 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
         gc.enable()
         pygame.display.quit()
     assert alive == [True, True, True, False, False]
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts the files of /proc")
+@pytest.mark.parametrize(("presses", "each"), repeated([(1_300, 3), (10_000, 12)]))
+def test_open_files_threads_and_memory_stay_level_over_presses_on_all_screens(
+    home: Path, presses: int, each: int
+) -> None:
+    found = list(rounds(presses, each))
+    assert len(found) >= 3
+    assert growth(found) == []
