@@ -7,20 +7,24 @@ import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
+from pigaming_app.events.spec import Format
 from pigaming_app.jobs.bench.memory import resident_mb
+from pigaming_app.scenes.events.poster import drawn, encoded
 from pigaming_app.scenes.flow.stack import Home, Stack
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import read_large
 from pigaming_app.ui.draw.frame_budget import drop_paused
 from pigaming_app.ui.draw.surface_cache import surfaces
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.memory import return_freed_blocks
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
-from tests.scenes.screens import SCREENS
+from tests.scenes.screens import SCREENS, event
 
 BUTTONS = tuple(set(Button) - {Button.POINT, Button.CLICK, Button.FOUND, Button.LOST})
 MOST_MB = 24.0  # growth
@@ -53,6 +57,7 @@ def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
     chance, made = random.Random(seed), 0
     canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     controls = Controls(canvas.to_canvas)
+    encoded(drawn(event(Format.ROUND_ROBIN, 4, 2, 1).event, Words("en")), Path("poster.pdf"))  # loads a library
     while made < presses:
         for make in SCREENS.values():
             arcade = Arcade(controls)
