@@ -293,6 +293,11 @@ class Settings:
         for key, value in self._house.items():
             self._set(key, value)
 
+    def leave_choices_unsaved(self) -> None:
+        """Do not save the present choices of games, unless they are changed."""
+        if self._base is not None:
+            self._base = self._base | {key: value for key, value in _flat(self).items() if key[0] is not None}
+
     def use_defaults(self, names: Iterable[str]) -> None:
         """Use the defaults of these settings, which are not saved unless they are changed or kept."""
         default = Settings()

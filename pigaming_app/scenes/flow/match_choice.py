@@ -104,6 +104,7 @@ def choose_kiosk_rules(settings: Settings) -> None:
     for game in games().values():
         if KIOSK_RULES in game.variants and not settings.choice(game.name).variant:
             change_rules(game, settings.choice(game.name), KIOSK_RULES)
+    settings.leave_choices_unsaved()
 
 
 def choice_summary(context: Context, game: str) -> str:
