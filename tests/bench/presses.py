@@ -1,13 +1,17 @@
-"""Random presses on every screen of the tests: open files, threads and memory of this process stay level."""
+"""Random presses on every screen of the tests: `python -m tests.bench.presses [PRESSES EACH]`. Exit code 1 where open
+files, threads or memory of the process do not stay level.
+"""
 
 import gc
 import os
 import random
+import sys
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from pigaming_app.events.spec import Format
 from pigaming_app.jobs.bench.memory import resident_mb
@@ -21,7 +25,7 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.memory import return_freed_blocks
+from pigaming_app.ui.memory import return_freed_blocks, return_large_blocks
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.screens import SCREENS, event
@@ -47,6 +51,20 @@ def usage(presses: int) -> Usage:
     gc.collect()
     return_freed_blocks()
     return Usage(presses, len(os.listdir("/proc/self/fd")), threading.active_count(), resident_mb() or 0.0)
+
+
+def main(presses: int = 10_000, each: int = 12) -> int:
+    """Print the usage after each round; returns the exit code."""
+    os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
+    return_large_blocks()  # as the arcade does
+    found: list[Usage] = []
+    with TemporaryDirectory() as home:
+        os.environ["PIGAMING_HOME"] = home
+        for usage_now in rounds(presses, each):
+            found.append(usage_now)
+            print(usage_now, flush=True)
+    print(growth(found) or "all level")
+    return int(bool(growth(found)))
 
 
 def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
@@ -103,3 +121,7 @@ def growth(found: Sequence[Usage]) -> list[str]:
     changes = {"open files": last.files - first.files, "threads": last.threads - first.threads}
     grown = [f"{more} more {name}" for name, more in changes.items() if more > 0]
     return [*grown, *([f"{last.mb - first.mb:.0f} MB more"] if last.mb - first.mb > MOST_MB else [])]
+
+
+if __name__ == "__main__":
+    sys.exit(main(*map(int, sys.argv[1:])))

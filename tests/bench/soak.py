@@ -6,11 +6,9 @@ and the invariants of the game. Then 10,000 plain matches are created and played
 """
 
 import argparse
-import os
 import resource
 import sys
 from collections.abc import Callable, Iterator
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -37,20 +35,9 @@ def main(hours: float) -> int:
     print(f"{hours:g} simulated hours: {len(wrong)} broken invariants", *wrong[:5], sep="\n  ")
     grown = memory()
     print(f"10,000 matches: memory grew by {grown:.1f} MB")
-    more = pressed()
-    return int(bool(wrong) or grown > 8.0 or bool(more))
+    from tests.bench import presses  # late: it loads every screen
 
-
-def pressed() -> list[str]:
-    """What has grown over 10,000 presses on all screens."""
-    os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
-    with TemporaryDirectory() as home:
-        os.environ["PIGAMING_HOME"] = home
-        from tests.bench.presses import growth, rounds
-
-        found = list(rounds(10_000))
-    print(*found, growth(found) or "all level", sep="\n  ")
-    return growth(found)
+    return int(bool(presses.main()) or bool(wrong) or grown > 8.0)
 
 
 def setup(game: str, arena: str, seed: int) -> Setup:
