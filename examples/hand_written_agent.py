@@ -1,6 +1,6 @@
 """A tank written by hand, on the PettingZoo environment: two of them against two hand1.
 
-    pip install "pigaming-app[gym,train]"  # train compiles the matches; it also runs without
+    pip install ".[gym,train]"  # in a clone; train compiles the matches; it also runs without
     python3 examples/hand_written_agent.py
 
 It drives along the way to the nearest opponent, turns its gun to the most pressing one, leads the target and fires.
@@ -39,7 +39,9 @@ def stick(error: float) -> int:
 
 def play(seed: int, **options: Any) -> dict[str, float]:
     """Play a match; the first agent's tallies at its end."""
-    env = parallel_env("pitanks", agents=2, teams=(0, 0, 1, 1), opponents=("hand1", "hand1"), **options)
+    env = parallel_env(
+        "pitanks", agents=2, teams=(0, 0, 1, 1), opponents=("hand1", "hand1"), variant="pickups", **options
+    )
     observations, infos = env.reset(seed=seed)
     while env.agents:
         actions = {agent: act(observations[agent]) for agent in env.agents}

@@ -1,11 +1,13 @@
 """Robot Football: put the ball into the other team's goal."""
 
-from pigaming_app.games.game import Game
+from pigaming_app.games.game import Game, LadderMatches
 
 from .observation import Observation, observe
+from .pitch import faults, read
 from .rules import judge
-from .start import VARIANTS, read, rules_of, start, stats
+from .start import VARIANTS, rules_of, start, stats
 from .state import Football
+from .surprise import surprise
 
 GAME = Game(
     name="football",
@@ -17,6 +19,9 @@ GAME = Game(
     judge=judge,
     observe=observe,
     read=read,
+    faults=faults,
     rules=rules_of,
     stats=stats,
+    surprise=surprise,
+    ladder=LadderMatches(2.0, 0, ("classic", "bumpers", "small_goals"), 3.0),
 )

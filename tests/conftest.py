@@ -1,6 +1,5 @@
 """Fixtures. Tests use no display, no sound card and none of the user's files except the cache of compiled code."""
 
-import compileall
 import gc
 import os
 import pickle
@@ -18,7 +17,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from pigaming_app.cli import BLAS
-from pigaming_app.sim.kernel import PACKAGE, _cache_folder
+from pigaming_app.sim.kernel import _cache_folder
 
 WORDY = ("pt", "de")
 
@@ -44,16 +43,6 @@ def _a_home_of_their_own() -> Iterator[None]:
     with tempfile.TemporaryDirectory() as home, pytest.MonkeyPatch.context() as patch:
         patch.setenv("PIGAMING_HOME", home)
         yield
-
-
-def pytest_configure(config: pytest.Config) -> None:
-    """Write the bytecode of the package before the workers start.
-
-    Numba names what it caches by the pickled functions, and those read from bytecode pickle to other bytes than those
-    just compiled from source: with both in a fresh clone, each worker would compile each loop for itself.
-    """
-    if not hasattr(config, "workerinput"):
-        compileall.compile_dir(str(PACKAGE), quiet=2, workers=0)
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -39,7 +39,7 @@ def run(command: str) -> str:
 
 
 def test_the_page_has_the_files_of_a_game_in_this_style() -> None:
-    assert {*FILES} == {"rules.py", "ai.py", "screens.py", "network.py", "training.py"}
+    assert {*FILES} == {"rules.py", "ai.py", "screens.py", "editor.py", "network.py", "training.py"}
     for name, code in FILES.items():
         for tool in (("check", "--ignore", "INP"), ("format", "--check")):
             words = [sys.executable, "-m", "ruff", *tool, "--quiet", f"--stdin-filename=tests/{name}", "-"]

@@ -226,7 +226,8 @@ def test_a_cell_is_compared_in_its_units(cell, value, same):
 
 def quoted():
     """Statements of docs/thesis.md about this program, with the numbers of the code."""
-    tanks, shop, track = (match_of(game).state.rules for game in ("pitanks", "factory", "race"))
+    rules = (("pitanks", "pickups"), ("factory", None), ("race", None))
+    tanks, shop, track = (match_of(game, variant).state.rules for game, variant in rules)
     one, two, unknown = RECIPES[1], RECIPES[2], Parameters()
     yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
     yield f"{world.WIDTH:g} × {world.HEIGHT:g} px; nominal mat 2.11 × 1.19 m, so {drivetrain.MM} mm a pixel"
@@ -362,7 +363,7 @@ def test_the_page_on_networks_has_the_rewards():
 def test_the_page_on_opponents_has_the_handicaps_of_pitanks():
     levels = [body for head, body in tables(OPPONENTS_PAGE) if head[1:] == [f"`level{n}`" for n in range(1, 6)]]
     (body,) = [body for body in levels if body[0][0] == "share of full speed"]
-    for row, name in zip(body, ("speed", "thrift", "delay", "error"), strict=True):
+    for row, name in zip(body, ("speed", "thrift", "delay", "error", "turns"), strict=True):
         shown = [0.0 if cell == "–" else float(cell.split()[0]) for cell in row[1:]]
         assert shown == [getattr(handicap, name) for handicap in HANDICAPS], row
 

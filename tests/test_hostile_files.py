@@ -23,6 +23,7 @@ from pigaming_app.events import climb_files, league_files
 from pigaming_app.events.ladder import Climb
 from pigaming_app.games import arenas, replay
 from pigaming_app.games.arenas import load as load_arena
+from pigaming_app.games.registry import games
 from pigaming_app.games.replay import ReplayError
 from pigaming_app.games.setup import make_setup
 from pigaming_app.hardware import recordings as runs
@@ -62,13 +63,13 @@ def refused_or_used(read, errors):
 
 
 def arena_files():
-    return [pytest.param(game, id=game) for game in ("pitanks", "factory", "race")]
+    return [pytest.param(game, id=game) for game in games()]
 
 
 @pytest.mark.parametrize("game", arena_files())
 def test_arenas(game, tmp_path):
     name = arenas.arenas(game)[0]
-    tree = tomllib.loads((ASSETS / "arenas" / game / f"{name}.toml").read_text(encoding="utf-8"))
+    tree = tomllib.loads(load_arena(game, name).source)
     some = random.Random(1).sample(list(mutated(tree)), 300)
     used = [refused_or_used(partial(arenas.parse, game, toml(one), "a.toml"), ArenaError) for one in some]
     assert any(used)

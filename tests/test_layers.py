@@ -38,26 +38,29 @@ ONLY_IN = {
     "ray": {"ai"},
     "pymunk": {"jobs"},
     "PIL": {"scenes"},
+    "networkx": {"events"},
     "gymnasium": {"gym"},
     "pettingzoo": {"gym"},
     "torch": set(),
 }
-DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "numba", "llvmlite"}
+DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "networkx", "numba", "llvmlite"}
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray", "PIL"}
 DEPENDENCIES |= {"aiohttp", "segno", "ifaddr"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
 DEPENDENCIES |= ROS
 PLUGINS = [PACKAGE.parent / "pigaming_football", PACKAGE.parent / "assets" / "new_game"]
-RULES_FACE = ("sim", "games.game", "games.simple", "games.starts")
+RULES_FACE = ("sim", "games.game", "games.simple", "games.starts", "games.drawing")
 _BRAINS = (*RULES_FACE, "ai.brain", "ai.game_ai")
 FACE = {  # parts of a plug-in and the modules of this package that they may import; all others are its rules
     "ai": (*_BRAINS, "ai.networks"),
     "network": (*_BRAINS, "ai.networks"),
     "training": (*_BRAINS, "ai.networks", "ai.ppo", "ai.tallies"),
     "screens": (*RULES_FACE, "scenes.views", "ui"),
+    "editor": (*RULES_FACE, "scenes.views", "scenes.editor.model", "scenes.editor.parts", "ui"),
 }
-PACKAGES_OF = {"pygame": {"screens"}, "numpy": {"training"}}
-OWN_PARTS = {("network", "ai"), ("network", "training"), ("ai", "training")}  # an own part, and one that imports it
+PACKAGES_OF = {"pygame": {"screens", "editor"}, "numpy": {"training"}}
+# An own part, and one that imports it.
+OWN_PARTS = {("network", "ai"), ("network", "training"), ("ai", "training"), ("screens", "editor")}
 OF_OUR_GAMES = tuple(
     f"{room}.{game}"
     for room in ("games", "ai", "ai.networks", "ai.ppo", "scenes.views", "scenes.views.games", "scenes.views.lessons")

@@ -1,5 +1,6 @@
 """An event: a spec and a journal. Everything else follows from these two, so they are all that a file holds."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -42,13 +43,23 @@ class Event:
 
     @cached_property
     def open(self) -> tuple[Fixture, ...]:
-        """The matches that can be played now, the next one first."""
-        return tuple(fixture for fixture in self.fixtures if fixture.number not in self.progress.outcomes)
+        """The matches that can be played now, the next one first; of a tied knock-out match, its extra match."""
+        progress = self.progress
+        return tuple(progress.next_match(one) for one in self.fixtures if one.number not in progress.outcomes)
 
     @cached_property
     def outcomes(self) -> dict[int, Outcome]:
         """The results by number of the match; walkovers have the note WALKOVER."""
         return dict(self.progress.outcomes)
+
+    @property
+    def played(self) -> Mapping[int, tuple[Outcome, ...]]:
+        """Every match that was played, by number: the match itself, then its extra matches."""
+        return self.progress.played
+
+    def lots(self, number: int) -> bool:
+        """True if lots were drawn for a match, as its extra matches were level, too."""
+        return number in self.played and self.progress.verdict(self.progress.fixtures[number - 1]).lots
 
     @property
     def byes(self) -> dict[int, tuple[str, ...]]:

@@ -200,7 +200,8 @@ def _plain(entry: Entry) -> dict[str, Any]:
 
 def _plain_outcome(outcome: Outcome) -> dict[str, Any]:
     plain = {"match": outcome.fixture, "places": outcome.places, "scores": dict(outcome.scores)}
-    return {**plain, "note": outcome.note} if outcome.note else plain
+    more = {"note": outcome.note, "extra": outcome.extra}
+    return plain | {key: value for key, value in more.items() if value}
 
 
 def _entry(value: Any) -> Entry:
@@ -230,7 +231,10 @@ def _outcome(value: Mapping[str, Any]) -> Outcome:
         raise ValueError(f"{quote(places)} are no places")
     named = tuple(tuple(_text(name) for name in place) for place in places)
     points = {_text(name): _number(score) for name, score in scores.items()}
-    return Outcome(number, named, points, _text(value.get("note", "")))
+    extra = value.get("extra", 0)
+    if type(extra) is not int:
+        raise ValueError(f"{quote(extra)} is no number of an extra match")
+    return Outcome(number, named, points, _text(value.get("note", "")), extra)
 
 
 def _spec(value: Mapping[str, Any]) -> EventSpec:

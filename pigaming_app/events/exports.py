@@ -73,9 +73,12 @@ def columns(rows: Sequence[Standing]) -> list[str]:
 
 def matches_csv(event: Event) -> str:
     """All matches in order of play, one row for each entrant of a match."""
-    header = ["match", "round", "stage", "game", "seat", "entrant", "place", "score", "note"]
+    header = ["match", "round", "stage", "game", "seat", "entrant", "place", "score", "sudden_death", "lots", "note"]
     body = (
-        (match["match"], match["round"], match["stage"], match["game"], seat, name, place, score, match["note"])
+        (
+            *(match[key] for key in ("match", "round", "stage", "game")),
+            *(seat, name, place, score, len(match["sudden_death"]), int(match["lots"]), match["note"]),
+        )
         for match in (_match(event, i) for i in range(len(event.fixtures)))
         for seat, name in enumerate(match["entrants"], 1)
         for place, score in [(_place(match["places"], name), match["scores"].get(name, ""))]
@@ -97,6 +100,8 @@ def _match(event: Event, i: int) -> dict[str, Any]:
         "places": [list(place) for place in outcome.places] if outcome else [],
         "scores": dict(outcome.scores) if outcome else {},
         "note": outcome.note if outcome else "",
+        "sudden_death": [[list(place) for place in extra.places] for extra in event.played.get(fixture.number, ())[1:]],
+        "lots": event.lots(fixture.number),
     }
 
 

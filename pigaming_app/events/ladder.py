@@ -10,8 +10,10 @@ climbs the one with fewer lost matches is better, then the earlier one.
 
 from dataclasses import dataclass, replace
 
-from pigaming_app.games.game import LadderMatches, Outcome, Seat, Setup
+from pigaming_app.games.arenas import shipped_arenas
+from pigaming_app.games.game import LadderMatches, Outcome, Seat, Setup, Variant
 from pigaming_app.games.registry import games
+from pigaming_app.storage.plugins.parts import hidden
 from pigaming_app.storage.scores import ScoreTable
 
 LEVELS = 5  # rungs, and levels of robots
@@ -51,11 +53,11 @@ class Climb:
 
     @property
     def next_game(self) -> str:
-        """Game of the next match; in a climb through all games, each rung begins with another one."""
+        """Game of the next match. In a climb through all games a loss counts two, so that no game follows itself."""
         if self.game != ALL:
             return self.game
         names = climbed_games()
-        return names[(self.rung - 1 + self.wins + self.losses) % len(names)]
+        return names[(NEEDED * (self.rung - 1) + self.wins + 2 * self.lost) % len(names)]
 
     @property
     def offers_easier(self) -> bool:
@@ -94,33 +96,44 @@ class Climb:
     def setup(self, seed: int) -> Setup:
         """The next match: the person on seat 0, the robot on seat 1."""
         game, level = self.next_game, f"level{self.level}"
-        rules, form = games()[game].variants[RULES], ladder_of(game)
+        rules, form = rules_of(game), matches_of(game)
         one, two, three, four = (
             Seat(driver, team) for driver, team in zip(("human", level, "off", "off"), rules.teams, strict=True)
         )
-        arena = form.arenas[self.rung - 1]
-        return Setup(game, arena, (one, two, three, four), form.minutes, seed, RULES, form.goal)
+        arena = form.arenas[(self.rung - 1) % len(form.arenas)]
+        return Setup(game, arena, (one, two, three, four), form.minutes, seed, rules.name, form.goal)
 
 
 def climbed_games() -> list[str]:
     """The games that have a ladder."""
-    return [name for name, game in games().items() if game.ladder]
+    return [name for name, game in games().items() if game.ladder and name not in hidden()]
 
 
-def ladder_of(game: str) -> LadderMatches:
+def rules_of(game: str) -> Variant:
+    """The rule set of a game's ladder. Raises ValueError if it has none."""
+    opposed = [variant for variant in games()[game].variants.values() if variant.teams[0] != variant.teams[1]]
+    return min(opposed, key=lambda variant: variant.name != RULES)
+
+
+def matches_of(game: str) -> LadderMatches:
     """The matches of a game's ladder. Raises ValueError if it has none."""
-    found = games()[game].ladder
-    if not found:
+    own, rules = games()[game].ladder, rules_of(game)
+    if not own:
         raise ValueError(f"{game} has no ladder")
-    return found
+    return LadderMatches(
+        own.minutes or min(rules.minutes),
+        own.goal or rules.default_goal,
+        own.arenas or tuple(shipped_arenas(game)),
+        own.clear,
+    )
 
 
 def is_clear_loss(game: str, outcome: Outcome) -> bool:
-    """True if seat 0 lost by at least the game's `clear`, or has not finished a race that another has."""
-    own, best, clear = next(row for row in outcome.rows if row.seat == 0), outcome.rows[0], ladder_of(game).clear
-    if not games()[game].timed:
-        return best.score - own.score >= clear
-    return not own.stats["total"] or own.stats["total"] - best.stats["total"] >= clear
+    """True if seat 0 lost by at least the `clear` of the matches, or has not finished a race that another has."""
+    own, best = next(row for row in outcome.rows if row.seat == 0), outcome.rows[0]
+    clear, timed = matches_of(game).clear, games()[game].timed
+    mine, theirs = (own.stats.get("total", 0.0), best.stats.get("total", 0.0)) if timed else (own.score, best.score)
+    return (timed and not mine) or abs(mine - theirs) >= (clear or theirs / 2)
 
 
 def table_of(game: str) -> ScoreTable:

@@ -1,6 +1,7 @@
 """From a fixture to the setup of its match, and from the result of the match to the outcome."""
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Outcome
@@ -9,27 +10,33 @@ from pigaming_app.games.game import ALLIES, ALONE, FREE, Row, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import PEOPLE, ChoiceError, make_setup, require_game, require_one_of
 
+SUDDEN_DEATH = 3.0  # minutes of an extra match, at most
+
 
 def setup_of(event: Event, fixture: Fixture, person: str = "human") -> Setup:
     """The match of a fixture; `person`: the driver of an entrant without a brain. Raises ChoiceError.
 
-    Entrants of one team play together where the rules know teams.
+    Entrants of one team play together where the rules know teams. An extra match has the shortest length that the rules
+    offer, of minutes or laps, and ends with the first point, or lap.
     """
-    spec = event.spec
+    spec, extra = event.spec, bool(fixture.extra)
     by_name = {entrant.name: entrant for entrant in event.entrants}
     playing = [by_name[name] for name in fixture.entrants]
     brains = [entrant.brain or person for entrant in playing] + [spec.fill] * fixture.fill
     variant = variant_of(spec, fixture.game)
-    return make_setup(
+    minutes = spec.minutes.get(fixture.game) or float(variant.default_minutes)
+    setup = make_setup(
         fixture.game,
         brains,
         fixture.arena or None,
-        spec.minutes.get(fixture.game) or None,
+        min(minutes, *variant.minutes, SUDDEN_DEATH) if extra else minutes,
         fixture.seed,
         variant.name,
         _teams(variant, playing),
         [brain for brain in brains if brain not in PEOPLE],
+        min(variant.goals) if extra and variant.goals and games()[fixture.game].timed else None,
     )
+    return replace(setup, sudden_death=extra)
 
 
 def check_playable(spec: EventSpec, find_brain: Callable[[str, str], object]) -> None:
@@ -70,6 +77,7 @@ def outcome_of(fixture: Fixture, rows: Iterable[Row], note: str = "") -> Outcome
         tuple(tuple(sorted(names[row.seat] for row in own if row.place == place)) for place in places),
         {names[row.seat]: float(row.score) for row in own},
         note,
+        fixture.extra,
     )
 
 

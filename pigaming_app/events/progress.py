@@ -1,16 +1,17 @@
 """The event as it stands after the entries of the journal: rounds, results, who is there.
 
 A round is drawn as soon as the one before it is complete, and drawn anew, after a correction or with a late entrant, as
-long as none of its matches has been played.
+long as none of its matches has been played. A knock-out match has no result before its extra matches have decided it.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.events.formats import knockout
+from pigaming_app.events.formats import knockout, sudden_death
 from pigaming_app.events.formats.draws import NEXT, SCHEDULES
 from pigaming_app.events.formats.field import Draw, Field
 from pigaming_app.events.formats.grouping import seated
+from pigaming_app.events.formats.sudden_death import Verdict
 from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Recorded, Substituted, Withdrawn
 from pigaming_app.events.spec import MOST, WALKOVER, Entrant, EventSpec, Fixture, Format, Outcome, Round, check_name
 
@@ -27,6 +28,7 @@ class Progress:
     withdrawn: frozenset[str] = frozenset()
     rounds: tuple[Round, ...] = ()
     outcomes: Mapping[int, Outcome] = field(default_factory=dict)  # by fixture, walkovers included
+    played: Mapping[int, tuple[Outcome, ...]] = field(default_factory=dict)  # by fixture: the match, then extra ones
     postponed: Mapping[int, int] = field(default_factory=dict)  # times, by fixture
 
     def after(self, entry: Entry) -> "Progress":
@@ -57,6 +59,19 @@ class Progress:
         """A key to sort by: a postponed match follows its round, and where all rounds are known the next one too."""
         later = self.postponed.get(fixture.number, 0)
         return fixture.round + (later if self.spec.format in SCHEDULES else 0), later, fixture.number
+
+    def next_match(self, fixture: Fixture) -> Fixture:
+        """An open fixture, or the extra match that it still needs."""
+        if before := self.played.get(fixture.number):
+            return sudden_death.extra_match(fixture, len(before), self.verdict(fixture).tied)
+        return fixture
+
+    def verdict(self, fixture: Fixture) -> Verdict:
+        """What the matches of a fixture that has been played have decided; only a knock-out has to be decided."""
+        before = self.played[fixture.number]
+        if self.spec.format != Format.KNOCKOUT:
+            return Verdict(before[0].places)
+        return sudden_death.verdict(fixture, before, knockout.wins(fixture, self.spec.advance))
 
     def as_field(self) -> Field:
         """What a draw may look at."""
@@ -106,12 +121,14 @@ class Progress:
         """Open matches without those who have withdrawn; whoever would be alone wins."""
         if not self.withdrawn:
             return self
-        outcomes, rounds = dict(self.outcomes), []
+        outcomes, rounds, progress = dict(self.outcomes), [], self
         for drawn in self.rounds:
             fixtures = []
             for fixture in drawn.fixtures:
                 here = tuple(name for name in fixture.entrants if name not in self.withdrawn)
-                if fixture.number not in outcomes and here != fixture.entrants:
+                if fixture.number in self.played:
+                    progress = progress._without_extra_match(fixture)
+                elif fixture.number not in outcomes and here != fixture.entrants:
                     if len(here) > 1:
                         fixture = replace(fixture, entrants=here)
                     else:
@@ -120,33 +137,58 @@ class Progress:
                         outcomes[fixture.number] = Outcome(fixture.number, places, note=WALKOVER)
                 fixtures.append(fixture)
             rounds.append(replace(drawn, fixtures=tuple(fixtures)))
-        return replace(self, rounds=tuple(rounds), outcomes=outcomes)
+        return replace(progress, rounds=tuple(rounds), outcomes={**outcomes, **progress.outcomes})
+
+    def _without_extra_match(self, fixture: Fixture) -> "Progress":
+        """An open extra match goes to those who are there; without any of them, to no matter whom."""
+        if fixture.number in self.outcomes:
+            return self
+        tied = self.verdict(fixture).tied
+        here = tuple(name for name in tied if name not in self.withdrawn)
+        if here == tied:
+            return self
+        away = tuple(name for name in tied if name not in here)
+        places = (here, away) if here else tuple((name,) for name in away)
+        progress = self._after_match(fixture, Outcome(fixture.number, places, note=WALKOVER))
+        return progress._without_extra_match(fixture)
 
     def _recorded(self, outcome: Outcome) -> "Progress":
         fixture = self._open_fixture(outcome.fixture)
-        outcomes = {**self.outcomes, outcome.fixture: checked(outcome, fixture)}
-        progress = replace(self, outcomes=outcomes)
+        progress = self._after_match(fixture, checked(outcome, self.next_match(fixture)))
         return progress if self.spec.format in SCHEDULES else progress.drawn()
 
+    def _after_match(self, fixture: Fixture, outcome: Outcome) -> "Progress":
+        """With one more match of a fixture. Its result has the places that all of them together decide."""
+        number = fixture.number
+        played = (*self.played.get(number, ()), outcome)
+        postponed = {other: times for other, times in self.postponed.items() if other != number}
+        progress = replace(self, played={**self.played, number: played}, postponed=postponed)
+        decided = progress.verdict(fixture)
+        if decided.tied:
+            return progress
+        return replace(progress, outcomes={**self.outcomes, number: replace(played[0], places=decided.places)})
+
     def _corrected(self, outcome: Outcome) -> "Progress":
-        before = self.outcomes.get(outcome.fixture)
-        if before is None or before.note == WALKOVER:
-            raise ValueError(f"match {outcome.fixture} has not been played")
+        number = outcome.fixture
+        if number not in self.played:
+            raise ValueError(f"match {number} has not been played")
         if not outcome.note.strip():
             raise ValueError("a correction needs a note")
-        fixture = self.fixtures[outcome.fixture - 1]
-        corrected = checked(outcome, fixture)
-        progress = replace(self, outcomes={**self.outcomes, outcome.fixture: corrected})
-        if self.spec.format == Format.KNOCKOUT:
-            names, advance = self.as_field().entrants, self.spec.advance
-            if knockout.through(fixture, before, names, advance) != knockout.through(
-                fixture, corrected, names, advance
-            ):
-                later = [str(one.number) for one in self.fixtures if one.round > fixture.round and self._played(one)]
-                if later:
-                    which = f"match {later[0]} has" if len(later) == 1 else f"matches {', '.join(later)} have"
-                    raise ValueError(f"match {fixture.number} decides who goes on, and {which} been played since")
+        fixture = self.fixtures[number - 1]
+        outcomes = {other: kept for other, kept in self.outcomes.items() if other != number}
+        before = replace(self, outcomes=outcomes, played={**self.played, number: ()})
+        progress = before._after_match(fixture, checked(outcome, fixture))
+        if self.spec.format == Format.KNOCKOUT and self._winners(fixture) != progress._winners(fixture):
+            later = [str(one.number) for one in self.fixtures if one.round > fixture.round and self._played(one)]
+            if later:
+                which = f"match {later[0]} has" if len(later) == 1 else f"matches {', '.join(later)} have"
+                raise ValueError(f"match {fixture.number} decides who goes on, and {which} been played since")
         return progress if self.spec.format in SCHEDULES else progress._without_unplayed_rounds().drawn()
+
+    def _winners(self, fixture: Fixture) -> frozenset[str]:
+        """Who goes on from a match of a knock-out; nobody while it is not decided."""
+        outcome = self.outcomes.get(fixture.number)
+        return knockout.through(fixture, outcome, self.spec.advance) if outcome else frozenset()
 
     def _added(self, entrant: Entrant) -> "Progress":
         check_name(entrant.name)
@@ -178,12 +220,12 @@ class Progress:
             self,
             rounds=rounds,
             outcomes={number: outcome for number, outcome in self.outcomes.items() if number in numbers},
+            played={number: outcomes for number, outcomes in self.played.items() if number in numbers},
             postponed={number: times for number, times in self.postponed.items() if number in numbers},
         )
 
     def _played(self, fixture: Fixture) -> bool:
-        outcome = self.outcomes.get(fixture.number)
-        return outcome is not None and outcome.note != WALKOVER
+        return fixture.number in self.played
 
     def _open_fixture(self, number: int) -> Fixture:
         fixtures = self.fixtures
@@ -209,4 +251,6 @@ def checked(outcome: Outcome, fixture: Fixture) -> Outcome:
         raise ValueError(f"match {fixture.number} has scores of {', '.join(fixture.entrants)} only")
     if outcome.note == WALKOVER:
         raise ValueError(f"{WALKOVER!r} is not a note of a match")
+    if outcome.extra != fixture.extra:
+        raise ValueError(f"match {fixture.number} goes on with extra match {fixture.extra}, not {outcome.extra}")
     return replace(outcome, places=tuple(tuple(sorted(place)) for place in outcome.places))

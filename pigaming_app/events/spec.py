@@ -8,7 +8,7 @@ FEWEST, MOST = 3, 64  # entrants
 SEATS = (2, 3, 4)  # entrants of a match
 MAX_ROUNDS = 64
 MOST_MATCHES = 4096  # of two in a round robin
-MAX_NAME = 12  # characters of an entrant or a team
+MAX_NAME = 24  # characters of an entrant or a team
 MAX_TITLE = 60  # characters
 MAX_SEED = 10**12
 WALKOVER = "walkover"  # note of an outcome without a match: the opponent has withdrawn
@@ -92,6 +92,7 @@ class Fixture:
     entrants: tuple[str, ...]
     seed: int
     fill: int = 0
+    extra: int = 0  # number of an extra match of those who are tied, from 1; 0: the match itself
 
 
 @dataclass(frozen=True)
@@ -102,6 +103,7 @@ class Outcome:
     places: tuple[tuple[str, ...], ...]
     scores: Mapping[str, float] = field(default_factory=dict)
     note: str = ""
+    extra: int = 0  # see Fixture
 
 
 @dataclass(frozen=True)

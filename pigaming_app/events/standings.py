@@ -143,9 +143,11 @@ def _knockout(field: Field) -> tuple[Standing, ...]:
     for drawn in field.rounds:
         for fixture in drawn.fixtures:
             if outcome := field.outcomes.get(fixture.number):
-                for number, place in enumerate(outcome.places):
+                ahead = 0
+                for place in outcome.places:
                     for name in place:
-                        last[name], ended[name] = drawn.number, float(number)
+                        last[name], ended[name] = drawn.number, float(ahead)
+                    ahead += len(place)
 
     def key(name: str) -> tuple[float, ...]:
         """Higher is better."""

@@ -32,6 +32,7 @@ class Setup:
     seed: int
     variant: str  # one of the game's variants
     goal: int = 0  # laps to drive, pallets to deliver; 0 in a game without a goal
+    sudden_death: bool = False  # it is over as soon as one team has more points than all others, or a lap
 
 
 @dataclass(frozen=True)
@@ -84,12 +85,12 @@ class Variant:
 
 @dataclass(frozen=True)
 class LadderMatches:
-    """The matches of a ladder. `arenas`: one for each rung; `clear`: points, or s in a timed game, of a clear loss."""
+    """The matches of a ladder: one against one, by the rules `party` or the first ones that set seats 0 and 1 apart."""
 
-    minutes: float
-    goal: int
-    arenas: tuple[str, ...]
-    clear: float
+    minutes: float = 0.0  # 0: the fewest of these rules
+    goal: int = 0  # 0: their default
+    arenas: tuple[str, ...] = ()  # of the rungs, in turn; empty: all that come with the game
+    clear: float = 0.0  # points, or s in a timed game, by which a loss is clear; 0: half of the winner's
 
 
 Reroute = Callable[[Arena, Any, tuple[ThingSpec, ...]], Callable[[Any], None]]
@@ -129,7 +130,7 @@ class Game:
     reroute: Reroute | None = None  # for AIs that do not plan from the walls alone
     timed: bool = False  # the fastest wins: the clock counts up, and results compare the stages' times
     scored: bool = True  # the results table begins with the score
-    ladder: LadderMatches | None = None
+    ladder: LadderMatches | None = None  # for a game whose five levels differ
 
     def records_of(self, variant: str) -> tuple[RecordKind, ...]:
         """The high-score tables of a variant; of an unknown one, those of the default."""

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Game, Outcome, Row, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.games.simple import team_points
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -82,6 +83,8 @@ class Match:
             self.brains[seat].think(state, seat)
         self.log.append(state.actions)
         self.game.judge(state)
+        if self.setup.sudden_death and _is_decided(self.game, state):
+            state.over = 1
         self.plant.drive([(robot.requested_linear, robot.requested_angular) for robot in state.robots], DT)
         for robot, line in zip(state.robots, self.series, strict=True):
             if robot.score != line[-1][1]:
@@ -120,6 +123,15 @@ def standings(game: Game, state: Any) -> tuple[dict[int, float], tuple[int, ...]
     leaders = tuple(i for i in keys if keys[i] == best)
     alone = len(set(teams.values())) == 1
     return keys, leaders if len({teams[i] for i in leaders}) == 1 and (best > 0.0 or not alone) else ()
+
+
+def _is_decided(game: Game, state: Any) -> bool:
+    """True once a sudden death has a winner: one team alone has the most points, or somebody has the first time."""
+    seats = [i for i in range(ROBOTS) if state.robots[i].present]
+    if game.timed:
+        return any(game.times(state, seat) for seat in seats)
+    points = {state.robots[seat].team: team_points(state, seat) for seat in seats}
+    return [*points.values()].count(max(points.values())) == 1
 
 
 class ActionLog:

@@ -27,5 +27,8 @@ def _unusable(name: str, game: Game) -> str:
         return f"there is a game {name} already"
     if game.name != name:
         return f"its game is named {game.name}, not {name}"
-    arena = next(plugin.folder for plugin in plugins() if plugin.name == name) / "arenas" / f"{game.arena}.toml"
-    return "" if arena.is_file() else f"arenas/{arena.name} is missing"
+    folder = next(plugin.folder for plugin in plugins() if plugin.name == name) / "arenas"
+    needed = (game.arena, *(game.ladder.arenas if game.ladder else ()))
+    if game.ladder and all(variant.teams[0] == variant.teams[1] for variant in game.variants.values()):
+        return "ladder: by none of its rules are seats 0 and 1 opponents"
+    return next((f"arenas/{arena}.toml is missing" for arena in needed if not (folder / f"{arena}.toml").is_file()), "")

@@ -215,4 +215,5 @@ def _setup(table: Mapping[str, Any]) -> Setup:
     if not 0 < minutes <= 60 or goal not in (*offered.goals, offered.default_goal):
         raise ValueError("setup")
     check_teams(rules, offered, [seat.team for seat in seats if seat.brain != "off"])
-    return Setup(game, str(table["arena"]), (one, two, three, four), minutes, int(table["seed"]), variant, goal)
+    arena, seed, sudden = str(table["arena"]), int(table["seed"]), bool(table.get("sudden_death", False))
+    return Setup(game, arena, (one, two, three, four), minutes, seed, variant, goal, sudden)

@@ -29,7 +29,7 @@ is the game's `Encoding` (see ai/networks) in [-1, 1]; an action is a choice for
 An episode is a match. It is terminated when the match is over, and in the race also when all its agents have finished.
 The clock belongs to the rules and is observed, so the end of the time terminates as well; only max_episode_steps
 truncates. Vector environments start the next match at the next step (AutoresetMode.NEXT_STEP). `reset(seed=...)`
-determines all matches from then on; each is one that `main.py play --seed` plays too, with a seed below `starts`.
+determines all matches from then on; each is one that `main.py play --seed` plays too, with a seed from -1 to -`starts`.
 """
 
 import os
@@ -41,9 +41,7 @@ try:
     import gymnasium
     import pettingzoo as pettingzoo
 except ImportError as error:
-    raise ImportError(
-        f"pigaming_app.gym needs {error.name}: pip install 'pigaming-app[gym]'", name=error.name
-    ) from None
+    raise ImportError(f"pigaming_app.gym needs {error.name}: pip install '.[gym]'", name=error.name) from None
 
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.games.registry import OURS

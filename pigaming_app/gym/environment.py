@@ -17,7 +17,8 @@ class SeatEnv(gymnasium.Env[Any, Any]):
     """A match with one learner, on the first seat. `options`: see `pigaming_app.gym`.
 
     An episode is a match; it ends, terminated, when the match is over, or nothing more is at stake for the learner. The
-    clock is part of the rules and of the observation, so that the end of the time also terminates.
+    clock is part of the rules and of the observation, so that the end of the time also terminates. `info` has the
+    tallies so far at every step, since `gymnasium.make(max_episode_steps=...)` truncates from outside.
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"], "render_fps": 10}
@@ -46,7 +47,7 @@ class SeatEnv(gymnasium.Env[Any, Any]):
         """Play one decision. Raises ValueError for an action outside the action space."""
         observations, rewards, over = self.matches.advance(self.matches.checked(action))
         self._camera.watch()
-        return observations[0, 0], float(rewards[0, 0]), bool(over[0]), False, self.matches.result(0) if over[0] else {}
+        return observations[0, 0], float(rewards[0, 0]), bool(over[0]), False, self.matches.result(0)
 
     def render(self) -> Any:
         """The present picture (height, width, 3), or None without a render mode."""

@@ -1,7 +1,7 @@
 """Many matches of one task, advanced together by a decision: what all environments share.
 
-Every episode is one of the task's matches, number 0 to `starts` - 1, with the seeds that `play --seed` uses. Which ones
-a match plays follows from its own seed. They are prepared when they are first drawn, and copied from then on.
+Every episode is one of the task's matches, number 0 to `starts` - 1, with seeds that only trainings have. Which ones a
+match plays follows from its own seed. They are prepared when they are first drawn, and copied from then on.
 """
 
 from collections.abc import Sequence

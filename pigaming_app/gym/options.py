@@ -16,11 +16,12 @@ from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.gym.rewards import TALLIES
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.rng import SEEDS, training_seed
 from pigaming_app.sim.world import HZ, ROBOTS
 
 OPPONENT = "level3"  # unless others are named
 STARTS = 128  # different matches that an environment plays, unless another number is named
-INSTALL = "pip install 'pigaming-app[train]'"
+INSTALL = "pip install '.[train]'"
 LEARNER = "human"  # in a setup: a seat without a brain
 
 
@@ -53,7 +54,7 @@ class Task:
 
     def setup_of(self, start: int) -> Setup:
         """The setup of one of the matches: arena and seed follow from its number."""
-        return replace(self.setup, arena=self.arenas[start % len(self.arenas)], seed=start)
+        return replace(self.setup, arena=self.arenas[start % len(self.arenas)], seed=training_seed(start))
 
 
 def task_of(
@@ -85,6 +86,8 @@ def task_of(
     number("agents", learners, least=1)
     number("ticks", ticks, least=1)
     number("starts", starts, least=1)
+    if starts > SEEDS:
+        raise OptionError(f"starts: {starts} is more than {SEEDS}")
     if learners + len(names) > ROBOTS:
         raise OptionError(f"{learners} agents and {len(names)} opponents, but there are {ROBOTS} seats")
     if minutes is not None:

@@ -72,8 +72,9 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
         self._camera.watch()
         self._steps += 1
         late = self.max_episode_steps is not None and self._steps >= self.max_episode_steps and not over[0]
-        results = [self.matches.result(0, seat) if over[0] else {} for seat in range(self.task.learners)]
-        if over[0] or late:
+        ended = bool(over[0]) or late
+        results = [self.matches.result(0, seat) if ended else {} for seat in range(self.task.learners)]
+        if ended:
             self.agents = []
         return (
             self._by_agent(observations[0]),

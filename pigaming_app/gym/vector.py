@@ -93,7 +93,7 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
         for camera in self._cameras:
             camera.watch()
         seats = self.task.learners
-        infos = self._results() if over.any() else {}
+        infos = self._results() if self._ended.any() else {}
         return (
             observations.reshape(self.observation_space.shape),
             rewards.reshape(self.num_envs),

@@ -24,7 +24,7 @@ def microbit_program(number: int, arena: int) -> str:
 def set_up_command(robot: int, arena: int, radio: str, kind: str = "") -> str:
     """The command that gives a robot (1 to 4) its numbers. `radio`: of the settings; `kind`: see robot_kinds."""
     if radio == "udp":
-        return f"python3 main.py robots --wifi-config {robot}"
+        return f"python3 main.py robots --wifi-config {robot} --out config.py"
     if kind == "microbit":
-        return f"python3 main.py robots --microbit {robot}"
+        return f"python3 main.py robots --microbit {robot} --out robot{robot}.py"
     return f"make flash ADDRESS={robot} ARENA={arena}"

@@ -22,6 +22,7 @@ from pigaming_app.jobs.arcade import needs_supervisor, ros_options, ros_width, s
 from pigaming_app.jobs.terminal.options import (
     DEFAULT_GAME,
     MATCH,
+    SHARED,
     decimal,
     display,
     game_option,
@@ -37,6 +38,7 @@ from pigaming_app.scenes.files import save_replay
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
 from pigaming_app.sim.plant import Plant, SimPlant
+from pigaming_app.sim.rng import SEEDS
 from pigaming_app.sim.world import DT, ROBOTS
 from pigaming_app.storage.parsing import ParseError, describe_error, quote, read_text
 from pigaming_app.storage.safe_files import NotSaved, require_writable
@@ -56,6 +58,10 @@ def options(parser: ArgumentParser) -> None:
     parser.add_argument("--seats", help="human, off, an AI or a trained one's file for each seat; default human,normal")
     parser.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; default: the game's own")
     shared(parser, *MATCH)
+    of_any_match = integer(-SEEDS, SEEDS - 1)
+    parser.add_argument(
+        "--seed", **SHARED["--seed"] | {"type": of_any_match, "help": "default 1; below 0: of a training"}
+    )
     parser.add_argument(
         "--rounds", type=integer(), metavar="NUMBER", help="1, or 3: best of three rounds of one minute, in PiTanks"
     )

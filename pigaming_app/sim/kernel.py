@@ -3,8 +3,9 @@
 `@kernel` only registers a function, so that the arcade never imports numba. The first compilation makes all registered
 functions callable from compiled code; compiled outer loops are cached on disk.
 
-numba's cache does not detect an edit in a function that the outer loop calls, so the name of the cache folder contains
-a hash of all these sources.
+numba's own cache goes by the path of a module, and does not detect an edit in a function that the outer loop calls.
+This one goes by a hash of all these sources and by what a loop is a closure over: every copy of the program on a
+machine loads what the first has compiled.
 """
 
 import contextlib
@@ -13,8 +14,10 @@ import os
 import sys
 from collections.abc import Callable, Iterable
 from functools import cache
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from types import FunctionType
 from typing import Any, TypeVar
 
 import platformdirs
@@ -71,9 +74,8 @@ def compiled(loop: F) -> F:
     while _registered:
         _make_callable(numba, *_registered.pop())
     dispatcher: F = numba.njit(nogil=True, error_model="numpy")(loop)
-    with contextlib.suppress(RuntimeError):  # no writable folder for the cache
-        dispatcher.enable_caching()  # type: ignore[attr-defined]
-        _ignore_cache_errors(dispatcher)
+    with contextlib.suppress(OSError):  # no writable folder for the cache
+        dispatcher._cache = _loop_cache()(loop)  # type: ignore[attr-defined]
     return dispatcher
 
 
@@ -93,15 +95,74 @@ def compiled_before(loop: Callable[..., Any]) -> bool:
     return any(cached.rglob(f"{name}-*.nbi"))
 
 
-def _ignore_cache_errors(dispatcher: Any) -> None:
-    """Suppress OSError, such as a full disk, when the cache is written: the loop is then compiled again next time."""
-    save = dispatcher._cache.save_overload
+@cache
+def _loop_cache() -> Any:
+    """numba's cache of a function, without the paths of this copy of the program in its names and keys."""
+    caching: Any = import_module("numba.core.caching")
 
-    def attempt(signature: Any, compiled_code: Any) -> None:
-        with contextlib.suppress(OSError):
-            save(signature, compiled_code)
+    class Folder(caching._CacheLocator):  # type: ignore[misc]
+        """The folder of all loops, whichever module they come from."""
 
-    dispatcher._cache.save_overload = attempt
+        def __init__(self, loop: Callable[..., Any], module: str) -> None:
+            self._py_file, self._module = module, loop.__module__
+
+        @classmethod
+        def from_function(cls, loop: Callable[..., Any], module: str) -> "Folder":
+            folder = cls(loop, module)
+            folder.ensure_cache_path()
+            return folder
+
+        def get_cache_path(self) -> str:
+            return os.environ.get("NUMBA_CACHE_DIR") or str(_cache_folder())
+
+        def get_source_stamp(self) -> str:
+            return _source_hash()
+
+        def get_disambiguator(self) -> str:
+            return self._module
+
+    class Results(caching.CompileResultCacheImpl):  # type: ignore[misc]
+        _locator_classes = (Folder,)
+
+    class LoopCache(caching.FunctionCache):  # type: ignore[misc]
+        _impl_class = Results
+
+        def _index_key(self, signature: Any, codegen: Any) -> str:
+            """A key with files of its own, so that processes that compile side by side do not mix theirs up."""
+            text = f"{signature}{codegen.magic_tuple()}{_source_hash()}{_identity(self._py_func)}"
+            key = hashlib.sha256(text.encode()).hexdigest()
+            name = f"{self._impl.filename_base}-{key[:16]}"
+            self._cache_file = caching.IndexDataCacheFile(self.cache_path, name, _source_hash())
+            return key
+
+        def save_overload(self, signature: Any, result: Any) -> None:
+            with contextlib.suppress(OSError):  # such as a full disk: compiled again next time
+                super().save_overload(signature, result)
+
+    return LoopCache
+
+
+def _identity(value: Any, *above: Any) -> str:
+    """Text that names a value of a closure by its content and its names in the sources, not by its place in memory.
+
+    `above`: the functions and records that contain it.
+    """
+    if isinstance(value, tuple | list | dict):
+        parts = value.items() if isinstance(value, dict) else value
+        return f"({','.join(_identity(one, *above) for one in parts)})"
+    if any(value is one for one in above):
+        return "…"
+    if isinstance(value, FunctionType):
+        cells = [cell.cell_contents for cell in value.__closure__ or ()]
+        code = (value.__code__.co_code, value.__code__.co_names, value.__defaults__, cells)
+        return f"{value.__module__}.{value.__qualname__}{_identity(code, *above, value)}"
+    if isinstance(value, type):
+        return (
+            f"{value.__module__}.{value.__qualname__}{_identity(getattr(value, '__annotations__', {}), *above, value)}"
+        )
+    if value is None or isinstance(value, bool | int | float | str | bytes):
+        return repr(value)
+    return hashlib.sha256(import_module("numba.core.serialize").dumps(value)).hexdigest()
 
 
 @cache
@@ -125,8 +186,10 @@ def _source_hash() -> str:
     """SHA-256 over the paths and texts of all modules in rooms with kernels, and of added ones."""
     sha = hashlib.sha256()
     ours = {PACKAGE / room: tuple((PACKAGE / room).rglob("*.py")) for room in COMPILED}
-    for folder, modules in sorted((ours | _added).items()):
-        for path in sorted(modules):
-            sha.update(path.relative_to(folder.parent).as_posix().encode())
-            sha.update(path.read_bytes().replace(b"\r\n", b"\n"))
+    named = (
+        (path.relative_to(folder.parent).as_posix(), path) for folder, all in (ours | _added).items() for path in all
+    )
+    for name, path in sorted(named):
+        sha.update(name.encode())
+        sha.update(path.read_bytes().replace(b"\r\n", b"\n"))
     return sha.hexdigest()

@@ -9,6 +9,7 @@ from typing import Any
 from pigaming_app.sim.kernel import kernel
 
 MASK = (1 << 31) - 1
+SEEDS = 1 << 60  # seeds of matches lie in [-SEEDS, SEEDS), so that those of four minds a match are all different
 
 
 @kernel
@@ -22,6 +23,11 @@ def uniform(owner: Any) -> float:
 def bell(owner: Any) -> float:
     """An approximately normal number, mean 0, standard deviation 0.5: the sum of three uniform ones less its mean."""
     return float(uniform(owner) + uniform(owner) + uniform(owner) - 1.5)
+
+
+def training_seed(number: int) -> int:
+    """The seed of training match `number`, from 0. All are negative; matches played or measured have seeds from 0."""
+    return -1 - number
 
 
 def seeded(seed: int) -> int:

@@ -19,13 +19,13 @@ from .view import FootballView
 
 def tile(ink: GlowCanvas, x: float, y: float) -> None:
     """The picture on the title: a shot at the goal."""
-    draw_goal(ink, 1, x + 478, y + 132, 96, 1.15)
+    draw_goal(ink, 1, x + 458, y + 132, 96, 1.15)
     for i in range(6):
-        ink.line([(x + 262 + 14 * i, y + 158 - 2.4 * i), (x + 352, y + 142)], dim(MIST, 0.10 + 0.08 * i), THIN + 2 * i)
-    draw_ball(ink.set_transform(x + 366, y + 140, 0.0, 1.3), 0.6, False)
+        ink.line([(x + 242 + 14 * i, y + 158 - 2.4 * i), (x + 332, y + 142)], dim(MIST, 0.10 + 0.08 * i), THIN + 2 * i)
+    draw_ball(ink.set_transform(x + 346, y + 140, 0.0, 1.3), 0.6, False)
     ink.set_transform(0, 0)
-    robot(ink, 0, x + 150, y + 178, -0.17, 1.15)
-    robot(ink, 3, x + 474, y + 206, -2.2, 1.0)
+    robot(ink, 0, x + 130, y + 178, -0.17, 1.15)
+    robot(ink, 3, x + 454, y + 206, -2.2, 1.0)
 
 
 def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:

@@ -119,7 +119,7 @@ def test_a_second_start_goes_straight_into_the_environment(furnished):
     again = started(furnished, "play", "--seed", "3")
     assert again.stdout == f"{furnished / '.venv'} play --seed 3\n"
     assert again.stderr == ""
-    assert calls(furnished) == [{"pygame-ce", "numpy", "platformdirs", "tomli-w"}]
+    assert calls(furnished) == [{"pygame-ce", "numpy", "platformdirs", "tomli-w", "networkx"}]
 
 
 def test_the_exit_code_is_that_of_the_job(furnished):
@@ -135,7 +135,7 @@ def test_a_clone_that_was_moved_starts_all_the_same(furnished):
 
 def test_a_python_that_has_every_package_is_used_as_it_is(clone, tmp_path):
     packages = tmp_path / "site-packages"
-    for name in ("pygame_ce-2.5.9", "numpy-2.3.1", "platformdirs-4.3.0", "tomli_w-1.2.0"):
+    for name in ("pygame_ce-2.5.9", "numpy-2.3.1", "platformdirs-4.3.0", "tomli_w-1.2.0", "networkx-3.6"):
         (packages / f"{name}.dist-info").mkdir(parents=True)
     assert started(clone, PYTHONPATH=str(packages)).stdout == f"{Path(BARE).resolve().parent.parent}\n"
     assert not (clone / ".venv").exists()
@@ -143,7 +143,14 @@ def test_a_python_that_has_every_package_is_used_as_it_is(clone, tmp_path):
 
 def test_a_python_with_both_pygames_is_not_used(furnished, tmp_path):
     packages = tmp_path / "site-packages"
-    for name in ("pygame-2.6.1", "pygame_ce-2.5.9", "numpy-2.3.1", "platformdirs-4.3.0", "tomli_w-1.2.0"):
+    for name in (
+        "pygame-2.6.1",
+        "pygame_ce-2.5.9",
+        "numpy-2.3.1",
+        "platformdirs-4.3.0",
+        "tomli_w-1.2.0",
+        "networkx-3.6",
+    ):
         (packages / f"{name}.dist-info").mkdir(parents=True)
     ended = started(furnished, PYTHONPATH=str(packages))
     assert ended.stdout == f"{furnished / '.venv'}\n"

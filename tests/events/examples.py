@@ -19,7 +19,12 @@ def seed_of(name: str) -> int:
 
 def ranked(fixture: Fixture, *order: str) -> Outcome:
     """The entrants in this order, each with a place of its own."""
-    return Outcome(fixture.number, tuple((name,) for name in order))
+    return Outcome(fixture.number, tuple((name,) for name in order), extra=fixture.extra)
+
+
+def level(fixture: Fixture) -> Outcome:
+    """All entrants on one place."""
+    return Outcome(fixture.number, (fixture.entrants,), extra=fixture.extra)
 
 
 def best_seed_wins(fixture: Fixture) -> Outcome:
@@ -33,7 +38,8 @@ def by_chance(seed: int, ties: bool = True) -> Callable[[Fixture], Outcome]:
     def outcome(fixture: Fixture) -> Outcome:
         order = random.sample(fixture.entrants, len(fixture.entrants))
         if ties and random.random() < 0.2:
-            return Outcome(fixture.number, (tuple(order[:2]), *((name,) for name in order[2:])))
+            places = (tuple(order[:2]), *((name,) for name in order[2:]))
+            return Outcome(fixture.number, places, extra=fixture.extra)
         return ranked(fixture, *order)
 
     return outcome

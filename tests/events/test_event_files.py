@@ -5,13 +5,14 @@ import os
 import random
 import signal
 import time
+from dataclasses import replace
 
 import pytest
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import delete, load, parse, path_of, save, saved_events, to_text, update
-from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Outcome
-from tests.events.examples import best_seed_wins, new_event, played
+from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format
+from tests.events.examples import best_seed_wins, level, new_event, played
 
 KILLS = 200
 
@@ -23,7 +24,7 @@ def test_an_event_is_read_as_it_was_written(tmp_path):
         {"race": ("kidney",), "pitanks": ("islands", "classic")}, {"pitanks": 1.5},
         {"pitanks": "party"}, 9, Advance.QUARTER,
     )  # fmt: skip
-    event = played(Event(spec), lambda one: Outcome(one.number, (one.entrants,), {one.entrants[0]: 2.5}, "short"), 1)
+    event = played(Event(spec), lambda one: replace(level(one), scores={one.entrants[0]: 2.5}, note="short"), 1)
     save(tmp_path / "a.json", event)
     assert load(tmp_path / "a.json") == (event, [])
     assert saved_events(tmp_path)[0].event == event

@@ -2,17 +2,19 @@
 
 from dataclasses import replace
 from datetime import datetime, timedelta
+from random import Random
 
 import pytest
 
 from pigaming_app.ai.registry import BRAINS
-from pigaming_app.events import climb_files
+from pigaming_app.events import climb_files, ladder
 from pigaming_app.events.climb_files import FILE, KEPT, MOST
-from pigaming_app.events.ladder import ALL, LEVELS, Climb, climbed_games, stars_and_losses, worth
+from pigaming_app.events.ladder import ALL, LEVELS, Climb, climbed_games, stars_and_losses, table_of, worth
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Outcome, Row
+from pigaming_app.games.game import ALLIES, LadderMatches, Outcome, Row, Variant, named
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
+from pigaming_app.storage.scores import Scores
 
 
 def ended(own: int, other: int, totals: tuple[float, float] = (60.0, 60.0)) -> Outcome:
@@ -73,11 +75,58 @@ def test_a_race_is_lost_clearly_by_five_seconds_or_by_not_arriving(totals, clear
     assert Climb("race").after(ended(2, 3, totals)).clear == clear
 
 
-def test_a_climb_through_all_games_plays_each_on_every_rung():
-    for rung in range(1, LEVELS + 1):
-        climb = Climb(ALL, rung=rung)
-        played = {climb.next_game, climb.after(WON).next_game, climb.after(WON).after(LOST).next_game}
-        assert played == set(climbed_games())
+def test_in_a_climb_through_all_games_these_take_turns():
+    """Ten wins play each game at least twice; with any losses, no game follows itself."""
+    assert set(climbed_games()) == set(games()), "of a clone"
+    climb, played = Climb(ALL), []
+    while not climb.at_top:
+        played.append(climb.next_game)
+        climb = climb.after(WON)
+    assert min(played.count(game) for game in games()) >= 2
+    draw = Random(1)
+    for _ in range(50):
+        climb, before = Climb(ALL), ""
+        while not climb.at_top and climb.lost < 50:
+            assert climb.next_game != before
+            before, climb = climb.next_game, climb.after(draw.choice((WON, LOST, CLEARLY_LOST)))
+            climb = climb.made_easier() if climb.offers_easier and draw.random() < 0.5 else climb
+
+
+def test_an_added_game_that_only_asks_for_a_ladder_has_one(monkeypatch):
+    """By its first rules that set two robots against each other, short, on its arenas in turn."""
+    mild, rough = Variant("mild", (2, 4), 4, team_mode=ALLIES, teams=(0, 0, 0, 0)), Variant("rough", (5, 3), 5, (7,), 7)
+    added = replace(games()["football"], ladder=LadderMatches(), variants=named(mild, rough))
+    monkeypatch.setattr(ladder, "games", lambda: {**games(), "football": added})
+    setups = [Climb("football", rung=rung).setup(3) for rung in (1, 2, 5)]
+    assert [setup.arena for setup in setups] == ["classic", "bumpers", "bumpers"]
+    assert {(setup.variant, setup.minutes, setup.goal) for setup in setups} == {("rough", 3, 7)}
+    for own, other, clear in ((4, 9, True), (5, 9, False), (0, 1, True)):
+        assert Climb("football").after(ended(own, other)).clear == clear
+    assert "football" in climbed_games()
+    added = replace(added, ladder=None)
+    assert "football" not in climbed_games()
+
+
+def test_a_climb_and_a_result_of_version_1_12_are_still_read(tmp_path):
+    """As that version wrote them: the game was one of three."""
+    when = datetime.now().astimezone().replace(microsecond=0).isoformat()
+    (tmp_path / FILE).write_text(
+        f'format = 1\n\n[[climb]]\nnumber = 1\nwhen = {when}\ngame = "all"\nrung = 5\neased = [3]\nwins = 1\n'
+        "losses = 1\nclear = 0\nbeaten = 3\nlost = 7\n",
+        encoding="utf-8",
+    )
+    ((saved,), problems) = climb_files.saved_climbs(tmp_path)
+    assert (saved.climb, problems) == (Climb(ALL, 5, (3,), 1, 1, 0, 3, 7), [])
+    assert saved.climb.after(WON).at_top
+    (tmp_path / "scores2.toml").write_text(
+        'format = 2\nresets = 0\nmigrated = []\n\n[[table]]\ngame = "ladder"\narena = "all"\nfeat = "climb"\n'
+        'timed = false\nrules = "party"\nlength = 0\npeople = 1\nside = 0\nrows = [\n'
+        '    { initials = "ANA", score = 3993, when = 2026-11-20T10:00:00+00:00 },\n]\n',
+        encoding="utf-8",
+    )
+    scores, problems = Scores.load(tmp_path)
+    (best,) = scores.best(table_of(ALL))
+    assert (best.initials, stars_and_losses(best.score), problems) == ("ANA", (4, 7), [])
 
 
 @pytest.mark.parametrize("game", climbed_games())

@@ -52,6 +52,7 @@ def test_the_checkers_of_the_libraries_pass(name, game):
 @pytest.mark.parametrize(("name", "game"), GAMES)
 def test_a_vector_plays_the_episodes_of_single_environments(name, game):
     options = {**SHORT, "opponents": ("level1",), "arena": arenas(game)[:2]}
+    options["variant"] = "pickups" if game == "pitanks" else None  # without overtime
     many, one = gymnasium.make_vec(name, num_envs=3, **options), gymnasium.make(name, **options)
     assert many.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
     many.action_space.seed(1)
@@ -99,6 +100,50 @@ def test_rewards_are_weighted_changes_of_the_tallies(name, game):
     assert info == env.matches.result(0)
     assert info["win"] in (-1.0, 0.0, 1.0)
     assert total == pytest.approx(sum(weights[tally] * (info[tally] - before[tally]) for tally in names))
+
+
+STEPS = 13
+
+
+@pytest.mark.parametrize(("name", "game"), GAMES)
+def test_truncated_episodes_carry_the_tallies_of_their_own_environment(name, game):
+    """By the sum of its rewards: their weights are digits, so that it stands for all tallies of one environment."""
+    weights = {tally: 10.0**-k for k, tally in enumerate(TALLIES[game].names)}
+    options = {**SHORT, "rewards": weights, "max_episode_steps": STEPS}
+    many = gymnasium.make_vec(name, num_envs=3, opponents=("random",), **options)
+    one = gymnasium.make(name, opponents=("random",), **options)
+    both = parallel_env(game, agents=2, **options)
+
+    def worth(tallies):
+        return sum(weights[tally] * tallies[tally] for tally in weights)
+
+    for first in (True, False):
+        many.reset(seed=5) if first else many.step(many.action_space.sample())
+        one.reset(seed=5)
+        both.reset(seed=5)
+        began = [worth(many.unwrapped.matches.result(i)) for i in range(3)]
+        began += [worth(one.unwrapped.matches.result(0)), *(worth(both.matches.result(0, i)) for i in range(2))]
+        earned = np.zeros(6)
+        for _ in range(STEPS):
+            _, rewards, _, late, infos = many.step(many.action_space.sample())
+            _, reward, _, cut, info = one.step(one.action_space.sample())
+            _, of_both, _, ended, of_agents = both.step(
+                {agent: both.action_space(agent).sample() for agent in both.agents}
+            )
+            earned += [*rewards, reward, *of_both.values()]
+        assert [*late, cut, *ended.values()] == [True] * 6
+        assert all(infos[f"_{tally}"].all() for tally in weights)
+        told = [{tally: infos[tally][i] for tally in weights} for i in range(3)] + [info, *of_agents.values()]
+        assert [worth(tallies) - at_first for tallies, at_first in zip(told, began, strict=True)] == pytest.approx(
+            earned
+        )
+    many.close()
+
+
+@pytest.mark.parametrize(("name", "game"), GAMES)
+def test_no_episode_has_a_seed_that_is_played_or_measured(name, game):
+    env = gymnasium.make(name, starts=3, **SHORT).unwrapped
+    assert [env.task.setup_of(k).seed for k in range(3)] == [-1, -2, -3]
 
 
 def test_continuous_actions_reach_the_same_states():
@@ -183,10 +228,7 @@ def test_actions_outside_the_space_are_refused():
 def test_without_the_extra_one_line_says_how_to_install_it():
     code = "import sys; sys.modules['pettingzoo'] = None; import pigaming_app.gym"
     done = subprocess.run([sys.executable, "-c", code], cwd=os.getcwd(), capture_output=True, text=True)
-    assert (
-        done.stderr.splitlines()[-1]
-        == "ImportError: pigaming_app.gym needs pettingzoo: pip install 'pigaming-app[gym]'"
-    )
+    assert done.stderr.splitlines()[-1] == "ImportError: pigaming_app.gym needs pettingzoo: pip install '.[gym]'"
 
 
 def test_every_encoding_has_an_environment():

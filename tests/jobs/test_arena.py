@@ -8,8 +8,9 @@ import pytest
 from pigaming_app import ASSETS
 from pigaming_app.cli import main
 from pigaming_app.games.arenas import MAX_BYTES, MOST_OWN, load, own_arenas, own_folder, shipped_arenas
+from pigaming_app.games.registry import games
 
-SHIPPED = [(game, name) for game in ("pitanks", "factory", "race") for name in shipped_arenas(game)[:1]]
+SHIPPED = [(game, name) for game in games() for name in shipped_arenas(game)[:1]]
 
 
 @pytest.fixture(autouse=True)
@@ -34,6 +35,18 @@ def test_an_arena_goes_out_and_comes_in(
         "arenas": [*shipped_arenas(game), "shared"],
         "own": ["shared"],
     }
+
+
+@pytest.mark.parametrize(("game", "name"), SHIPPED)
+def test_of_a_file_with_a_slip_the_error_is_that_of_its_own_game(
+    game: str, name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Other games miss tables in it, and know nothing of some that it has."""
+    table = {"pitanks": "wall", "factory": "machine", "race": "corner", "football": "drop"}[game]
+    file = tmp_path / "a.toml"
+    file.write_text(load(game, name).source.replace(f"[[{table}]]", f"[[{table}]]\nhigh = 3", 1), encoding="utf-8")
+    assert main(["arena", "check", str(file)]) == 2
+    assert f"a.toml: {table}[1].high: unknown key" in capsys.readouterr().err
 
 
 def test_nothing_is_replaced_unasked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

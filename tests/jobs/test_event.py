@@ -107,6 +107,44 @@ def test_entrants_from_a_file(tmp_path, capsys):
     assert [entrant.team for entrant in event.entrants] == ["Red", "Blue", "Red"]
 
 
+def test_columns_that_are_not_known_are_named_in_one_line(tmp_path, capsys):
+    (tmp_path / "list.csv").write_bytes("Klasse;Spieler;Größe\n5a;Jürgen;1,50\n5b;Bea;\n5c;Eva;\n".encode("mac_roman"))
+    assert new(entrants="@list.csv") == 0
+    assert capsys.readouterr().err == "PiGaming: list.csv: columns that are not known are ignored: 'Klasse', 'Größe'\n"
+    assert [entrant.name for entrant in load(Path("cup.json"))[0].entrants] == ["Jürgen", "Bea", "Eva"]
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("Ana\nBea=level9\nEva\n", "list.csv: line 2: no brain 'level9'"),
+        ("name;ai\n\nAna;\n" + "x" * 25 + ";\n", "list.csv: line 4: 'xxxxxxxxxxxxxxxxxxxxxxxxx': a name has 1 to 24"),
+        ('Ana\n"Bea\nEva\n', "list.csv: line 2: a quoted cell does not end with a quote"),
+        ("Ana\nBea\n", "list.csv: line 2: the list ends with 2 entrants; an event has 3 to 64"),
+    ],
+)
+def test_a_list_is_refused_with_file_and_line(tmp_path, capsys, text, reason):
+    (tmp_path / "list.csv").write_text(text, encoding="utf-8")
+    assert new(entrants="@list.csv") == 2
+    error = capsys.readouterr().err
+    assert reason in error
+    assert error.count("\n") == 1
+
+
+def test_a_knockout_of_robots_that_never_score_ends_by_lot(capsys):
+    assert new("--format", "knockout", "--minutes", "0.05", "--title", "t", entrants="A=idle,B=idle,C=idle") == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    capsys.readouterr()
+    assert main(["event", "show", "cup.json", "--json"]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert all(
+        match["sudden_death"] == [[sorted(match["entrants"])]] * 3 and match["lots"] for match in shown["matches"]
+    )
+    assert [row["place"] for row in shown["standings"]] == [1, 2, 3]
+    event, _ = load(Path("cup.json"))
+    assert [len(event.played[number]) for number in sorted(event.played)] == [4] * len(event.fixtures)
+
+
 def test_exports(capsys):
     assert new() == 0
     assert main(["event", "run", "cup.json", "--headless"]) == 0
@@ -185,7 +223,7 @@ def test_a_cell_is_never_a_formula(capsys):
         (["--entrants", "A=nobody,B,C"], "no brain 'nobody'"),
         (["--entrants", "A=no.npz,B,C"], "no.npz"),
         (["--entrants", "@nowhere.txt"], "cannot be read"),
-        (["--entrants", "A" * 13 + ",B,C"], "1 to 12 printable characters"),
+        (["--entrants", "A" * 25 + ",B,C"], "1 to 24 printable characters"),
         (["--arena", "nowhere"], "nowhere: no such arena"),
         (["--rules", "nothing"], "no variant 'nothing'"),
         (["--minutes", "x"], "'x' is not a number"),

@@ -8,6 +8,7 @@ from pigaming_app.ai.registry import find_brain, new_match
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable, outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, EventSpec, Format
+from pigaming_app.games.registry import games
 from pigaming_app.jobs.event.headless import HeadlessRun
 from tests.events.examples import new_event
 
@@ -20,7 +21,7 @@ def short_event(form=Format.ROUND_ROBIN, games=("pitanks",), **more) -> Event:
     return Event(EventSpec("Test", form, games, entrants, minutes=minutes, **more))
 
 
-@pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
+@pytest.mark.parametrize("game", games())
 def test_a_match_ends_as_it_does_in_the_arcade(game):
     event = short_event(games=(game,), seats=4)
     fixture = event.open[0]

@@ -279,6 +279,28 @@ def test_no_file_of_a_robot_is_printed_with_numbers_that_are_lost(capsys, monkey
     assert "cannot be saved" in printed.err
 
 
+@pytest.mark.parametrize("wanted", [["--wifi-config", "2"], ["--microbit", "0"], ["--microbit", "2"]])
+def test_a_file_of_a_robot_is_written_in_utf_8_and_its_predecessor_kept(capsys, tmp_path, wanted):
+    assert main(["robots", *wanted, "--arena", "77"]) == 0
+    printed = capsys.readouterr().out
+    file = tmp_path / "new folder" / "config.py"
+    for _ in range(2):
+        assert main(["robots", *wanted, "--out", str(file)]) == 0
+        assert capsys.readouterr().out == f"{file}\n"
+        assert file.read_bytes() == printed.encode()
+        file.write_text(mine := f"{printed}PASSWORD = 'mine'\n")
+    assert main(["robots", *wanted, "--out", str(file)]) == 0
+    assert file.with_name("config.py.bak").read_text() == mine
+
+
+@pytest.mark.parametrize("words", [["--out", "config.py"], ["--wifi-config", "2", "--out", "."]])
+def test_a_file_of_no_robot_or_without_a_place_is_one_line(capsys, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    assert main(["robots", *words]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert [found.name for found in tmp_path.iterdir()] == ["home"]
+
+
 def test_the_programs_of_micro_bits_have_the_number_of_the_arena(capsys):
     for number, line in ((0, "ARENA = 77  #"), (2, "ROBOT, ARENA = 2, 77  #")):
         assert main(["robots", "--microbit", str(number), "--arena", "77"]) == 0

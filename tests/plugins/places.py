@@ -57,11 +57,12 @@ def learning(game: str) -> None:
 
 
 def screens(game: str) -> None:
-    """Title, lobby, match with thoughts, how to play, attract mode, options, events."""
+    """Title, lobby, match with thoughts, how to play, attract mode, options, editor, events."""
     import pygame
 
     pygame.display.init()
     pygame.display.set_mode((1920, 1080))
+    from pigaming_app.scenes.editor.gallery.page import Gallery
     from pigaming_app.scenes.events.setup.draft import Draft
     from pigaming_app.scenes.ladder.strengths import Strengths
     from pigaming_app.scenes.lobby.scene import Lobby
@@ -89,7 +90,8 @@ def screens(game: str) -> None:
         arcade.press(Button.BRAIN)
         arcade.wait(2.0, draw=True)
     assert game in Draft().options("game")
-    for scene in (Strengths(arcade.context, game), GamesPage(arcade.context)):
+    assert Gallery(arcade.context, game).game == game
+    for scene in (Strengths(arcade.context, game), GamesPage(arcade.context), Gallery(arcade.context, game)):
         arcade.open(scene)
         arcade.wait(0.2, draw=True)
     arcade.open(Attract(arcade.context))

@@ -90,6 +90,7 @@ FACTS = {
     "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},
     "factory": {"delivered": 9, "steps": 18, "bumps": 112, "stolen": 99, "stars": 3},
     "race": {"laps": 9, "best": 75.12, "total": 599.99},
+    "football": {"goals": 19, "assists": 19, "own_goals": 19, "shots": 99},
 }
 RADIO_REFUSALS = ("mute", "refused", "unsaved")
 TEAMS = (0, 1, 0, 1)
@@ -282,7 +283,14 @@ def event(form: Format, count: int, seats: int, matches: int, brains: str = "", 
 def next_match(
     count: int, seats: int, brains: str = "", said: str = "", wide: bool = False
 ) -> Callable[[Arcade], Scene]:
-    return lambda arcade: NextMatch(arcade.context, event(Format.SWISS, count, seats, 1, brains, wide), said)
+    return lambda arcade: NextMatch(
+        arcade.context, event(Format.SWISS, count, seats, 1, brains, wide), said and arcade.context.words(said)
+    )
+
+
+def sudden_death(arcade: Arcade) -> Scene:
+    event = drawn.tied(drawn.an_event(Format.KNOCKOUT, 4, wide=True))
+    return NextMatch(arcade.context, drawn.running(event), arcade.context.words("events.tied"))
 
 
 def event_table(
@@ -406,7 +414,7 @@ def editor(game: str, problem: str = "", said: str = "") -> Callable[[Arcade], S
         scene = Editor(arcade.context, game, WIDEST.lower(), drawing)
         scene.bench.close()
         scene.bench.selected = scene.tools.items(drawing)[-1]
-        found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap")] if problem else []
+        found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap", problem)] if problem else []
         scene.bench.checker.verdict = Verdict(drawing, found, done=True)
         if said:
             scene.say(said, name=WIDEST)
@@ -452,6 +460,7 @@ PROBLEMS = (
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"editor {game}": editor(game) for game in EDITORS},
     "editor with a problem": editor("pitanks", "machine"),
+    "editor with a goal out of reach": editor("football", "goal"),
     "editor and a full disk": editor("race", said="editor.disk"),
     "editor tool bar": tool_bar,
     "gallery": partial(drawn_arenas, game="race"),
@@ -469,9 +478,10 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "next match of AIs": next_match(8, 3, "level5"),
     **{f"event table {count}": event_table(Format.SWISS, count) for count in (3, 8, 16, 64)},
     **{
-        f"event bracket {count}": event_table(Format.KNOCKOUT, count, seats=4 - 2 * (count < 16))
-        for count in (3, 8, 64)
+        f"event bracket {count}": event_table(Format.KNOCKOUT, count, page, seats)
+        for count, page, seats in ((3, 0, 2), (8, 1, 2), (16, 0, 4), (64, 0, 2))
     },
+    "sudden death": sudden_death,
     "event results": lambda arcade: ResultsList(arcade.context, event(Format.KNOCKOUT, 64, 4, 12)),
     "correction": correction,
     "correction in own words": lambda arcade: correction(arcade, 40 * "W"),

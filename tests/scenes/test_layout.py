@@ -10,9 +10,11 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
-from tests.scenes.measuring import faults, measuring
+from tests.scenes.measuring import Mark, faults, measuring
 from tests.scenes.screens import SCREENS
 
+# Capitals of 25 px, type of 36 px: legible at three metres.
+LARGE = ("event", "widest event", "next match", "widest next", "entrants", "correction", "sudden death")
 # Each row of these is checked.
 LISTS = ("options", "operator", "robots menu", "setup", "added games", "arena and radio")
 
@@ -39,7 +41,13 @@ def test_texts_keep_off_each_other_and_off_frames(
             scene.draw(screen)
             assert len(screen.texts) >= 3, "it is measured"
             assert relevant(name, faults(screen)) == []
+            if name.startswith(LARGE) and name != "correction in own words":
+                assert [mark.text for mark in screen.texts if mark.text[1:] and height(mark) < 25] == []
             scene.handle(InputEvent(Button.DOWN, KEYS[0]))
+
+
+def height(mark: Mark) -> float:
+    return mark.box[3] - mark.box[1]
 
 
 def relevant(name: str, found: list[str]) -> list[str]:

@@ -221,6 +221,8 @@ def _setups(
     require_game(game)
     if not 1 <= matches <= MAX_MATCHES:
         raise ChoiceError(f"--matches: {matches}; possible are 1 to {MAX_MATCHES}")
+    if seed < 0:
+        raise ChoiceError(f"--seed: {seed} is of a training; seeds of measurements begin at 0")
     variants = games()[game].variants
     variant = games()[game].default.name if variant is None else variant
     require_one_of("variant", variant, list(variants))

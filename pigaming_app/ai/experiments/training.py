@@ -23,7 +23,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import can_compile, compiled, compiled_before
 from pigaming_app.sim.record import copy, fields_of, packed, unpack
-from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.rng import seeded, training_seed
 from pigaming_app.sim.world import HZ
 
 GAME, VARIANT, ARENA, MINUTES = "pitanks", "classic", "classic", 2.0
@@ -180,7 +180,7 @@ class Training:
         return contest(self.checkpoint().kind, other, matches, self.seed, self.minutes, self.arena, self.fast)
 
     def _setup(self) -> Setup:
-        return training_setup(self.seed, self.minutes, self.arena)
+        return training_setup(training_seed(self.seed), self.minutes, self.arena)
 
     def _row(self, state: Any) -> Any:
         """A row of one record, NumPy if compiled, else plain."""

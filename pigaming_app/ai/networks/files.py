@@ -36,6 +36,7 @@ LIMITS = {
     "thrift": (0.0, 1.0),
     "speed": (0.1, 1.0),
     "form": (0.0, 0.9),
+    "turns": (0.0, 0.0),  # only some encodings have them, in code
 }  # of handicaps
 
 

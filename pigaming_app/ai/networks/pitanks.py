@@ -1,8 +1,9 @@
 """PiTanks as a network sees it: 128 inputs, and four heads of choices.
 
 Directions are given as cosine and sine relative to the own heading. The other robots are sorted by how much they matter
-now, so that the first of them is nearly always the one to fight. Aiming errors are measured in angular sizes of the
-target, since a degree matters far away and hardly at close range.
+now, so that the first of them is nearly always the one to fight. The weakest levels see one opponent at a time, each in
+its turn, so that nobody is hunted. Aiming errors are measured in angular sizes of the target, since a degree matters
+far away and hardly at close range.
 """
 
 from math import cos, sin, sqrt
@@ -53,6 +54,7 @@ TURNS = (-1.0, -0.36, -0.11, 0.0, 0.11, 0.36, 1.0)  # positions of the stick; a 
 
 HIDDEN = 400.0  # px by which a robot out of sight counts as farther away
 MATE = 5000.0  # px; team mates come last
+TURN = 10_000.0  # px by which a turn more counts as farther away
 RAYS, STEPS = 12, 8  # directions in which it looks for room, and steps in each
 JUMP = 100.0  # px between two looks, farther than any robot drives: it was put back
 FURTHER = 3  # nodes down the field at which the further way points, whatever lies in between
@@ -73,6 +75,11 @@ class PiTanksSenses:
     vx: Annotated[list[float], ROBOTS]  # px/s, since the look before
     vy: Annotated[list[float], ROBOTS]
     route: Route
+    turns: float  # s for which it goes for one opponent at most, before the next has its turn; 0: no turns
+    target: int  # 1 + seat of the opponent whose turn it is; 0: none yet
+    until: int  # tick at which that turn ends
+    taken: int  # hits that this opponent had taken when that turn began
+    had: Annotated[list[int], ROBOTS]  # turns of each seat
 
 
 @kernel
@@ -164,6 +171,13 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
         if robot.team != me.team and distance2 < target2:
             target, target2 = j, distance2
     told = 0
+    if senses.turns and target >= 0:
+        target = take_turns(match, seat, senses)
+        dx, dy = match.robots[target].x - me.x, match.robots[target].y - me.y
+        target2 = dx * dx + dy * dy
+        for j in range(ROBOTS):
+            if match.robots[j].team != me.team and j != target:
+                told |= 1 << j
     for place in range(ROBOTS - 1):
         best, least = -1, 1e18
         for i in range(1, ROBOTS):
@@ -201,6 +215,37 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
         further_x, further_y = node % COLUMNS * CELL, node // COLUMNS * CELL
     towards(me, further_x, further_y, ahead_x, ahead_y, WAY + 3, inputs)
     inputs[WAY + 6], inputs[WAY + 7] = whole(route.straight), whole(length / 1600.0 - 1.0)
+
+
+@kernel
+def take_turns(match: Any, seat: int, senses: Any) -> int:
+    """The opponent whose turn it is. Its turn ends when it is hit, or when the time of the turn is over.
+
+    The next is the opponent that has had the fewest turns, never the same again while there are others; of several one
+    in sight, then the nearest. There must be an opponent.
+    """
+    me = match.robots[seat]
+    last: int = senses.target - 1
+    if last >= 0:
+        is_opponent = match.robots[last].present and match.robots[last].team != me.team
+        if is_opponent and match.tick < senses.until and match.tanks[last].taken == senses.taken:
+            return last
+    best, least = last, 1e18
+    for j in range(ROBOTS):
+        robot = match.robots[j]
+        if not robot.present or robot.team == me.team:
+            continue
+        dx, dy = robot.x - me.x, robot.y - me.y
+        cost = sqrt(dx * dx + dy * dy) + TURN * senses.had[j]
+        if not (senses.clears >> j) & 1:
+            cost += 0.5 * TURN
+        if j == last:
+            cost += 1e9
+        if cost < least:
+            best, least = j, cost
+    senses.target, senses.taken, senses.until = best + 1, match.tanks[best].taken, match.tick + int(senses.turns * HZ)
+    senses.had[best] += 1
+    return best
 
 
 @kernel

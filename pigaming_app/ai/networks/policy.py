@@ -38,6 +38,7 @@ class Handicap:
     thrift: float = 0.0  # cost of a shot that it has in mind, in points
     speed: float = 1.0  # share of full speed that it drives at most
     form: float = 0.0  # share of that which it may lack on a bad day; drawn for each match
+    turns: float = 0.0  # s, at most, for which it goes for one opponent before the next has its turn; 0: no turns
 
 
 NO_HANDICAP = Handicap()
@@ -224,6 +225,8 @@ def network_brain(
     def reset(mind: Any, seed: int) -> None:
         mind.random, mind.sharpness, mind.error = seeded(seed), handicap.sharpness, handicap.error
         mind.senses.delay, mind.senses.thrift = handicap.delay, handicap.thrift
+        if handicap.turns:
+            mind.senses.turns = handicap.turns
         mind.wait = 1 + int(uniform(mind) * PERIOD)
         mind.speed = handicap.speed * (1.0 - handicap.form * uniform(mind))
 

@@ -1,17 +1,18 @@
 """The five levels of PiTanks: one network with handicaps.
 
 All see others late and beside where they are, as people do. Weaker levels drive more slowly and save more shots, as
-beginners do. No level skips decisions, which would look like a machine that hangs. The network alone is `net`: no
-person beats it.
+beginners do. The two weakest go for one opponent after the other, so that they hunt nobody. No level skips decisions,
+which would look like a machine that hangs. The network alone is `net`: no person beats it.
 """
 
 from pigaming_app.ai.networks.files import shipped_brain
 from pigaming_app.ai.networks.policy import Handicap
 
 NETWORK = "pitanks"  # file in assets/brains
+TURNS = 6.0  # s
 HANDICAPS = (
-    Handicap(delay=0.4, error=0.3, thrift=0.586, speed=0.4),
-    Handicap(delay=0.4, error=0.3, thrift=0.535, speed=0.528),
+    Handicap(delay=0.4, error=0.3, thrift=0.586, speed=0.4, turns=TURNS),
+    Handicap(delay=0.4, error=0.3, thrift=0.535, speed=0.528, turns=TURNS),
     Handicap(delay=0.4, error=0.3, thrift=0.508, speed=0.668),
     Handicap(delay=0.39, error=0.3, thrift=0.489, speed=0.832),
     Handicap(delay=0.38, error=0.3, thrift=0.476, speed=0.995),

@@ -169,9 +169,5 @@ def _reach(address: str) -> None:
 
 
 def _sources() -> dict[str, Any]:
-    """This program, for machines that do not have it.
-
-    Without bytecode: what numba caches for functions read from bytecode, it does not find for those read from source.
-    """
-    program = {"py_modules": [str(PACKAGE)]} if INSTALLED else {"working_dir": str(ROOT), "excludes": NOT_SENT}
-    return program | {"env_vars": {"PYTHONDONTWRITEBYTECODE": "1"}}
+    """This program, for machines that do not have it."""
+    return {"py_modules": [str(PACKAGE)]} if INSTALLED else {"working_dir": str(ROOT), "excludes": NOT_SENT}

@@ -23,7 +23,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled, compiled_before
 from pigaming_app.sim.record import packed
-from pigaming_app.sim.rng import MASK
+from pigaming_app.sim.rng import SEEDS, seeded, training_seed
 from pigaming_app.sim.world import ROBOTS
 
 NOBODY, LEARNING = -1, -2  # families of a seat that no brain of the cast plays; each learner has its own, downwards
@@ -226,7 +226,7 @@ class Shard:
         """Begin match i of its line-up anew."""
         line_up, random = self.line_ups[i], self.random
         self.matches[i] = self._start(line_up)[0]
-        self.matches["random"][i] = random.integers(MASK + 1)
+        self.matches["random"][i] = _state(random)
         taken = [name for name in line_up.seats if name != OFF]
         shift = int(random.integers(len(taken)))
         for seat in range(ROBOTS):
@@ -237,7 +237,7 @@ class Shard:
                 self.minds["row"][i, seat] = len(self.cast.weights[self._number]) + random.integers(pool)
             if name != OFF:
                 family = self._number if name in LEARNERS else int(self.minds["family"][i, seat])
-                drawn, mind = random.integers(MASK + 1), self.minds[f"mind{family}"]
+                drawn, mind = _state(random), self.minds[f"mind{family}"]
                 if "random" in mind.dtype.names:
                     mind["random"][i, seat] = drawn
             if name in (LEARNER, POOL) and EXPLOITER not in line_up.seats:
@@ -254,7 +254,7 @@ class Shard:
         task, random = self.task, self.random
         variants = line_up.variants or task.variants
         variant, arena = (str(random.choice(names)) for names in (variants, line_up.arenas or task.arenas))
-        minutes, number = float(random.choice(task.minutes)), int(random.integers(STARTS))
+        minutes, number = float(random.choice(task.minutes)), training_seed(int(random.integers(STARTS)))
         key = variant, arena, minutes, number, line_up.teams, sum(name != OFF for name in line_up.seats)
         if key not in self._starts:
             rules = games()[task.game].variants[variant]
@@ -267,7 +267,7 @@ class Shard:
     def _prepared(self, name: str) -> Any:
         """Fresh minds of a brain (n,)."""
         kind = self.network if name in (*LEARNERS, POOL) else find_brain(self.task.game, name) if name != OFF else None
-        minds = [nobody(self.cast) if kind is None else self.cast.mind_of(kind, seed) for seed in range(MINDS)]
+        minds = [nobody(self.cast) if kind is None else self.cast.mind_of(kind, training_seed(i)) for i in range(MINDS)]
         if name in LEARNERS:
             for mind in minds:
                 mind.family = LEARNING - LEARNERS.index(name)
@@ -276,6 +276,11 @@ class Shard:
     @property
     def _nobody(self) -> Any:
         return self._minds[OFF]
+
+
+def _state(random: np.random.Generator) -> int:
+    """A generator's state for a match or a mind of a training."""
+    return seeded(training_seed(int(random.integers(SEEDS))))
 
 
 def nobody(cast: Cast) -> Any:

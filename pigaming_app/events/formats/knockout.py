@@ -9,7 +9,7 @@ semi-finals. To the next power of two, byes of the first round go to the best se
 of the bracket, and do not meet again as far as that is possible; an odd one out in the losers' bracket, of those with
 the fewest byes the best seed, has a bye. In matches of three or four there are no byes: the matches are of equal size
 and strength (serpentine), and the better half wins (of four two, of three two, of two one), or with `quarter` the first
-alone. If places are equal at the cut, the higher score, then the better seed goes on.
+alone. If places are equal at the cut, extra matches decide (sudden_death.py).
 
 A late entrant has missed one round, and so begins in the losers' bracket.
 """
@@ -47,17 +47,20 @@ def next_round(field: Field) -> Draw | None:
     return Draw(tuple(matches), tuple(byes))
 
 
-def through(fixture: Fixture, outcome: Outcome, seeding: Sequence[str], advance: Advance) -> frozenset[str]:
-    """Who wins a match: of the last four places only those that go on."""
-    if fixture.stage == FINAL:
-        advance = Advance.QUARTER
-    order = [
-        name
-        for place in outcome.places
-        for name in sorted(place, key=lambda one: (-outcome.scores.get(one, 0.0), seeding.index(one)))
-    ]
+def wins(fixture: Fixture, advance: Advance) -> int:
+    """How many win a match, and go on."""
     share = 2 if advance == Advance.HALF else 4
-    return frozenset(order[: -(-len(fixture.entrants) // share)])
+    return -(-len(fixture.entrants) // share)
+
+
+def through(fixture: Fixture, outcome: Outcome, advance: Advance) -> frozenset[str]:
+    """Who wins a match that is decided; nobody if all have withdrawn."""
+    found: list[str] = []
+    for place in outcome.places:
+        if len(found) + len(place) > wins(fixture, advance):
+            break
+        found += place
+    return frozenset(found)
 
 
 def defeats(field: Field) -> dict[str, int]:
@@ -66,7 +69,7 @@ def defeats(field: Field) -> dict[str, int]:
     for drawn in field.rounds:
         for fixture in drawn.fixtures:
             if outcome := field.outcomes.get(fixture.number):
-                for name in {*fixture.entrants} - through(fixture, outcome, field.entrants, field.spec.advance):
+                for name in {*fixture.entrants} - through(fixture, outcome, field.spec.advance):
                     lost[name] += 1
     return lost
 

@@ -1,26 +1,28 @@
 """Swiss system: opponents with equal scores who have not met.
 
-Matches of two follow the FIDE Handbook, C.04.1 (Basic rules) and C.04.3 (the Dutch system): within a score group, the
-upper half by the seeding meets the lower half in order; whoever is left floats down to the next group; no two meet
-twice; an odd one out, the last in the order who has had none yet, has a bye, which counts as a win. Where the
-preferred opponent is not possible, the next one of the lower half is tried, then the upper half, then the next groups.
-The Dutch system's rules on colours and on repeated floats are left out; seats alternate instead.
-Up to half as many rounds as entrants always have a pairing without rematches (Dirac); beyond, rematches are the fewest
-that are found.
+Matches of two follow the FIDE Handbook, C.04.1 (Basic rules) and C.04.3 (the Dutch system), in this order:
+
+1. An odd one out, of those with the fewest byes, has a bye, which counts as a win.
+2. As few as possible meet again: in half as many rounds as there are entrants nobody does (Dirac).
+3. From the highest score group down, as few as possible float from it to a lower one; a bye is below the last group.
+4. In the order of scores, then of the seeding, each meets the opponent who is next in line: within a score group, the
+   upper half meets the lower half in order, then itself from the end, then the groups below.
+
+One matching of least weight satisfies all four, each as far as those before it permit, and there is only one such
+pairing. The Dutch system's rules on colours and on repeated floats are left out; seats alternate instead.
 
 Matches of three or four: groups of neighbours in the order of scores, in which as few as possible meet again.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
+from functools import lru_cache, reduce
 from math import ceil, log2
-from random import Random
 
-from pigaming_app.events.formats.field import Draw, Field, Match, Pair
+from pigaming_app.events.formats.field import Draw, Field, Match
 from pigaming_app.events.formats.grouping import neighbours
 from pigaming_app.events.formats.scoring import scores
 
-TRIES = 5_000  # steps of the search for one order
-ORDERS = 10  # other orders that are tried
+MOST = 4096  # more than the sum of a criterion over all pairs
 
 
 def next_round(field: Field) -> Draw | None:
@@ -32,16 +34,15 @@ def next_round(field: Field) -> Draw | None:
     order = sorted(names, key=lambda name: -score[name])
     if field.spec.seats > 2:
         return Draw(tuple(Match(group) for group in neighbours(order, field.spec.seats, met)))
-    if len(order) % 2 == 0:
-        return Draw(tuple(Match(pair) for pair in pairs(order, score, met)[0]))
-    fewest, upwards = field.byes(), order[::-1]
-    draws: list[tuple[int, int, int, Draw]] = []
-    for bye in sorted(upwards, key=fewest.__getitem__):
-        found, again = pairs([name for name in order if name != bye], score, met)
-        draws.append((fewest[bye], again, len(draws), Draw(tuple(Match(pair) for pair in found), (bye,))))
-        if not again:
-            break
-    return min(draws)[3]
+    place, byes = {name: i for i, name in enumerate(order)}, field.byes()
+    again = frozenset(
+        (*sorted(place[name] for name in pair), times) for pair, times in met.items() if pair <= place.keys()
+    )
+    found = pairing(tuple(score[name] for name in order), again, tuple(byes[name] for name in order))
+    return Draw(
+        tuple(Match((order[one], order[other])) for one, other in found if other < len(order)),
+        tuple(order[one] for one, other in found if other == len(order)),
+    )
 
 
 def default_rounds(count: int) -> int:
@@ -49,53 +50,38 @@ def default_rounds(count: int) -> int:
     return ceil(log2(count))
 
 
-def pairs(
-    order: Sequence[str], score: Mapping[str, float], met: Mapping[Pair, int]
-) -> tuple[list[tuple[str, str]], int]:
-    """Pairs of an even number of entrants, and how many of them have met before. `order`: best first."""
-    for again in range(len(order) // 2 + 1):
-        if found := _search(order, score, met, again):
-            return found, again
-        for number in range(ORDERS):
-            other = list(order)
-            Random(number).shuffle(other)
-            if found := _search(other, score, met, again):
-                place = {name: i for i, name in enumerate(order)}
-                ranked = [(one, two) if place[one] < place[two] else (two, one) for one, two in found]
-                return sorted(ranked, key=lambda pair: place[pair[0]]), again
-    raise AssertionError("with rematches of all, every pairing is possible")
+@lru_cache(256)
+def pairing(
+    score: Sequence[float], met: Collection[tuple[int, int, int]], byes: Sequence[int]
+) -> tuple[tuple[int, int], ...]:
+    """The pairs of a round, each as two places in the order of scores, from 0; a bye has the place behind the last one.
+
+    `score` and `byes`: by place, the best score first; `met`: two places, the lower number first, and how often.
+    """
+    from networkx import Graph, min_weight_matching  # late: it takes a tenth of a second
+
+    values, even = sorted({*score}, reverse=True), len(score) + len(score) % 2
+    group = [values.index(points) for points in score] + [len(values) - 1]
+    times = {(one, other): count for one, other, count in met}
+    graph = Graph()
+    for one in range(len(score)):
+        for rank, other in enumerate(_in_line(one, group[: len(score)], even)):
+            rested = byes[one] if other == len(score) else 0
+            floats = [int(group[one] <= i < group[other]) for i in range(len(values) - 1)]
+            ranks = [rank if i == one else 0 for i in range(len(score))]
+            graph.add_edge(one, other, weight=_number((rested, times.get((one, other), 0), *floats, *ranks)))
+    return tuple(sorted((min(pair), max(pair)) for pair in min_weight_matching(graph)))
 
 
-def _search(
-    order: Sequence[str], score: Mapping[str, float], met: Mapping[Pair, int], again: int
-) -> list[tuple[str, str]]:
-    """Pairs with at most `again` rematches, by backtracking; empty if none are found in TRIES steps."""
-    steps = 0
-
-    def complete(left: tuple[str, ...], allowed: int) -> list[tuple[str, str]] | None:
-        nonlocal steps
-        if not left:
-            return []
-        steps += 1
-        if steps > TRIES:
-            return None
-        one = left[0]
-        for other in candidates(left, score):
-            repeated = int(met.get(frozenset((one, other)), 0) > 0)
-            if repeated <= allowed:
-                rest = tuple(name for name in left[1:] if name != other)
-                if (found := complete(rest, allowed - repeated)) is not None:
-                    return [(one, other), *found]
-        return None
-
-    return complete(tuple(order), again) or []
+def _in_line(one: int, group: Sequence[int], even: int) -> list[int]:
+    """All opponents of `one` behind it in the order, the next in line first."""
+    first, size = group.index(group[one]), group.count(group[one])
+    floats = first % 2  # of an odd number above, one comes down, and takes the first of the group
+    half, end = first + floats + (size - floats) // 2, first + size
+    lower, upper = range(max(half, one + 1), end), range(half - 1, one, -1)
+    return [*lower, *upper, *range(end, even)]
 
 
-def candidates(left: Sequence[str], score: Mapping[str, float]) -> list[str]:
-    """Opponents of the first of `left`, the preferred one first."""
-    group = [name for name in left if score[name] == score[left[0]]]
-    half = len(group) // 2
-    behind = left[len(group) :] if list(left[: len(group)]) == group else [one for one in left if one not in group]
-    if half == 0:
-        return [*behind]  # floats down, to the best of the next group
-    return [*group[half:], *reversed(group[1:half]), *behind]
+def _number(criteria: Iterable[int]) -> int:
+    """A number that grows with the first criterion, then with the second, and so on."""
+    return reduce(lambda number, criterion: number * MOST + criterion, criteria, 0)

@@ -13,8 +13,14 @@ TOUCHING = 1.0  # px between two walls that count as one
 Gap = tuple[float, float, float]  # px between two walls, and the middle of that gap
 
 
-class NarrowGap(FieldError):
-    """A gap through which no robot fits; bullets may, so it can be played."""
+class Flaw(FieldError):
+    """Something bad of an arena that can be played nevertheless. `kind`: of the sentence about it on the screen."""
+
+    kind = "gap"
+
+
+class NarrowGap(Flaw):
+    """A gap through which no robot fits; bullets may."""
 
 
 def narrow_gaps(walls: Sequence[WallSpec], names: Sequence[str] = ()) -> Iterator[NarrowGap]:

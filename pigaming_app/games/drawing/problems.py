@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from pigaming_app.games.drawing.gaps import NarrowGap, narrow_gaps
+from pigaming_app.games.drawing.gaps import Flaw, narrow_gaps
 from pigaming_app.games.drawing.values import Drawing, Part, Value
 from pigaming_app.games.game import Game
 from pigaming_app.sim.arena import read_title, start_faults
@@ -20,7 +20,10 @@ NUMBERED = re.compile(r"(\w+)\[(\d+)\]")
 
 @dataclass(frozen=True)
 class Problem:
-    """Something that cannot be played: the key, such as wall[2], the place, px, and the reason."""
+    """Something that cannot be played: the key, such as wall[2], the place, px, and the reason.
+
+    `kind`: of the sentence about it on the screen.
+    """
 
     key: str
     x: float
@@ -28,6 +31,7 @@ class Problem:
     extent: float  # px to either side
     reason: str
     blocks: bool  # False: it can be played nevertheless
+    kind: str
 
 
 def problems(game: Game, drawing: Drawing) -> list[Problem]:
@@ -38,10 +42,14 @@ def problems(game: Game, drawing: Drawing) -> list[Problem]:
     except FieldError as fault:
         faults.append(fault)
     faults += _faults(game, table)
-    return [
-        Problem(fault.key, *(fault.place or _place(drawing, fault.key)), fault.reason, not isinstance(fault, NarrowGap))
-        for fault in faults
-    ]
+    return [_problem(drawing, fault) for fault in faults]
+
+
+def _problem(drawing: Drawing, fault: FieldError) -> Problem:
+    place, kind = fault.place or _place(drawing, fault.key), re.split(r"[\[.]", fault.key)[0]
+    if isinstance(fault, Flaw):
+        return Problem(fault.key, *place, fault.reason, False, fault.kind)
+    return Problem(fault.key, *place, fault.reason, True, kind)
 
 
 def _faults(game: Game, table: TomlTable) -> Iterable[FieldError]:

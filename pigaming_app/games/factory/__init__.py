@@ -28,5 +28,5 @@ FACTORY = Game(
     rules=rules_of,
     goal="pallets",
     scored=False,
-    ladder=LadderMatches(2.0, 0, ("hall", "lines", "yard", "hall", "lines"), 3.0),
+    ladder=LadderMatches(2.0, 0, ("hall", "lines", "yard"), 3.0),
 )

@@ -13,8 +13,8 @@ MINUTES, DEFAULT_MINUTES = (1, 2, 3, 5), 2
 KNOCKOUT, PARTY_PROTECTION = round(0.8 * HZ), 2 * HZ
 OVERTIME = 15.0  # s, at most
 VARIANTS = named(
-    Variant("pickups", MINUTES, DEFAULT_MINUTES),
     Variant("party", MINUTES, DEFAULT_MINUTES, overtime=OVERTIME),
+    Variant("pickups", MINUTES, DEFAULT_MINUTES),
     *(Variant(name, MINUTES, DEFAULT_MINUTES) for name in ("original", "plain", "classic")),
 )
 

@@ -41,5 +41,5 @@ RACE = Game(
     reroute=reroute,
     timed=True,
     scored=False,
-    ladder=LadderMatches(10.0, 3, ("classic", "kidney", "hairpin", "technical", "classic"), 5.0),
+    ladder=LadderMatches(10.0, 3, ("classic", "kidney", "hairpin", "technical"), 5.0),
 )

@@ -56,6 +56,7 @@ def pass_line(match: Any, k: int, when: float) -> None:
     """Process robot k's crossing of its next line: split time, or the end of a lap."""
     racer = match.racers[k]
     racer.missed, racer.lines_reversed = 0, 0
+    racer.left = match.lines[(racer.line + racer.passed) % LINES].along
     i = racer.passed % LINES
     racer.passed += 1
     if i:
@@ -98,8 +99,16 @@ def stretch(match: Any, racer: Any) -> tuple[float, float]:
 
 
 @kernel
+def way_driven(match: Any, racer: Any) -> float:
+    """Distance from the racer's last line to the last place on its way, px: none if that place is not past the line."""
+    here, gap = stretch(match, racer)
+    way = distance_ahead(match.course, here, racer.left)
+    return way if way <= gap else 0.0
+
+
+@kernel
 def progress(match: Any, k: int) -> float:
-    """Distance that robot k has covered, px, clamped between its last line and the next.
+    """Distance that robot k has covered, px, between its last line and the next; off its way, up to where it left it.
 
     Rounded to 1/64 px, so that rounding errors do not affect the order.
     """
@@ -110,7 +119,7 @@ def progress(match: Any, k: int) -> float:
     here, gap = stretch(match, racer)
     way = distance_ahead(match.course, here, racer.place.along)
     if way > gap:
-        way = gap if racer.missed or way - gap < length - way else 0.0
+        way = way_driven(match, racer)
     laps = (racer.passed - 1 - racer.lines_reversed) // LINES
     covered: float = laps * length + distance_ahead(match.course, own, here) + way
     return floor(covered * 64.0 + 0.5) / 64.0

@@ -2,15 +2,15 @@
 
 It is lost off the course, facing the wrong way, after missing a line, or stuck. The rules move no robot: they request a
 pose (`Robot.recover`), which a simulated plant fulfils at once and a real robot drives to. It lies on the middle of the
-course, or beside the thing that stands there, a little before the place where the robot left it or before the missed
-line, and always past the last line that counts, so that no line has to be crossed twice.
+course, or beside the thing that stands there, a little before the place where the robot left its way, and past the last
+line that counts, so that no line has to be crossed twice. It is never further along than the robot has driven.
 """
 
 from math import atan2, cos, sin
 from typing import Any
 
 from pigaming_app.games.race.course import distance_ahead, point_at, segment_at
-from pigaming_app.games.race.laps import stretch
+from pigaming_app.games.race.laps import stretch, way_driven
 from pigaming_app.games.race.passages import clear_aside, in_passage
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, STUCK, WRONG_WAY
 from pigaming_app.sim.angles import turn_to, wrap
@@ -24,8 +24,7 @@ STILL = 25.0  # px, within which a robot that drives gets nowhere
 STILL_TICKS = round(1.2 * HZ)
 STICK = 0.3  # deflection from which the stick drives
 BACK = 80.0  # px from the place where the robot left the course to the requested pose
-RUN_UP = 70.0  # px from the requested pose to a missed line
-MARGIN = 15.0  # px, least distance past the last line
+MARGIN = 15.0  # px, least distance past the last line, as far as the robot has driven it
 STEP, STEPS = 24.0, 10  # px between tried poses, and their number, while robots stand there
 ARRIVED = 60.0  # px from the requested pose, within which a robot that drives there has arrived
 
@@ -61,13 +60,15 @@ def detect_lost(match: Any, k: int) -> None:
 def update_request(match: Any, k: int) -> None:
     """Move the requested pose to where no robot stands; withdraw it once robot k is back."""
     robot, racer, course = match.robots[k], match.racers[k], match.course
-    here, gap = stretch(match, racer)
-    way = gap - RUN_UP if racer.missed else distance_ahead(course, here, racer.left) - BACK
+    here, _ = stretch(match, racer)
+    driven = way_driven(match, racer)
+    least = driven if driven < MARGIN else MARGIN
+    way = driven - BACK
     for _ in range(STEPS):
-        way = way if way > MARGIN else MARGIN
+        way = way if way > least else least
         along = (here + way) % course.length
         x, y = point_at(course, along, clear_aside(match, along))
-        if way == MARGIN or is_free(match, k, x, y):
+        if way == least or is_free(match, k, x, y):
             break
         way -= STEP
     segment, _ = segment_at(course, along)

@@ -72,7 +72,7 @@ class Racer:
     missed: int  # 1 + the line that it must go back to, after crossing a later one; 0: none
     void: int  # laps that did not count: own line crossed while another was missing
     wrong: int  # ticks of driving in the wrong direction
-    progress: float  # px from its own line, negative before it; never past a missed line
+    progress: float  # px from its own line, negative before it; off its way, where it left it
     rank: int  # 1: in the lead
     finished: int  # 1: all laps completed
     finish: float  # time of the finish

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from pigaming_app.hardware.control.moving_things import ThingsMove
 from pigaming_app.hardware.control.recorded_plant import ROW, SIZE, RobotTrack
-from pigaming_app.hardware.control.safety import RULES, Fault
+from pigaming_app.hardware.control.safety import REMOTE, RULES, Fault
 from pigaming_app.hardware.run_writer import RUN_PART, RunInMemory
 from pigaming_app.sim.things.spec import read_things, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable
@@ -36,7 +36,7 @@ LIMITS = {  # bytes of a part, unpacked
 OPTIONAL = {MOVES}
 MAX_BYTES = sum(LIMITS.values())
 MAX_MOVES = 60 * 60 * 30
-NAMES = frozenset(rule.name for rule in RULES)
+NAMES = frozenset(rule.name for rule in RULES) | frozenset(REMOTE.values())
 
 
 class MatchFileError(ValueError):

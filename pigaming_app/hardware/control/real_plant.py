@@ -31,7 +31,7 @@ class RealPlant:
         self.world: Any = world
         self.rig = rig
         self.real = set(real)
-        self.safety = Safety()
+        self.safety = Safety(rig.remote)
         self.recorder: MatchRecorder | None = None  # of the match, if it is recorded
         self.motion: list[Twist] = [REST] * ROBOTS  # px/s and rad/s, predicted to when the latest command acts
         self._speeds = [0.0] * ROBOTS  # px/s, last commanded speed of each robot

@@ -130,6 +130,7 @@ class Rig:
         self.motion_check = MotionCheck(drivetrains)
         self._channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # drift of the corner markers, mm
+        self.remote = False  # True: poses and robots are those of a network
         self.recorder: Recorder | None = None
         self.viewers: list[Callable[[CameraFrame], None]] = []  # also get every new picture, in the rig's thread
         self._begun = clock()

@@ -6,7 +6,7 @@ for CALM seconds. Two deadmen back it up: the link sends stop when the game fall
 that receives nothing.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
@@ -101,10 +101,19 @@ RULES = (
 )
 
 
+REMOTE: Mapping[str, str] = {  # names of the faults of robots whose poses come from a network, by name of the rule
+    "camera": "poses",
+    "lost": "pose",
+    "silent": "pose",
+    "unseen": "late",
+    "radio": "network",
+}
+
+
 class Fault(NamedTuple):
     """A present fault. Its message is the text faults.NAME, with `robot` counted from 1."""
 
-    name: str
+    name: str  # of its rule, or of REMOTE
     robot: int | None  # None: all robots
     response: Response
     pauses: bool
@@ -112,10 +121,11 @@ class Fault(NamedTuple):
 
 
 class Safety:
-    """Evaluates RULES, and holds the all-stop and latched faults."""
+    """Evaluates RULES, and holds the all-stop and latched faults. `remote`: see Rig."""
 
-    def __init__(self) -> None:
+    def __init__(self, remote: bool = False) -> None:
         self.stopped = False
+        self._names = REMOTE if remote else {}
         self.faults: list[Fault] = []  # present faults, worst first, each once
         self._latched: set[tuple[SafetyRule, int]] = set()
         self._bad: dict[tuple[SafetyRule, int | None], tuple[float, float]] = {}  # first and last time, s
@@ -165,8 +175,9 @@ class Safety:
                     continue
                 for other in real if rule.latched else concerned:
                     held[other] = max(held[other], rule.response)
-                if (rule.name, robot) not in [(fault.name, fault.robot) for fault in self.faults]:
-                    self.faults.append(Fault(rule.name, robot, rule.response, rule.pauses, since))
+                name = self._names.get(rule.name, rule.name)
+                if (name, robot) not in [(fault.name, fault.robot) for fault in self.faults]:
+                    self.faults.append(Fault(name, robot, rule.response, rule.pauses, since))
         self._explain()
         return held
 

@@ -2,12 +2,15 @@
 
 Robots announce themselves by broadcast. Each drive packet that the link writes goes to every announced robot of the
 arena in a datagram of its own; the reports in their answers are what the link reads. Datagrams without the right
-message code, of another kind, repeated or out of order are dropped.
+message code, of another kind, repeated or out of order are dropped. Where the system can, each robot has a socket of
+its own, connected to its address: no flood of others displaces its reports.
 """
 
 import errno
+import os
 import socket
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple, Self
 
@@ -22,8 +25,9 @@ from pigaming_app.hardware.signals import Clock
 PORT = 47474  # UDP
 SILENT = 0.5  # s without a report after which another robot may take over a number, or the same one after a restart
 GONE = 4.0  # s without a datagram after which a robot is forgotten
-BUFFER = 1 << 16  # bytes that the system keeps for a late reader
-MOST = 64  # robots remembered, and datagrams handled at once
+BUFFER = 1 << 20  # bytes that the system keeps for a late reader, if it allows as many
+MOST = 64  # robots remembered
+TURN, AT_ONCE = 0.005, 2000  # s and datagrams of one socket, after which the next command has its turn
 LARGEST = 1 << 16  # bytes; a shorter buffer is an error on Windows when a longer datagram comes
 NO_NETWORK = (errno.ENETDOWN, errno.ENETUNREACH, errno.EADDRNOTAVAIL)
 
@@ -50,6 +54,7 @@ class Session:
     heard: float  # s, when the newest datagram came
     replaces: bytes = b""  # nonce of the session before, void from the first REPORT of this one
     reported: float = float("-inf")  # s, when the newest REPORT came
+    own: socket.socket | None = None  # for datagrams from `address` alone
 
 
 class WifiNetwork:
@@ -72,16 +77,44 @@ class WifiNetwork:
     def open(self) -> Self:
         """Open the socket. Raises OSError, e.g. if another program has the port."""
         self.close()
+        self._socket = self._bound_socket()
+        self.bound = self._socket.getsockname()[1]
+        for session in self._sessions.values():
+            self._connect(session)
+        return self
+
+    def _bound_socket(self, beside: socket.socket | None = None, to: Address | None = None) -> socket.socket:
+        """A socket at our port; `beside`: ours that has it, and shares it for now; `to`: the only other end.
+
+        Raises OSError.
+        """
         port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
             port.setblocking(False)
             port.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER)
+            for one in (beside, port) if beside is not None else ():
+                one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             port.bind((self._host, self.bound))
+            if to is not None:
+                port.connect(to)
         except BaseException:
             port.close()
             raise
-        self._socket, self.bound = port, port.getsockname()[1]
-        return self
+        finally:
+            if beside is not None:
+                beside.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 0)
+        return port
+
+    def _connect(self, session: Session) -> None:
+        """Give a session a socket of its own; none where two at one port are refused, or ambiguous as on Windows."""
+        if session.own is not None:
+            if session.own.getpeername() == session.address:
+                return
+            session.own.close()
+            session.own = None
+        if os.name == "posix":
+            with suppress(OSError):
+                session.own = self._bound_socket(beside=self._socket, to=session.address)
 
     @property
     def robots(self) -> list[WifiRobot]:
@@ -140,22 +173,35 @@ class WifiNetwork:
 
     def close(self) -> None:
         """Close the socket; sessions stay, so that `open` continues them."""
+        for session in self._sessions.values():
+            port, session.own = session.own, None
+            if port is not None:
+                port.close()
         port, self._socket = self._socket, None
         if port is not None:
             port.close()
 
     def _receive(self) -> None:
-        """Handle the datagrams that have arrived. Raises OSError if the socket has failed."""
+        """Handle the datagrams that have arrived, our robots' first. Raises OSError if a socket has failed."""
         assert self._socket is not None
-        for _ in range(MOST):
+        for one in [*(session.own for session in self._sessions.values()), self._socket]:
+            if one is not None:
+                self._drain(one)
+
+    def _drain(self, port: socket.socket) -> None:
+        """Handle the datagrams at a socket, for at most one TURN."""
+        end = self._clock() + TURN
+        for _ in range(AT_ONCE):
             try:
-                datagram, sender = self._socket.recvfrom(LARGEST)
+                datagram, sender = port.recvfrom(LARGEST)
             except BlockingIOError:
                 return
             except ConnectionError:
-                continue  # Windows: an earlier datagram met a closed port
+                continue  # an earlier datagram met a closed port
             if not (self._take_report(datagram) or self._take_announcement(datagram, sender)):
                 self.dropped += 1
+            if self._clock() >= end:
+                return
 
     def _take_report(self, datagram: bytes) -> bool:
         """Accept a new report of one of our robots; its sender need not have kept its address."""
@@ -212,13 +258,17 @@ class WifiNetwork:
             if known is not None and now - known.reported < SILENT:
                 self._note_stranger(robot, sender, "taken")
                 return True
-            before = known.announced.nonce if known is not None else b""
-            self._sessions[robot.address] = Session(robot, sender, robot.counter, counter, now, before)
+            begun = Session(robot, sender, robot.counter, counter, now)
+            if known is not None:
+                begun.replaces, begun.own = known.announced.nonce, known.own
+            self._sessions[robot.address] = begun
+            self._connect(begun)
             return True
         if counter <= known.received:
             return False
         known.announced, known.address, known.heard, known.received = robot, sender, now, counter
         known.sent = max(known.sent, robot.counter)
+        self._connect(known)
         return True
 
 

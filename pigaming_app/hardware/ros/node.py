@@ -118,6 +118,10 @@ class RosNode:
             "/joystick", self._sensors.Joy, lambda joy: handle(joy.header.frame_id, tuple(joy.axes), tuple(joy.buttons))
         )
 
+    def on_keys(self, handle: Callable[[str], None]) -> None:
+        """Call `handle` with every std_msgs String on /key_input."""
+        self._subscribe("/key_input", self._standard.String, lambda keys: handle(keys.data))
+
     def publish_pose(self, robot: int, pose: Pose, age: float = 0.0) -> None:
         """Publish a pose that is `age` s old."""
         message = self._geometry.PoseStamped()

@@ -27,6 +27,7 @@ BATTERY = 0.0  # V: none is reported
 POSES = 20  # a second and robot, at least, for a share of 100 %
 WINDOW = 2.0  # s over which poses are counted
 ABSENT = 1.0  # s without any pose after which the network is reported
+LATE = 0.25  # s, age of the newest pose after which its stamp or the network is reported
 OUTSIDE = 5000.0  # px, poses farther off are refused
 NO_PICTURE = np.zeros((0, 0), np.uint8)
 REST: Twist = (0.0, 0.0)
@@ -52,9 +53,14 @@ class RosPoses(PoseFilters):
 
     @property
     def fault(self) -> OperatorMessage | None:
-        """Fault of the node, or no poses at all."""
-        silent = self.clock() - max(self._begun, *self.received) > ABSENT
-        return self.node.fault or (OperatorMessage("ros_poses") if silent else None)
+        """Fault of the node, no poses at all, or late ones alone."""
+        now = self.clock()
+        if self.node.fault is not None:
+            return self.node.fault
+        if now - max([self._begun, *(times[-1] for times in self._arrived if times)]) > ABSENT:
+            return OperatorMessage("ros_poses")
+        late = now - max(self.received)
+        return OperatorMessage("ros_late", seconds=f"{late:.1f}") if LATE < late < float("inf") else None
 
     def share(self, robot: int) -> float:
         """Poses of the last WINDOW s as a share of POSES a second, at most 1."""

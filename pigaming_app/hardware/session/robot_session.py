@@ -7,6 +7,7 @@ opens also measures, from the projected corner markers, how far the camera has d
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
+from pigaming_app.hardware.control.safety import REMOTE
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.sim.world import ROBOTS
 
@@ -133,6 +134,6 @@ def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:
 
 def cause_of(rig: "Rig", fault: str) -> OperatorMessage | None:
     """Message of the camera or radio behind a fault of `safety`, or None."""
-    if fault == "camera":
+    if fault in ("camera", REMOTE["camera"]):
         return rig.camera.fault
-    return rig.link.fault if fault == "radio" else None
+    return rig.link.fault if fault in ("radio", REMOTE["radio"]) else None

@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.scan.expected import ExpectedLight
 
 WIDTH_MM = 2112.0  # of the nominal arena
-STICK_AGE = 0.5  # s, after which a joystick message no longer counts
+STICK_AGE = 0.5  # s, after which a message of a joystick or of keys no longer counts
 STATE_EVERY = 0.1  # s between two messages of the state
+SEATS = {f"robot_{seat + 1}": seat for seat in range(ROBOTS)}
 Stick = tuple[float, float, bool, bool]  # ahead, clockwise, fire, turbo
 
 
@@ -73,9 +74,11 @@ class RosSession:
                 raise RobotsUnavailable(error.message) from error
             frame, drivetrains = ArenaFrame.of_width(self.width), [UNMEASURED] * ROBOTS
             self._node.on_joystick(self._take_stick)
+            self._node.on_keys(self._take_keys)
             poses = RosPoses(self._node, frame, time.monotonic, drivetrains)
             rig = Rig(poses, poses, RosLink(self._node, poses, drivetrains), time.monotonic, drivetrains)
             rig.kinematics = [Kinematics(drivetrain, levels=None) for drivetrain in drivetrains]
+            rig.remote = True
             self.mm, self._rig = frame.mm, rig.start()
         return self._rig
 
@@ -90,7 +93,7 @@ class RosSession:
         return seconds
 
     def stick(self, seat: int, first: bool) -> Stick | None:
-        """The joystick of a seat; one that addresses none is that of the `first` person."""
+        """Joystick or keys of a seat; those that address none are the `first` person's."""
         now = time.monotonic()
         for key in (seat, None) if first else (seat,):
             received, stick = self._sticks.get(key, (float("-inf"), (0.0, 0.0, False, False)))
@@ -118,6 +121,11 @@ class RosSession:
         """The layout of joy_node: axis 0 to the left, axis 1 ahead; buttons 0 and 1."""
         left, ahead = (max(-1.0, min(1.0, axis)) if axis == axis else 0.0 for axis in (*axes, 0.0, 0.0)[:2])
         fire, turbo = (bool(button) for button in (*buttons, 0, 0)[:2])
-        number = frame.removeprefix("robot_")
-        seat = int(number) - 1 if number in {str(i + 1) for i in range(ROBOTS)} else None
-        self._sticks[seat] = time.monotonic(), (ahead, -left, fire, turbo)
+        self._sticks[SEATS.get(frame)] = time.monotonic(), (ahead, -left, fire, turbo)
+
+    def _take_keys(self, text: str) -> None:
+        """The names of all keys that are held, and perhaps that of a robot, in any order."""
+        held = set(text.lower().split())
+        ahead, clockwise = float("up" in held) - ("down" in held), float("right" in held) - ("left" in held)
+        seat = next((SEATS[word] for word in held if word in SEATS), None)
+        self._sticks[seat] = time.monotonic(), (ahead, clockwise, "fire" in held, "turbo" in held)

@@ -1,7 +1,7 @@
 """Matches of an event among AIs, at full speed and without a window.
 
 The brains of all entrants share one compiled loop for each game, as in a league; matches that are open at the same time
-are played as one batch. An entrant without a brain is played by DEFAULT_AI.
+are played as one batch, extra matches one by one. An entrant without a brain is played by DEFAULT_AI.
 """
 
 from collections.abc import Sequence
@@ -17,6 +17,7 @@ from pigaming_app.events.spec import DEFAULT_AI, Fixture, Format, Outcome
 from pigaming_app.games.game import Row
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.events.quick_match import play
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT
 
@@ -33,7 +34,9 @@ class HeadlessRun:
 
     def play(self, event: Event) -> list[Outcome]:
         """Play the next matches, at least one if any is open: those of one game, with one game's loop."""
-        for game, fixtures in groupby(event.open, lambda fixture: fixture.game):
+        for (game, extra), fixtures in groupby(event.open, lambda fixture: (fixture.game, fixture.extra > 0)):
+            if extra:
+                return [play(event, next(fixtures), DEFAULT_AI)]
             return self.play_these(event, [*fixtures][: BATCH if self._line_ups[game].fast else 1])
         return []
 

@@ -1,6 +1,7 @@
 """A new event: entrants, format, games. Prints its first matches."""
 
 import os
+import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable
 from dataclasses import replace
@@ -97,7 +98,7 @@ def _spec(arguments: Namespace) -> EventSpec:
         title=arguments.title or arguments.file.stem[:MAX_TITLE],
         format=form,
         games=played,
-        entrants=tuple(_with_whole_path(entrant) for entrant in _entrants(arguments.entrants)),
+        entrants=tuple(_with_whole_path(entrant) for entrant in _entrants(arguments.entrants, played)),
         rounds=arguments.rounds,
         seats=arguments.seats or DEFAULT_SEATS.get(form, SEATS[0]),
         arenas=_by_game("--arena", arguments.arena, played, _arenas),
@@ -109,7 +110,7 @@ def _spec(arguments: Namespace) -> EventSpec:
     )
 
 
-def _entrants(text: str) -> tuple[Entrant, ...]:
+def _entrants(text: str, played: tuple[str, ...]) -> tuple[Entrant, ...]:
     if not text.startswith("@"):
         return entrants_of_words(text.split(","))
     file = Path(text[1:])
@@ -118,9 +119,25 @@ def _entrants(text: str) -> tuple[Entrant, ...]:
     except (OSError, ValueError) as error:
         raise Refusal(f"{quote(text[1:])}: cannot be read ({describe_error(error)})") from None
     try:
-        return entrants_of_text(content)
+        found = entrants_of_text(content, lambda brain: _require_brain(brain, played))
     except ValueError as error:
         raise Refusal(f"{file}: {error}") from None
+    if (count := len(found.entrants)) < FEWEST:
+        where = f"{file}: line {len(content.splitlines())}"
+        raise Refusal(f"{where}: the list ends with {count} entrants; an event has {FEWEST} to {MOST}")
+    if found.ignored:
+        print(
+            f"PiGaming: {file}: columns that are not known are ignored: {', '.join(map(quote, found.ignored))}",
+            file=sys.stderr,
+        )
+    return found.entrants
+
+
+def _require_brain(brain: str, played: tuple[str, ...]) -> None:
+    """Raises ChoiceError unless an AI plays all games, or Refusal if what runs it is missing."""
+    require_for_brains([brain])
+    for game in played:
+        find_brain(game, brain)
 
 
 def _with_whole_path(entrant: Entrant) -> Entrant:

@@ -91,7 +91,8 @@ def _in_window(arguments: Namespace, event: Event) -> int:
 def _recorded(outcomes: list[Outcome], event: Event) -> Event:
     """The event with these outcomes, as far as another process has not been faster. Raises ValueError."""
     for outcome in outcomes:
-        if outcome.fixture not in event.outcomes:
+        before = len(event.played.get(outcome.fixture, ()))
+        if outcome.fixture not in event.outcomes and outcome.extra == before:
             event = event.record(outcome)
     return event
 

@@ -46,6 +46,7 @@ def lines(event: Event) -> Iterator[str]:
         yield f"round {event.round}, next:"
     for fixture in event.open[:NEXT]:
         stage = f", {fixture.stage}" if fixture.stage else ""
+        stage += ", sudden death" if fixture.extra else ""
         yield f"{fixture.number:>5}  {' – '.join(fixture.entrants)}  ({fixture.game}{stage})"
     if len(event.open) > NEXT:
         yield f"       and {len(event.open) - NEXT} more"
@@ -53,7 +54,8 @@ def lines(event: Event) -> Iterator[str]:
 
 def _table(rows: Sequence[Standing]) -> Iterator[str]:
     breaks = columns(rows)
-    yield f"{'':4}{'':14}{'points':>8}{'wins':>6}{'played':>8}" + "".join(f"{key:>18}" for key in breaks)
+    wide = max(14, *(len(row.entrant) + 1 for row in rows))
+    yield f"{'':4}{'':{wide}}{'points':>8}{'wins':>6}{'played':>8}" + "".join(f"{key:>18}" for key in breaks)
     for row in rows:
         values = "".join(f"{row.tie_breaks[key]:18.2f}" for key in breaks)
-        yield f"{row.place:>3} {row.entrant:14}{row.points:8.2f}{row.wins:6}{row.played:8}{values}"
+        yield f"{row.place:>3} {row.entrant:{wide}}{row.points:8.2f}{row.wins:6}{row.played:8}{values}"

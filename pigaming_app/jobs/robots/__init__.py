@@ -63,11 +63,7 @@ def run(arguments: Namespace) -> int:
     """Print the status. Raises Refusal."""
     mat_settings(arguments)
     settings = radio_setup.save_arena(arguments)
-    if arguments.wifi_config is not None:
-        print(wifi_setup.config(arguments.wifi_config, settings), end="")
-        return 0
-    if arguments.microbit is not None:
-        print(wifi_setup.microbit(arguments.microbit, settings), end="")
+    if wifi_setup.supply_file(arguments, settings):
         return 0
     if arguments.wheels is not None:
         return _turn_wheels(arguments)

@@ -1,15 +1,17 @@
 """Robots with MicroPython in the job `robots`: their files, the robots on the network, a first turn of the wheels."""
 
 import time
-from argparse import ArgumentParser
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.hardware.robot_files import RELAY, microbit_program, robot_config
 from pigaming_app.hardware.robot_kinds import robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession
-from pigaming_app.jobs.terminal.options import integer
-from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.jobs.terminal.options import integer, path
+from pigaming_app.jobs.terminal.refusal import Refusal, refused
+from pigaming_app.storage.safe_files import NotSaved, write_with_backup
 from pigaming_app.storage.settings import Settings, folders
 
 APPEARS, TURNS = 5.0, 1.5  # s: for a robot to report; for each turn of the wheels
@@ -24,35 +26,41 @@ WHEELS = {  # commands of left and right wheel
 
 def options(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "--wifi-config", type=integer(1, ROBOTS), metavar="ROBOT", help="print the config.py of a Wi-Fi robot, 1 to 4"
+        "--wifi-config", type=integer(1, ROBOTS), metavar="ROBOT", help="the config.py of a Wi-Fi robot, 1 to 4"
     )
     parser.add_argument(
         "--microbit",
         type=integer(RELAY, ROBOTS),
         metavar="NUMBER",
-        help="print the program of a micro:bit: 0 for the relay, 1 to 4 for a robot",
+        help="the program of a micro:bit: 0 for the relay, 1 to 4 for a robot",
     )
+    parser.add_argument("--out", type=path, metavar="FILE", help="write that file, in UTF-8, instead of printing it")
     parser.add_argument(
         "--wheels", type=integer(1, ROBOTS), metavar="ROBOT", help="turn the wheels of a robot that stands on blocks"
     )
 
 
-def config(robot: int, settings: Settings) -> str:
-    """`config.py` of a Wi-Fi robot of these settings. Raises Refusal if they cannot be saved."""
+def supply_file(arguments: Namespace, settings: Settings) -> bool:
+    """Write or print the file of a robot; false if none is wanted. Raises Refusal, also if settings are not saved."""
     from pigaming_app.hardware.session.store import arena_id, wifi_key
 
-    text = robot_config(robot, arena_id(settings), wifi_key(settings))
+    out: Path | None = arguments.out
+    if arguments.wifi_config is not None:
+        text = robot_config(arguments.wifi_config, arena_id(settings), wifi_key(settings))
+    elif arguments.microbit is not None:
+        text = microbit_program(arguments.microbit, arena_id(settings))
+    elif out is not None:
+        raise Refusal("--out is the file of --wifi-config or --microbit")
+    else:
+        return False
     _require_saved(settings, "arena_id", "wifi_key")
-    return text
-
-
-def microbit(number: int, settings: Settings) -> str:
-    """Program of a micro:bit of these settings. Raises Refusal if they cannot be saved."""
-    from pigaming_app.hardware.session.store import arena_id
-
-    text = microbit_program(number, arena_id(settings))
-    _require_saved(settings, "arena_id")
-    return text
+    if out is None:
+        print(text, end="")
+        return True
+    with refused(NotSaved):
+        write_with_backup(out, text)
+    print(out)
+    return True
 
 
 def _require_saved(settings: Settings, *names: str) -> None:

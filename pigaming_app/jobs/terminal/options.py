@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.sim.rng import SEEDS
 from pigaming_app.storage.parsing import quote
 
 MAX_INTEGER = 2**63 - 1
@@ -86,7 +87,7 @@ SHARED: dict[str, dict[str, Any]] = {
     "--variant": {"help": "set of rules; default: the game's first"},
     "--laps": {"type": integer(), "metavar": "NUMBER", "help": "length of a race"},
     "--pallets": {"type": integer(), "metavar": "NUMBER", "help": "pallets that win the factory"},
-    "--seed": {"type": integer(-MAX_INTEGER), "metavar": "NUMBER", "default": 1, "help": "random seed; default 1"},
+    "--seed": {"type": integer(0, SEEDS - 1), "metavar": "NUMBER", "default": 1, "help": "random seed; default 1"},
     "--json": {"action": "store_true", "help": "print the result as one JSON object"},
     "--kiosk": {"action": "store_true", "help": "only the operator can leave"},
     "--display": {
@@ -117,7 +118,7 @@ SHARED: dict[str, dict[str, Any]] = {
     "--baud": {"type": integer(), "metavar": "NUMBER", "help": "baud rate of the radio"},
     "--radio": {"metavar": "MODE", "help": "api2, api1, transparent, udp (Wi-Fi), or stock (a robot on a cable)"},
 }
-MATCH = ("--arena", "--minutes", "--variant", "--laps", "--pallets", "--seed")
+MATCH = ("--arena", "--minutes", "--variant", "--laps", "--pallets")
 
 
 def shared(parser: argparse._ActionsContainer, *names: str) -> None:
@@ -152,7 +153,7 @@ def duel_options(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--matches", type=integer(), metavar="NUMBER", default=100, help="matches of each pair; default 100"
     )
-    shared(parser, *MATCH, "--json")
+    shared(parser, *MATCH, "--seed", "--json")
 
 
 def mat_options(parser: ArgumentParser) -> None:

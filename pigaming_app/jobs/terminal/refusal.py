@@ -70,4 +70,4 @@ def remedy(extra: str) -> str:
     """How to install an extra: `main.py` does it in a clone, pip in an installed package; a bundle stays as it is."""
     if FROZEN:
         return NOT_BUNDLED
-    return f"pip install 'pigaming-app[{extra}]'" if INSTALLED else FETCHED
+    return f"pip install '.[{extra}]'" if INSTALLED else FETCHED

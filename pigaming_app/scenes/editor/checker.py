@@ -124,4 +124,4 @@ class Checker:
 
 def unknown(reason: str) -> Problem:
     """A problem that only the reader of files has found."""
-    return Problem("arena", WIDTH / 2, HEIGHT / 2, WIDTH / 4, reason, True)
+    return Problem("arena", WIDTH / 2, HEIGHT / 2, WIDTH / 4, reason, True, "arena")

@@ -1,8 +1,9 @@
 """Pictures of the tools, on a 2 x 2 square as those of `ui.draw.icons`."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 
+from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.ui.draw import ICONS, Color, GlowCanvas, cut_box, dim
 from pigaming_app.ui.draw.icons import Pen
 
@@ -15,7 +16,11 @@ def draw_icon(ink: GlowCanvas, name: str, x: float, y: float, r: float, color: C
     if name in VALUED:
         VALUED[name](pen, value)
     else:
-        (PICTURES.get(name) or ICONS[name])(pen)
+        next(pictures[name] for pictures in (PICTURES, ICONS, *_of_games()) if name in pictures)(pen)
+
+
+def _of_games() -> Iterator[Mapping[str, Callable[[Pen], None]]]:
+    return (tools.pictures for tools in EDITORS.values())
 
 
 def _wall(pen: Pen) -> None:

@@ -213,9 +213,9 @@ class Editor:
         verdict = self.bench.verdict
         if verdict and verdict.problems:
             worst = next((problem for problem in verdict.problems if problem.blocks), verdict.problems[0])
-            kind = worst.key.partition("[")[0].partition(".")[0] if worst.blocks else "gap"
-            key, words = f"editor.problem_{kind}", self.context.words
-            return words(key if key in words else "editor.problem_arena"), ALARM if worst.blocks else FOCUS
+            words, color = self.context.words, ALARM if worst.blocks else FOCUS
+            keys = f"editor.{self.game}_problem_{worst.kind}", f"editor.problem_{worst.kind}"
+            return words(next((key for key in keys if key in words), "editor.problem_arena")), color
         return "", ICE
 
     def say(self, key: str, wrong: bool = False, **values: object) -> None:

@@ -6,22 +6,28 @@ from itertools import groupby, pairwise
 
 import pygame
 
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, Color, cut_box, dim, icon
+from pigaming_app.events.formats.knockout import FINAL
+from pigaming_app.scenes.events.names import shortened
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, MIST, STEEL, THIN, Color, cut_box, dim, icon
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_text, text
+from pigaming_app.ui.draw.text import text
 
 COLUMNS = 4
 W, GAP = 396, 48  # px: width of a box, from box to box
 HEADS_Y, TOP, BOTTOM = 222, 258, 930  # px
-LINE_H, PAD, APART = 56, 6, 14  # px: a line of names, above and below them, between two boxes
-PLAYED, OPEN, NEXT = "played", "open", "next"  # states of a match
+LINE_H, PAD, APART = 46, 6, 9  # px: a name, above and below the names, between two boxes at least
+NOTE_UP = 36  # px, from a note to its box
+MARK = 30  # px, from the right edge to the sign of those who go on
+PLAYED, OPEN, NEXT, LATER = "played", "open", "next", "later"  # states of a match
 
 
 @dataclass(frozen=True)
 class Box:
-    """One match. `names`: of its entrants, `through`: which of them came first, or advance; `state`: see PLAYED."""
+    """One match. `names`: of its entrants, empty where it is open who they are; `through`: which of them came first, or
+    advance; `state`: see PLAYED. Lines lead from a box to those whose `come` has one of its `go`. `note`: stands above.
+    """
 
     number: int
     stage: str
@@ -29,11 +35,14 @@ class Box:
     names: tuple[str, ...]
     through: tuple[bool, ...]
     state: str
+    go: frozenset[str] = frozenset()
+    come: frozenset[str] = frozenset()
+    note: str = ""
 
     @property
     def height(self) -> int:
         """px."""
-        return 2 * PAD + LINE_H * lines_of(len(self.names))
+        return 2 * PAD + LINE_H * len(self.names)
 
 
 @dataclass(frozen=True)
@@ -43,28 +52,29 @@ class Column:
     stage: str
     round: int
     boxes: tuple[Box, ...]
+    whole: bool = True
 
 
 Page = tuple[Column, ...]
 Render = Callable[[tuple[str, ...], tuple[bool, ...], str], LitImage]
 
 
-def lines_of(names: int) -> int:
-    """Lines of a box with so many names: two in each."""
-    return max(1, -(-names // 2))
-
-
-def pages_of(boxes: Sequence[Box]) -> list[Page]:
-    """The pages of a bracket. A round begins a new page if it would be torn apart otherwise."""
-    pages: list[list[Column]] = [[]]
-    for (stage, number), found in groupby(boxes, key=lambda box: (box.stage, box.round)):
-        columns = [Column(stage, number, part) for part in _filled(list(found))]
-        if pages[-1] and len(pages[-1]) + len(columns) > COLUMNS:
-            pages.append([])
-        for column in columns:
-            if len(pages[-1]) == COLUMNS:
+def pages_of(sides: Sequence[Sequence[Box]]) -> list[Page]:
+    """The pages of a bracket, each side on pages of its own. A round begins a new page if it would be torn apart
+    otherwise; both finals share a column.
+    """
+    pages: list[list[Column]] = []
+    for side in sides:
+        pages.append([])
+        for _, found in groupby(side, key=lambda box: (box.stage, box.round if box.stage != FINAL else 0)):
+            parts = [*_filled(list(found))]
+            columns = [Column(part[0].stage, part[0].round, part, len(parts) == 1) for part in parts]
+            if pages[-1] and len(pages[-1]) + len(columns) > COLUMNS:
                 pages.append([])
-            pages[-1].append(column)
+            for column in columns:
+                if len(pages[-1]) == COLUMNS:
+                    pages.append([])
+                pages[-1].append(column)
     return [tuple(page) for page in pages]
 
 
@@ -83,42 +93,46 @@ def draw_bracket(
     render = render or match_box
     places = {box: place for i, column in enumerate(page) for box, place in placed(column, i)}
     for before, after in pairwise(page):
-        if (before.stage, before.round) != (after.stage, after.round):
+        if before.whole and after.whole:
             for start, end in _ways(before, after, places):
                 way(end[0] - start[0], end[1] - start[1]).draw(screen, dx + start[0], dy + min(start[1], end[1]))
     for i, (column, head) in enumerate(zip(page, heads, strict=True)):
         x = LEFT + i * (W + GAP)
         text(head, BODY, MIST, "body", "l", W).draw(screen, dx + x, dy + HEADS_Y)
         for box in column.boxes:
-            render(box.names, box.through, box.state).draw(screen, dx + places[box].x, dy + places[box].y)
+            place = places[box].move(dx, dy)
+            render(box.names, box.through, box.state).draw(screen, place.x, place.y)
+            if box.note:
+                text(box.note, BODY, MIST, "body", "l", W).draw(screen, place.x, place.y - NOTE_UP)
 
 
 def placed(column: Column, index: int) -> Iterator[tuple[Box, pygame.Rect]]:
-    """The boxes of a column with their places, centred on the height of the page."""
-    needed = sum(box.height for box in column.boxes)
-    spare = BOTTOM - TOP - needed
-    gap = min(3 * APART, spare / max(1, len(column.boxes)))
-    y = TOP + (spare - gap * (len(column.boxes) - 1)) / 2
+    """The boxes of a column with their places: each in the middle of its share of the height."""
+    high = [box.height for box in column.boxes]
+    spare = (BOTTOM - TOP - sum(high)) / len(high)
+    y = TOP + spare / 2
     for box in column.boxes:
         yield box, pygame.Rect(LEFT + index * (W + GAP), round(y), W, box.height)
-        y += box.height + gap
+        y += box.height + spare
 
 
 def match_box_steps(names: tuple[str, ...], through: tuple[bool, ...], state: str) -> Steps[LitImage]:
     """A match; top left at (0, 0)."""
-    h = 2 * PAD + LINE_H * lines_of(len(names))
+    h = 2 * PAD + LINE_H * len(names)
     layer = Layer(0, 0, W, h)
-    edge = FOCUS if state == NEXT else MIST if state == OPEN else STEEL
-    layer.glow.line(cut_box(0, 0, W, h, 12), edge, LINE if state == NEXT else THIN, True)
-    half = W / 2
+    if state == LATER:
+        layer.glow.dashes(cut_box(0, 0, W, h, 12), STEEL, THIN, 16, 12)
+    else:
+        edge = FOCUS if state == NEXT else MIST if state == OPEN else STEEL
+        layer.glow.line(cut_box(0, 0, W, h, 12), edge, LINE if state == NEXT else THIN, True)
     for i, (name, best) in enumerate(zip(names, through, strict=True)):
-        x, y = 22 + half * (i % 2), PAD + LINE_H * (i // 2 + 0.5)
+        if not name:
+            continue
+        y = PAD + LINE_H * (i + 0.5)
         color: Color = FOCUS if best else dim(MIST, 0.75) if state == PLAYED else ICE
-        room = half - 34 - (40 if best else 0)
         if best:
-            icon(layer.glow, "check", x + 14, y, 15, FOCUS, 5)
-        name, size = fit_text(name, LABEL, room, "hero")
-        layer.canvas.text(name, size, x + (40 if best else 0), y, color, "hero")
+            icon(layer.glow, "check", W - MARK, y, 15, FOCUS, 5)
+        layer.canvas.text(shortened(name, W - 44 - MARK, BODY, "hero"), BODY, 22, y, color, "hero")
     yield
     return (yield from layer.render_steps())
 
@@ -151,8 +165,8 @@ def _filled(boxes: list[Box]) -> Iterator[tuple[Box, ...]]:
 def _ways(
     before: Column, after: Column, places: dict[Box, pygame.Rect]
 ) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
-    """From each match of a knock-out to the next one of those who advance from it: ends of the lines, px."""
-    for box in (box for box in before.boxes if box.stage):
+    """From each match to the next one of those who advance from it: ends of the lines, px."""
+    for box in before.boxes:
         for other in after.boxes:
-            if any(best and name in other.names for name, best in zip(box.names, box.through, strict=True)):
+            if box.go & other.come:
                 yield places[box].midright, places[other].midleft

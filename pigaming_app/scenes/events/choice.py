@@ -26,7 +26,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, heading
@@ -149,9 +149,10 @@ def row(sign: str, title: str, count: str, state: str, hot: bool) -> Steps[LitIm
     layer = Layer(0, 0, w, HIGH)
     layer.glow.line(cut_box(0, 0, w, HIGH, 16), FOCUS if hot else STEEL, THIN, True)
     icon(layer.glow, sign, 58, HIGH / 2, 22, FOCUS if hot or sign == "crown" else MIST, 4)
-    layer.canvas.text(title, fit_size(title, LABEL, 720), 116, HIGH / 2, FOCUS if hot else ICE, "head")
+    title, size = fit_text(title, LABEL, 690 if count else w - 160, "head", BODY)
+    layer.canvas.text(title, size, 116, HIGH / 2, FOCUS if hot else ICE, "head")
     yield
-    layer.canvas.body(count, 880, HIGH / 2, MIST, "l", fit_size(count, BODY, 300, "body"))
-    layer.canvas.body(state, w - 40, HIGH / 2, ICE if hot else MIST, "r", fit_size(state, BODY, 480, "body"))
+    layer.canvas.body(count, 830, HIGH / 2, MIST, "l", fit_size(count, BODY, 300, "body"))
+    layer.canvas.body(state, w - 40, HIGH / 2, ICE if hot else MIST, "r", fit_size(state, BODY, 540, "body"))
     yield
     return (yield from layer.render_steps())

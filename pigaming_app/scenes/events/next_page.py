@@ -17,9 +17,10 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
 from pigaming_app.scenes.events import next_view as view
+from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
-from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.running import RunningEvent, lots_line
 from pigaming_app.scenes.events.seats import Seats
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
@@ -41,17 +42,24 @@ from pigaming_app.ui.widgets.labels import call_to_action, heading, pulse
 INPUT_LOCKOUT = 0.6  # s during which input is ignored: players may still hammer
 ALL_READY = 2.5  # s from the last seat taken to the match
 MESSAGE_SECONDS = 4.0
+NAME_ROOM = 640  # px, of a name in a sentence
 SHOW_AFTER = 8.0  # s until the next match of AIs begins, after one that was watched
 
 log = logging.getLogger("pigaming")
 
 
 class NextMatch:
-    """The page of the first open match. `notice`: key of a message; `show`: matches of AIs begin by themselves."""
+    """The page of the first open match. `notice`: a message; `show`: matches of AIs begin by themselves; `again`: those
+    who have just played keep their devices.
+    """
 
-    def __init__(self, context: Context, running: RunningEvent, notice: str = "", show: bool = False) -> None:
+    def __init__(
+        self, context: Context, running: RunningEvent, notice: str = "", show: bool = False, again: bool = False
+    ) -> None:
         self.context, self.running, self.show = context, running, show
         self.seats, self._seated = Seats(context, running), self.fixture
+        if again:
+            self.seats.keep()
         self.quick: QuickMatches | None = None  # matches of AIs in the background
         self.access = Access(context, lambda: [self.seats.claims.get(seat) for seat in range(ROBOTS)])  # of phones
         self.clock, self.ready = 0.0, 0.0
@@ -132,7 +140,7 @@ class NextMatch:
         self.message_left -= seconds
         self.queue.work(2.0)
         if self.fixture is None:
-            return Swap(PodiumPage(self.context, self.running))
+            return Swap(PodiumPage(self.context, self.running)) if self.message_left <= 0.0 else None
         if self.going:
             return self._begin()
         if self.quick:
@@ -148,10 +156,12 @@ class NextMatch:
         fixture, words = self.fixture, self.context.words
         screen.blit(backdrop(), (0, 0))
         if fixture is None:
+            self._draw_message(screen)
             return
-        heading(words("events.next"), view.match_line(words, fixture, self.running.setup(fixture))).draw(screen)
+        title = words("events.sudden_death" if fixture.extra else "events.next")
+        heading(title, view.match_line(words, fixture, self.running.setup(fixture))).draw(screen)
         self.seats.draw(screen, self.clock)
-        self._draw_message(screen, fixture)
+        self._draw_message(screen)
         view.draw_following(screen, words, self.running.event)
         self.prompts.draw(screen)
 
@@ -250,7 +260,7 @@ class NextMatch:
             self.ready = 0.0
 
     def _say(self, key: str, sound: str = "refused") -> None:
-        self.message, self.message_left = key, MESSAGE_SECONDS
+        self.message, self.message_left = self.context.words(key), MESSAGE_SECONDS
         self.context.sounds.play(sound)
 
     # ---- matches
@@ -299,6 +309,8 @@ class NextMatch:
         if outcome := quick.next_outcome():
             if not self._change(lambda event: event.record(outcome)):
                 self._stop_quick()
+            elif notice := lots_line(self.context.words, self.running.event, outcome):
+                self.message, self.message_left = notice, MESSAGE_SECONDS
         elif quick.over:
             self._stop_quick()
             if quick.left:
@@ -314,12 +326,13 @@ class NextMatch:
 
     # ---- drawing
 
-    def _draw_message(self, screen: pygame.Surface, fixture: Fixture) -> None:
-        words = self.context.words
+    def _draw_message(self, screen: pygame.Surface) -> None:
+        words, fixture = self.context.words, self.fixture
         if self.message_left > 0.0:
-            caption(words(self.message), ALARM if self.message in ("app.unsaved", "events.failed") else FOCUS).draw(
-                screen, 960, view.MESSAGE_Y
-            )
+            grave = self.message in (words("app.unsaved"), words("events.failed"))
+            caption(self.message, ALARM if grave else FOCUS).draw(screen, 960, view.MESSAGE_Y)
+        elif fixture is None:
+            return
         elif self.quick:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
         elif (self.seats.people and not self.seats.waiting) or (self.show and not self.seats.people):
@@ -328,7 +341,8 @@ class NextMatch:
             caption(words("events.stand_in"), FOCUS).draw(screen, 960, view.MESSAGE_Y)
         elif self.seats.waiting:
             seat = self.seats.waiting[0]
-            call = words("events.call", name=fixture.entrants[seat], button="{button}")
+            name = shortened(fixture.entrants[seat], NAME_ROOM)
+            call = words("events.call", name=name, button="{button}")
             call_to_action(call, self.seats.label(seat), LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
 
     def _jobs(self) -> Iterator[Callable[[], object]]:
@@ -344,15 +358,23 @@ class EventMatch:
     running: RunningEvent
     fixture: Fixture
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Who plays, in the order of the seats."""
+        return self.fixture.entrants
+
     def __call__(self, scene: MatchScene) -> AfterMatch:
-        """A match that was ended by hand is still open."""
+        """A match that was ended by hand is still open. A tie in a knock-out leads to an extra match."""
+        words, running = scene.context.words, self.running
         if not scene.match.over:
-            return NextMatch(scene.context, self.running, "events.unplayed")
-        scene.names = self.fixture.entrants
+            return NextMatch(scene.context, running, words("events.unplayed"))
         outcome = outcome_of(self.fixture, scene.match.outcome().rows)
         try:
-            notice = "" if self.running.change(lambda event: event.record(outcome)) else "app.unsaved"
+            notice = "" if running.change(lambda event: event.record(outcome)) else words("app.unsaved")
         except ValueError as reason:  # another process has played this match
             log.warning("%s", reason)
-            notice = "events.elsewhere"
-        return NextMatch(scene.context, self.running, notice, show=not scene.humans)
+            return NextMatch(scene.context, running, words("events.elsewhere"), show=not scene.humans)
+        follows = running.event.open[0] if running.event.open else None
+        again = follows is not None and (follows.number, follows.extra) == (self.fixture.number, self.fixture.extra + 1)
+        notice = notice or lots_line(words, running.event, outcome) or (words("events.tied") if again else "")
+        return NextMatch(scene.context, running, notice, not scene.humans, again)

@@ -9,9 +9,10 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Fixture
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.events.names import versus
 from pigaming_app.scenes.events.running import progress_line
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
-from pigaming_app.scenes.flow.match_words import game_title, match_length
+from pigaming_app.scenes.flow.match_words import game_title, match_length, sudden_death_key
 from pigaming_app.scenes.lobby import seat_card
 from pigaming_app.ui.draw import (
     ARROWS,
@@ -64,7 +65,7 @@ def frame_steps(seat: int, name: str, sign: str, driver: str, state: str) -> Ste
             icon(layer.glow, ARROWS[mark], 224 + 44 * i, 70, 15, MIST, 5)
     else:
         layer.canvas.body(driver, 206, 70, MIST, "l", fit_size(driver, BODY, W - 230, "body"))
-    name, size = fit_text(name, TITLE, W - 56, "hero")
+    name, size = fit_text(name, TITLE, W - 56, "hero", LABEL)
     layer.canvas.text(name, size, MIDDLE, NAME_Y, ICE, "hero", "c")
     yield
     return (yield from layer.render_steps())
@@ -93,9 +94,11 @@ def draw_robot(screen: pygame.Surface, seat: int, x: int, y: int, clock: float, 
 
 
 def match_line(words: Words, fixture: Fixture, setup: Setup | None) -> str:
-    """Game, length and arena in one line; the game alone if the match cannot be played."""
+    """Game, length and arena in one line, or how an extra match ends; the game alone if it cannot be played."""
     if setup is None:
         return game_title(words, fixture.game)
+    if fixture.extra:
+        return "  ·  ".join((words(f"games.{setup.game}"), words(sudden_death_key(setup.game))))
     arena = arena_title(load_cached(setup.game, setup.arena), words.language)
     length = match_length(words, games()[setup.game], setup.minutes, setup.goal)
     return "  ·  ".join((words(f"games.{setup.game}"), length, arena))
@@ -105,7 +108,7 @@ def draw_following(screen: pygame.Surface, words: Words, event: Event) -> None:
     """Draw who plays after the next match, and how far the event is."""
     line = progress_line(words, event)
     text(line, BODY, MIST, "body", "r").draw(screen, RIGHT, THEN_Y)
-    if then := [" ".join(other.entrants) for other in event.open[1:4]]:
+    if then := [versus(other.entrants) for other in event.open[1:4]]:
         room = RIGHT - LEFT - 48 - text_width(line, BODY, "body")
         sentence = following(lambda names: words("events.then", names=names), then, room)
         sentence, size = fit_text(sentence, LABEL, room)
@@ -114,5 +117,5 @@ def draw_following(screen: pygame.Surface, words: Words, event: Event) -> None:
 
 def following(sentence: Callable[[str], str], matches: Sequence[str], room: float) -> str:
     """As many of the next matches in one line as fit into `room` px at LABEL size. `sentence`: the text round them."""
-    lines = [sentence("  –  ".join(matches[:count])) for count in range(len(matches), 0, -1)]
+    lines = [sentence("   ·   ".join(matches[:count])) for count in range(len(matches), 0, -1)]
     return next((line for line in lines if text_width(line, LABEL) <= room), lines[-1])

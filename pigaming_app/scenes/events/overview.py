@@ -1,12 +1,13 @@
 """Bracket and tables of an event as pages of plain values, for its own page and for the second screen."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
+from pigaming_app.events.formats.knockout import FINAL, LOSERS, WINNERS
 from pigaming_app.events.spec import WALKOVER, Fixture, Format, Outcome, Standing
 from pigaming_app.scenes.events import bracket_view, table_view
-from pigaming_app.scenes.events.bracket_view import NEXT, OPEN, PLAYED, Box, Page
+from pigaming_app.scenes.events.bracket_view import LATER, NEXT, OPEN, PLAYED, Box, Page
 from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.events.table_view import TableRow
 from pigaming_app.ui.i18n import Words
@@ -43,7 +44,7 @@ def overview(words: Words, event: Event, playing: int | None = None) -> Overview
     upcoming = playing or (event.open[0].number if event.open else None)
     rows = rows_of(words, event.standings, {entrant.name for entrant in event.entrants if entrant.brain})
     teams = rows_of(words, event.team_standings, set())
-    bracket = bracket_view.pages_of([_box(event, fixture, upcoming) for fixture in event.fixtures])
+    bracket = bracket_view.pages_of(_sides(words, event, upcoming))
     table = [(TABLE, i) for i in range(table_view.pages_of(len(rows)))]
     table += [(TEAMS, i) for i in range(table_view.pages_of(len(teams))) if teams]
     rounds = [(BRACKET, i) for i in range(len(bracket))]
@@ -59,25 +60,65 @@ def overview(words: Words, event: Event, playing: int | None = None) -> Overview
     )
 
 
-def _box(event: Event, fixture: Fixture, upcoming: int | None) -> Box:
+def _sides(words: Words, event: Event, upcoming: int | None) -> list[list[Box]]:
+    """All matches that are drawn; of a knock-out also those to come: the winners' side with the finals, the losers'."""
+    if event.spec.format is not Format.KNOCKOUT:
+        return [[_box(event, event, fixture, upcoming) for fixture in event.fixtures]]
+    shown = outlook(event)
+    boxes = [_box(event, shown, fixture, upcoming) for fixture in shown.fixtures]
+    if boxes[-1].state == LATER:
+        boxes[-1] = replace(boxes[-1], note=words("events.if_needed"), come=frozenset())  # the second final
+    order = {stage: [box for box in boxes if box.stage == stage] for stage in (WINNERS, LOSERS, FINAL)}
+    return [side for side in (order[WINNERS] + order[FINAL], order[LOSERS]) if side]
+
+
+def _box(event: Event, shown: Event, fixture: Fixture, upcoming: int | None) -> Box:
+    """A match of the event, or one to come from its outlook `shown`."""
     outcome = event.outcomes.get(fixture.number)
-    state = PLAYED if outcome else NEXT if fixture.number == upcoming else OPEN
+    drawn = fixture.number <= len(event.fixtures)
+    state = PLAYED if outcome else NEXT if fixture.number == upcoming else OPEN if drawn else LATER
     best = through(event, fixture, outcome) if outcome else ()
+    names, go, come = fixture.entrants, frozenset(best), frozenset(fixture.entrants)
+    if event.spec.format is not Format.KNOCKOUT:
+        go = frozenset()
+    elif fixture.stage == WINNERS and event.spec.seats == 2:  # its matches to come follow from the draw
+        go = frozenset(through(event, fixture, shown.outcomes[fixture.number]))
+    if not drawn:
+        certain = fixture.stage == FINAL or (fixture.stage == WINNERS and event.spec.seats == 2)
+        names = tuple(name if certain and is_settled(event, shown, fixture, name) else "" for name in names)
+        come = come if certain else frozenset()
     return Box(
-        fixture.number,
-        fixture.stage,
-        fixture.round,
-        fixture.entrants,
-        tuple(name in best for name in fixture.entrants),
-        state,
+        fixture.number, fixture.stage, fixture.round, names, tuple(name in best for name in names), state, go, come
     )
+
+
+def outlook(event: Event) -> Event:
+    """A knock-out at its end, for the matches of each round to come. Who wins is made up: the first of a match, of
+    the final the one who has lost, so that both finals are there.
+    """
+    while event.open:
+        event = event.record(_made_up(event, event.open[0]))
+    return event
+
+
+def is_settled(event: Event, shown: Event, fixture: Fixture, name: str) -> bool:
+    """True if it is certain that an entrant plays this match of the outlook `shown`: all matches before are decided."""
+    before = (one for one in shown.fixtures if one.number < fixture.number and name in one.entrants)
+    return all(one.number in event.outcomes for one in before)
+
+
+def _made_up(event: Event, fixture: Fixture) -> Outcome:
+    order = fixture.entrants
+    if fixture.stage == FINAL:
+        lost = knockout.defeats(event.progress.as_field())
+        order = tuple(sorted(order, key=lambda name: -lost[name]))
+    return Outcome(fixture.number, tuple((name,) for name in order), extra=fixture.extra)
 
 
 def through(event: Event, fixture: Fixture, outcome: Outcome) -> tuple[str, ...]:
     """Who goes on from a match of a knock-out, or has won another."""
     if event.spec.format is Format.KNOCKOUT:
-        names = tuple(entrant.name for entrant in event.entrants)
-        return tuple(knockout.through(fixture, outcome, names, event.spec.advance))
+        return tuple(knockout.through(fixture, outcome, event.spec.advance))
     return outcome.places[0] if len(outcome.places) > 1 or outcome.note == WALKOVER else ()
 
 

@@ -12,7 +12,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand
-from pigaming_app.ui.draw import FOCUS, ICE, MIST, PLAYERS, SUB, TITLE
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, PLAYERS, SUB, TITLE
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
 from pigaming_app.ui.draw.layers import RIGHT, backdrop
 from pigaming_app.ui.draw.text import fit_text, text, word
@@ -119,13 +119,14 @@ def draw_names(
     """
     for i, row in enumerate(best):
         if i in shown:
-            name, size = fit_text(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero")
+            name, size = fit_text(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM, "hero", BODY)
             x = dx + middle + (STEP_W + APART) * (ORDER.index(i) - 1)
             word(name, size, FOCUS if i == 0 else ICE).draw(screen, x, dy + NAME_Y)
     for i, row in enumerate(rest):
         y = dy + REST_Y + REST_PITCH * i
         text(str(row.place), SUB, MIST, "head", "r").draw(screen, dx + REST_X, y)
-        text(row.entrant, SUB, ICE, "hero", "l", RIGHT - REST_X - 40).draw(screen, dx + REST_X + 40, y)
+        name, size = fit_text(row.entrant, SUB, RIGHT - REST_X - 40, "hero", BODY)
+        text(name, size, ICE, "hero", "l").draw(screen, dx + REST_X + 40, y)
 
 
 def podium_rows(running: RunningEvent) -> list[Standing]:

@@ -23,7 +23,7 @@ from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
 from pigaming_app.ui.draw import Color, cut_box, font
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.draw.theme import line_image
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.png import png_of
@@ -41,6 +41,7 @@ STEP = 0.006  # s of drawing in a frame
 TABLE_TOP, FOOT = 1480, H - MARGIN  # px
 ROW, NAME = 190.0, 110  # px, of a table with few rows: between two of them, and its type
 BRACKET_TOP, LINE, BESIDE = 660, 116.0, 0.28  # px; height of a name at most, and as a share of its column
+SMALLEST = 26  # px, of type: 6 pt
 SPLIT = 56, 1 / 6  # px between two columns of a bracket at most, and as a share of a column
 
 log = logging.getLogger("pigaming")
@@ -133,7 +134,7 @@ def draw_pages(event: Event, words: Words, pages: list[pygame.Surface]) -> Itera
     if event.spec.format is Format.KNOCKOUT:
         losers = [fixture for fixture in event.fixtures if fixture.stage == knockout.LOSERS]
         winners = [fixture for fixture in event.fixtures if fixture.stage != knockout.LOSERS]
-        for fixtures, title in ((winners, ""), (losers, words("events.second_chance"))):
+        for fixtures, title in ((winners, words("events.winners_side")), (losers, words("events.second_chance"))):
             if fixtures:
                 pages.append(page := _paper())
                 yield
@@ -151,7 +152,7 @@ def _write(
     page: pygame.Surface, line: str, size: int, at: tuple[float, float], color: Color, align: str = "l", room: float = W
 ) -> None:
     """A line with its middle at y. `align`: see `text`."""
-    size = fit_size(line, size, room, "head")
+    line, size = fit_text(line, size, room, "head", min(size, SMALLEST))
     image = line_image(line, "head", size, color)
     x = at[0] - image.get_width() * {"l": 0.0, "c": 0.5, "r": 1.0}[align]
     middle = font("head", size).get_ascent() - 0.35 * size
@@ -211,7 +212,6 @@ def _bracket(page: pygame.Surface, event: Event, words: Words, matches: Sequence
     rounds = [list(found) for _, found in groupby(matches, key=lambda one: (one.stage, one.round))]
     split = round(min(SPLIT[0], SPLIT[1] * (W - 2 * MARGIN) / max(1, len(rounds))))
     wide = (W - 2 * MARGIN + split) / max(1, len(rounds))
-    names = tuple(entrant.name for entrant in event.entrants)
     before: list[tuple[pygame.Rect, frozenset[str]]] = []  # boxes of the column before, and who goes on
     for i, fixtures in enumerate(rounds):
         x = MARGIN + wide * i
@@ -221,7 +221,7 @@ def _bracket(page: pygame.Surface, event: Event, words: Words, matches: Sequence
         now: list[tuple[pygame.Rect, frozenset[str]]] = []
         for k, fixture in enumerate(fixtures):
             outcome = event.outcomes.get(fixture.number)
-            best = knockout.through(fixture, outcome, names, event.spec.advance) if outcome else frozenset()
+            best = knockout.through(fixture, outcome, event.spec.advance) if outcome else frozenset()
             line = min(LINE, BESIDE * wide, (pitch - 14) / len(fixture.entrants))
             high = round(line * len(fixture.entrants)) + 8
             middle = BRACKET_TOP + pitch * (k + 0.5)

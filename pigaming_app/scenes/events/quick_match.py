@@ -86,12 +86,12 @@ def serve() -> None:
         output.flush()
 
 
-def play(event: "Event", fixture: "Fixture") -> "Outcome":
-    """Play a match of AIs to its end. Raises ValueError if a brain or an arena is missing."""
+def play(event: "Event", fixture: "Fixture", person: str = "human") -> "Outcome":
+    """Play a match of AIs to its end; `person` drives for people. Raises ValueError if a brain or arena is missing."""
     from pigaming_app.ai.registry import new_match
     from pigaming_app.events.match_setup import outcome_of, setup_of
 
-    match = new_match(setup_of(event, fixture))
+    match = new_match(setup_of(event, fixture, person))
     while not match.over:
         match.tick()
     return outcome_of(fixture, match.outcome().rows)

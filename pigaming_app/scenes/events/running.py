@@ -9,10 +9,12 @@ from pathlib import Path
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
+from pigaming_app.events.formats import knockout
 from pigaming_app.events.journal import Added
 from pigaming_app.events.match_setup import setup_of
-from pigaming_app.events.spec import MOST, Fixture
+from pigaming_app.events.spec import MOST, Fixture, Outcome
 from pigaming_app.games.game import Setup
+from pigaming_app.scenes.events.names import shortened
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
@@ -69,7 +71,7 @@ class RunningEvent:
     def accepts_late(self) -> bool:
         """True as long as late entrants may join: until a match of round two has been played."""
         event = self.event
-        begun = any(fixture.round > 1 and fixture.number in event.outcomes for fixture in event.fixtures)
+        begun = any(fixture.round > 1 and fixture.number in event.played for fixture in event.fixtures)
         return not begun and not event.over and len(event.entrants) < MOST
 
     def brain(self, name: str) -> str:
@@ -97,3 +99,20 @@ def progress_line(words: Words, event: Event) -> str:
 def stage_name(words: Words, stage: str, number: int) -> str:
     """The name of a stage, or of a round."""
     return words(f"events.stage_{stage}", round=number) if stage else words("events.round", round=number)
+
+
+def lots_line(words: Words, event: Event, outcome: Outcome) -> str:
+    """Who goes on by lot, in one line, if lots were drawn after this match; else nothing."""
+    if not outcome.extra or not event.lots(outcome.fixture) or outcome != event.played[outcome.fixture][-1]:
+        return ""
+    fixture = next(one for one in event.fixtures if one.number == outcome.fixture)
+    best = knockout.through(fixture, event.outcomes[fixture.number], event.spec.advance)
+    names = [name for name in outcome.places[0] if name in best]
+    return words("events.lots", name=", ".join(map(shortened, names)))
+
+
+def decided_by(words: Words, event: Event, number: int) -> str:
+    """What has decided a match, if it was level: extra matches or lots; else nothing."""
+    if event.lots(number):
+        return words("events.by_lot")
+    return words("events.sudden_death") if len(event.played.get(number, ())) > 1 else ""

@@ -46,6 +46,13 @@ class Seats:
         """Seats of people that nobody has taken."""
         return [seat for seat in self.people if seat not in self.claims]
 
+    def keep(self) -> None:
+        """Give the seats to the devices that the people have driven with before."""
+        for seat in self.waiting:
+            device = self._last(seat)
+            if device and device not in self.claims.values() and self.context.controls.connected(device):
+                self.claims[seat] = device
+
     def take(self, device: Device) -> bool:
         """Take a seat: the one of this device, or the first that is free; false if there is none."""
         fixture = self.fixture

@@ -14,7 +14,7 @@ from pigaming_app.ui.draw.text import fit_size, fit_text, text
 HEADS_Y, TOP, BOTTOM = 222, 254, 930  # px
 GAP = 24  # px between two columns
 WIPE, APART = 0.25, 0.03  # s: of one row, from row to row
-CELL = {1: 200, 2: 156, 3: 130}  # px, width of a value, by number of columns
+CELL = {1: 200, 2: 198, 3: 164}  # px, width of a value, by number of columns
 FIGURES = {1: 4, 2: 2, 3: 1}  # values shown, by number of columns
 PLACE_W = 96  # px
 
@@ -105,7 +105,7 @@ def table_row_steps(row: TableRow, w: int, h: int, columns: int) -> Steps[LitIma
     if row.mark:
         icon(layer.glow, "ai", x + size * 0.4, middle, size * 0.36, MIST, 4)
         x, room = x + round(size * 1.05), room - round(size * 1.05)
-    name, name_size = fit_text(row.name, size, room, "hero")
+    name, name_size = fit_text(row.name, size, room, "hero", BODY)
     layer.canvas.text(name, name_size, x, middle, color, "hero")
     if best:
         at = x + text_width(name, name_size, "hero") + size * 0.7

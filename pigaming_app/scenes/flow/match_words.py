@@ -40,6 +40,11 @@ def last_variant(settings: Settings, game: str) -> Variant:
     return games()[game].variants.get(settings.choice(game).variant, games()[game].default)
 
 
+def sudden_death_key(game: str) -> str:
+    """The key of the sentence that says what ends a sudden death."""
+    return "events.first_lap" if games()[game].timed else "events.next_point"
+
+
 def match_length(words: Words, game: Game, minutes: float, goal: int) -> str:
     """The length of a match: laps, pallets, or minutes."""
     return words(f"setup.count_{game.goal}", count=goal) if goal else words("setup.min", minutes=f"{minutes:g}")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.games.game import Setup
+from pigaming_app.scenes.flow.match_words import sudden_death_key
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, STEEL, THIN, GlowCanvas, cut_box, text_width
@@ -28,8 +29,10 @@ def rule_card(
     words: Words, setup: Setup, occupied: Sequence[pygame.Rect], sign: tuple[int, int]
 ) -> tuple[Caption, tuple[int, int]]:
     """The card of a match, wide or narrow, and its centre on the canvas, where it covers least: see `free_place`."""
-    key = f"{setup.game}_{setup.variant}"
-    cards = [card(words(f"setup.{key}"), words(f"rules.{key}"), count) for count in (2, 3)]
+    title, sentence = f"setup.{setup.game}_{setup.variant}", f"rules.{setup.game}_{setup.variant}"
+    if setup.sudden_death:
+        title, sentence = "events.sudden_death", sudden_death_key(setup.game)
+    cards = [card(words(title), words(sentence), count) for count in (2, 3)]
     places = [free_place((sheet.width, sheet.height), occupied, sign) for sheet in cards]
     best = min(range(len(cards)), key=lambda i: places[i][0])
     return cards[best], places[best][1]

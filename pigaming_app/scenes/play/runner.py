@@ -19,25 +19,31 @@ from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.last_hit import LastHit
 from pigaming_app.scenes.real_replays import shown_things
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.view import ShownEffects, SoundCue
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import PLAYERS
+from pigaming_app.ui.draw import BODY, PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
+from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import Caption, caption
 
 PAUSED_BRIGHTNESS = 72  # of 255: brightness of a match behind a page
 TICK_SOUNDS = 10  # seconds at the end with a tick sound each
+NAME_ROOM = 300  # px, of a name in a caption
 CAPTION_GAP = 104  # px from a robot to its caption
 HINT_ROOM = 140.0  # px below a robot that a hint needs
 TOP_SIGNS, SIGN_ROOM = 260.0, 110  # px from the upper edge, above which signs are below a robot; px that they take
 
 
 class MatchRunner:
-    """A match and its view. `loud`: play its sounds. `rumble`: called for each seat whose player feels an event."""
+    """A match and its view. `loud`: play its sounds. `rumble`: called for each seat whose player feels an event.
+
+    `names`: of the entrants on the first seats, in an event.
+    """
 
     def __init__(
         self,
@@ -45,12 +51,15 @@ class MatchRunner:
         match: Match,
         loud: bool = True,
         rumble: Callable[[int, Rumble], None] = lambda seat, rumble: None,
+        names: Sequence[str] = (),
     ) -> None:
-        self.context, self.match, self.loud, self.rumble = context, match, loud, rumble
+        self.context, self.match, self.loud, self.rumble, self.names = context, match, loud, rumble, names
         self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
         kind = SCREENS[match.setup.game].view
         with self._tag_sprites():
             self.view = kind(match.arena, match.state, self.players, ShownEffects(context.settings), context.words)
+        if names:
+            self.view.show_names(names)
         self.brain = BrainOverlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
         self.things: Sequence[ThingSpec] = match.arena.things  # in the view
@@ -123,11 +132,18 @@ class MatchRunner:
     def _captions(self, devices: Sequence[Device | None]) -> list[tuple[Caption, pygame.Rect]]:
         """The driver's caption of each robot, and its box."""
         seats = [seat for seat, robot in enumerate(self.match.state.robots) if robot.present]
-        drivers = [(*self.driver(seat, devices[seat]), seat) for seat in seats]
-        captions = [caption(name, PLAYERS[seat], sign=sign) for name, sign, seat in drivers]
+        captions = [self._caption(seat, devices[seat]) for seat in seats]
         sizes = [(sheet.width, sheet.height) for sheet in captions]
         reach = [self.view.reach(seat, CAPTION_GAP) for seat in seats]
         return list(zip(captions, caption_boxes(self.robots(), sizes, reach), strict=True))
+
+    def _caption(self, seat: int, device: Device | None) -> Caption:
+        """Who drives: the name of an entrant, for a person with the device."""
+        driver, sign = self.driver(seat, device)
+        if name := name_of(self.names, seat):
+            name = fit_text(name, BODY, NAME_ROOM, "body", BODY)[0]
+            driver = f"{name}  ·  {driver}" if device else name
+        return caption(driver, PLAYERS[seat], sign=sign)
 
     def draw_beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:
         """Draw a caption above or below a robot, where the arena has more room."""

@@ -61,7 +61,7 @@ class MatchScene:
     while or with one button; `join_allowed`: true if a free device may take the seat of an AI. `game_choice`: see
     `Results`. `rounds`: the rounds before this one, in a match of several; None: it is the only one. `arena`: that of
     the setup with things on it; its results are no records. `after`: makes the scene that follows in place of the
-    results; nobody then joins the match or restarts it.
+    results; nobody then joins the match or restarts it. It may have `names`, those of the entrants on the first seats.
     """
 
     def __init__(
@@ -81,7 +81,8 @@ class MatchScene:
         self.humans = [i for i, seat in enumerate(setup.seats) if seat.brain == "human"]
         self.devices: list[Device | None] = [*devices, None, None, None, None][: len(setup.seats)]
         self.match = new_match(setup, plant, arena)
-        self.runner = MatchRunner(context, self.match, rumble=self._rumble)
+        self.names: Sequence[str] = getattr(after, "names", ())
+        self.runner = MatchRunner(context, self.match, rumble=self._rumble, names=self.names)
         self.countdown = Countdown(lead=LEAD_SECONDS)
         self.countdown_at = CENTRE
         self.rule_card: tuple[Caption, tuple[int, int]] | None = None
@@ -97,7 +98,6 @@ class MatchScene:
         self.began, self.noted = now(), False  # for the day log
         self.ai_assisted: set[int] = set()
         self.join_allowed = self.restart_allowed = after is None
-        self.names: Sequence[str] = ()  # of the first seats, in an event: set by `after`
         for seat in self.humans:
             self._sit(seat, self.devices[seat])
         if self.humans and arena is None:

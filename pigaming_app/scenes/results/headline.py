@@ -37,10 +37,10 @@ def headline(
     if not outcome.winners:
         return words("results.tie")
     seat = outcome.winners[0]
+    if won := [names[winner] for winner in outcome.winners if winner < len(names)]:
+        return words("results.name_wins" if len(won) == 1 else "results.names_win", name=" + ".join(won))
     if in_teams(outcome, setup):
         return words("results.team_wins", team=team_name(words, setup, setup.seats[seat].team))
-    if seat < len(names):
-        return words("results.name_wins", name=names[seat])
     brain = setup.seats[seat].brain
     if brain == "human":
         return words("results.stand_in_wins" if seat in absent else "results.wins", player=seat + 1)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from pigaming_app.events.spec import Fixture
 from pigaming_app.scenes.events.drivers import driver_label, people_of, suggested
+from pigaming_app.scenes.events.names import shortened, versus
 from pigaming_app.scenes.events.next_page import EventMatch, NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.brain_names import brain_name
@@ -77,13 +78,13 @@ def called(context: Context, running: RunningEvent, fixture: Fixture, claims: di
 
 def next_line(words: Words, now: EventNow) -> str:
     """The next match in one line: names with their devices; empty if there is none."""
-    names = [f"{one.name} ({one.device})" if one.device else one.name for one in now.called]
+    names = [f"{shortened(one.name)} ({one.device})" if one.device else shortened(one.name) for one in now.called]
     return words("scoreboard.next", names="  –  ".join(names)) if names else ""
 
 
 def now_line(words: Words, now: EventNow) -> str:
     """The match that is being played in one line; empty if there is none."""
-    return words("scoreboard.now", names="  –  ".join(now.playing.entrants)) if now.playing else ""
+    return words("scoreboard.now", names=versus(now.playing.entrants)) if now.playing else ""
 
 
 def round_line(words: Words, match: EventMatch) -> str:

@@ -9,6 +9,7 @@ import pygame
 
 from pigaming_app.events.event import Event
 from pigaming_app.scenes.events import bracket_view, next_view, podium_page, table_view
+from pigaming_app.scenes.events.names import versus
 from pigaming_app.scenes.events.overview import BRACKET, Overview, overview
 from pigaming_app.scenes.events.running import progress_line
 from pigaming_app.scenes.flow.board_page import Box, Part
@@ -55,7 +56,8 @@ class EventPage:
         pages = self._pages(now, shown)
         kind, number = pages[int((self.clock() - self._since) / TURN) % len(pages)]
         words, event = self.context.words, now.running.event
-        title = words("events.next") if kind == CALL else event.spec.title
+        call = "events.sudden_death" if now.coming and now.coming[0].extra else "events.next"
+        title = words(call) if kind == CALL else event.spec.title
         right = words("events.over") if event.over else progress_line(words, event)
         parts = [Part(HEAD, (title, right), partial(_head, title, right)), self._foot(now, kind)]
         if kind == CALL:
@@ -86,7 +88,7 @@ class EventPage:
         words = self.context.words
         lines = [line for line in (now_line(words, now), "" if kind == CALL else next_line(words, now)) if line]
         if kind == CALL and len(now.coming) > 1:
-            names = [" ".join(fixture.entrants) for fixture in now.coming[1:4]]
+            names = [versus(fixture.entrants) for fixture in now.coming[1:4]]
             lines.append(next_view.following(lambda those: words("events.then", names=those), names, FOOT[2] - 72))
         content = (*lines, now.playing is not None)
         return Part(FOOT, content, partial(_foot, tuple(lines), now.playing is not None))
@@ -136,13 +138,14 @@ def _podium(now: EventNow) -> Part:
 
 
 def _bracket(shown: Overview, number: int) -> list[Part]:
-    """A part for each column; all are drawn in each of them, as their lines and glow cross its border."""
+    """A part for each column; all are drawn in each of them, as the lines between whole rounds cross its border."""
     page, heads = shown.bracket[number], shown.stages(number)
     pitch = bracket_view.W + bracket_view.GAP
     parts = []
-    for i in range(len(page)):
+    for i, column in enumerate(page):
         x = LEFT + i * pitch - bracket_view.GAP // 2
-        content: Hashable = (page[max(0, i - 1) : i + 2], heads[i])
+        joined = [other for other in page[max(0, i - 1) : i + 2] if other.whole and column.whole]
+        content: Hashable = (column, heads[i], *joined)
 
         def paint(surface: pygame.Surface, x: int = x) -> None:
             bracket_view.draw_bracket(surface, page, heads, -x, -TOP, match_box)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+from pigaming_app.hardware.control.safety import REMOTE
 from pigaming_app.ui.draw import LINE, Color, GlowCanvas, cut_box, regular_polygon
 
 Draw = Callable[[GlowCanvas, float, float, float, Color], None]
@@ -69,6 +70,7 @@ SIGNS: dict[str, Draw] = {
     "foreign": _radio,
     "key": _radio,
     "deadman": _radio,
+    **dict.fromkeys(REMOTE.values(), _radio),
     "empty": _battery,
     "low": _battery,
     "stopped": _stop,

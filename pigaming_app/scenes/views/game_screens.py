@@ -44,7 +44,7 @@ class GameScreens:
     """How one game appears.
 
     - `view(arena, state, players, options, words)`: the view of a match.
-    - `tile(canvas, x, y)`: the picture on the title, in 560 x 284 px below and right of (x, y).
+    - `tile(canvas, x, y)`: its picture, in 560 x 284 px below and right of (x, y); the title shows it smaller.
     - `busy(variant)`: its most laborious match, for the benchmark of frame times; None: a match of four AIs.
     - `fire`: text key (table `howto`) of what FIRE does; empty: nothing.
     - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.

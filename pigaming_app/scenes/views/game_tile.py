@@ -6,46 +6,47 @@ import pygame
 
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui.draw import (
-    BODY,
     FOCUS,
     HAIR,
     ICE,
     LABEL,
     MIST,
     STEEL,
+    Color,
     GlowCanvas,
     dim,
     panel,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import MARGIN, Layer, LitImage, span
+from pigaming_app.ui.draw.layers import LEFT, MARGIN, Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.text import fit_lines, fit_size, wrap_balanced
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out
 
 TILE_Y, TILE_H = 416, 416
-IN_VIEW = 3  # tiles
+IN_VIEW = 4  # tiles
+W = span(0, 12 // IN_VIEW)[1]  # px, of a tile
+PITCH = span(12 // IN_VIEW, 1)[0] - LEFT  # px, from tile to tile
+PICTURE = pygame.Rect(MARGIN, MARGIN, 560, 284)  # as games draw it
+SMALLER = W / PICTURE.w  # of the picture on a tile
+RULE_Y, NAME_Y, LINE_Y = 222, 272, 330  # px
+TEXT_X, LINE_PITCH = 24, 48  # px
 SLIDE = 0.09  # s, time constant of a moving row
 
 
-def tile_rect(i: int, y: int = TILE_Y) -> pygame.Rect:
-    """Rectangle of the i-th tile from the left; beyond the third they lie outside the picture."""
-    x, w = span(4 * i, 4)
-    return pygame.Rect(x, y, w, TILE_H)
-
-
 class TileStrip:
-    """A row of tiles, three in the picture; the row moves when the focus goes beyond, and the next tile peeks in."""
+    """A row of tiles, four in the picture; the row moves when the focus goes beyond, and the next tile peeks in."""
 
     def __init__(self, names: Sequence[str], y: int = TILE_Y) -> None:
         self.names, self.y = list(names), y
+        self.left = LEFT + PITCH * max(0, IN_VIEW - len(self.names)) // 2  # fewer are centred
         self.first = 0  # index of the leftmost tile in the picture
         self.offset = 0.0  # the same while the row moves
 
     def spots(self) -> list[FocusSpot]:
         """The tiles as spots of a focus, where they will come to rest."""
-        return [FocusSpot(name, tile_rect(i - self.first, self.y)) for i, name in enumerate(self.names)]
+        return [FocusSpot(name, self._box(i, self.first)) for i, name in enumerate(self.names)]
 
     def follow(self, focus: Focus) -> bool:
         """Bring the focused tile into the picture. True if the row moves; the spots are others then."""
@@ -62,22 +63,23 @@ class TileStrip:
 
     def draw(self, screen: pygame.Surface, lit: Callable[[str], LitImage]) -> None:
         """Draw the tiles; `lit(name)` is the picture of one. At rest, those that peek in are empty: no word is cut."""
-        pitch = tile_rect(1).x - tile_rect(0).x
         for i, name in enumerate(self.names):
-            box = tile_rect(i, self.y).move(-round(self.offset * pitch), 0)
+            box = self._box(i, self.offset)
             if box.colliderect(screen.get_rect()):
                 black_out(screen, box)
                 whole = self.offset != self.first or i in range(self.first, self.first + IN_VIEW)
                 (lit(name) if whole else empty_tile()).draw(screen, *box.topleft)
 
+    def _box(self, i: int, first: float) -> pygame.Rect:
+        """Rectangle of the i-th tile while the `first` one is the leftmost."""
+        return pygame.Rect(self.left + PITCH * i - round(PITCH * first), self.y, W, TILE_H)
+
 
 @cached
 def empty_tile() -> LitImage:
     """The frame of a tile that peeks in; top left at (0, 0)."""
-    w = span(0, 4)[1]
-    layer = Layer(0, 0, w, TILE_H)
-    panel(layer.glow, 0, 0, w, TILE_H, STEEL)
-    layer.glow.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
+    layer = Layer(0, 0, W, TILE_H)
+    draw_frame(layer.glow, STEEL)
     return layer.render()
 
 
@@ -85,31 +87,32 @@ def empty_tile() -> LitImage:
 @resumable
 def tile(game: str, name: str, line: str, hot: bool) -> Steps[LitImage]:
     """Picture and name of a game; top left at (0, 0)."""
-    w = span(0, 4)[1]
-    layer = Layer(0, 0, w, TILE_H)
-    panel(layer.glow, 0, 0, w, TILE_H, dim(FOCUS, 0.55) if hot else STEEL)
-    layer.glow.line([(24, 284), (w - 24, 284)], STEEL, HAIR)
-    color = FOCUS if hot else ICE
-    layer.canvas.text(name, fit_size(name, LABEL, w - 64), 32, 326, color)
-    layer.canvas.body(line, 32, 380, ICE if hot else MIST, "l", fit_size(line, BODY, w - 64, "body"))
+    layer, room = Layer(0, 0, W, TILE_H), W - 2 * TEXT_X
+    draw_frame(layer.glow, dim(FOCUS, 0.55) if hot else STEEL)
+    layer.canvas.text(name, fit_size(name, LABEL, room), TEXT_X, NAME_Y, FOCUS if hot else ICE)
+    size, lines = fit_lines(line, room, 2)
+    for i, part in enumerate(wrap_balanced(line, len(lines), size)):
+        layer.canvas.body(part, TEXT_X, LINE_Y + LINE_PITCH * i, ICE if hot else MIST, "l", size)
     drawn = picture(game)
     lit = yield from layer.render_steps()
-    drawn.draw(lit.image, -lit.at[0], -lit.at[1])
+    yield
+    smaller = pygame.transform.smoothscale_by(drawn.image, SMALLER)
+    LitImage(smaller, (round(SMALLER * drawn.at[0]), round(SMALLER * drawn.at[1]))).draw(lit.image, MARGIN, MARGIN)
     return lit
+
+
+def draw_frame(ink: GlowCanvas, color: Color) -> None:
+    """The frame of a tile, and the rule below its picture."""
+    panel(ink, 0, 0, W, TILE_H, color)
+    ink.line([(TEXT_X, RULE_Y), (W - TEXT_X, RULE_Y)], STEEL, HAIR)
 
 
 @cached
 @resumable
 def picture(game: str) -> Steps[LitImage]:
     """The picture of a game, 560 x 284 px; top left at (0, 0)."""
-    layer = Layer(MARGIN, MARGIN, 560, 284)  # no offset: robots are placed directly on the sheet
-    vignette(game, layer.glow, MARGIN, MARGIN)
+    layer = Layer(*PICTURE)  # no offset: robots are placed directly on the sheet
+    SCREENS[game].tile(layer.glow, MARGIN, MARGIN + 4)
     yield
     lit = yield from layer.render_steps()
     return LitImage(lit.image, (-MARGIN, -MARGIN))
-
-
-def vignette(game: str, ink: GlowCanvas, x: float, y: float) -> GlowCanvas:
-    """Draw the picture of a game in the upper 284 px of a 560 x 416 px tile at (x, y)."""
-    SCREENS[game].tile(ink, x, y + 4)
-    return ink

@@ -8,7 +8,7 @@ from pigaming_app.games.registry import OURS, games
 from pigaming_app.scenes.views.game_screens import GameScreens
 from pigaming_app.scenes.views.games import factory, pitanks, race
 from pigaming_app.storage.plugins.parts import SCREENS as PART
-from pigaming_app.storage.plugins.parts import parts, stopped
+from pigaming_app.storage.plugins.parts import hidden, parts
 from pigaming_app.ui.i18n import fields, texts
 
 
@@ -58,4 +58,4 @@ SCREENS: Mapping[str, GameScreens] = {
 
 def shown_games() -> list[str]:
     """The games that can be played on the screen, in the order of the title."""
-    return [name for name in games() if name in SCREENS and name not in stopped()]
+    return [name for name in games() if name not in hidden()]

@@ -1,6 +1,6 @@
 """View of a game with walls, robots and points, for other games to extend."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -49,6 +49,9 @@ class SimpleView(MatchView):
     def make_hud(self, state: Any) -> ScoreHud:
         """The HUD, on `background` for `players`."""
         return ScoreHud(self.background, state, self.players)
+
+    def show_names(self, names: Sequence[str]) -> None:
+        self.hud.names = names
 
     def sprites(self) -> Iterator[Job]:
         """Prewarm jobs for sprites of its own."""

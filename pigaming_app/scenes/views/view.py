@@ -105,6 +105,9 @@ class MatchView:
         """Show these real things from now on; marker blocks move up to 30 times a second."""
         self.things.show(things)
 
+    def show_names(self, names: Sequence[str]) -> None:
+        """Called before the match for those of an event: show the names of the first seats in the HUD."""
+
     def watch(self, state: Any) -> list[SoundCue]:
         """Process the last tick; returns its sounds."""
         raise NotImplementedError

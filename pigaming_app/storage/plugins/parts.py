@@ -23,8 +23,8 @@ from pigaming_app.storage.plugins.time_limit import time_limit
 from pigaming_app.storage.safe_mode import is_safe
 
 T = TypeVar("T")
-RULES, SCREENS = "", "screens"  # parts; the rules are in `__init__`
-ABOVE = ("ai", "network", "training", SCREENS)  # parts that do not determine how a match plays out
+RULES, SCREENS, EDITOR = "", "screens", "editor"  # parts; the rules are in `__init__`
+ABOVE = ("ai", "network", "training", SCREENS, EDITOR)  # parts that do not determine how a match plays out
 
 LOADING = 20.0  # s, for one part
 
@@ -68,7 +68,7 @@ def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str
 
     `fits(name, object)`: the reason why it is unusable, or "". Plug-ins that fail are left out here and from then on.
     """
-    found: dict[str, T] = {}
+    found, before = dict[str, T](), {*_failed}
     for plugin in plugins():
         if plugin not in _failed and (value := _loaded(plugin, part, attribute)) is not None:
             if not isinstance(value, kind):
@@ -77,6 +77,8 @@ def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str
                 _leave_out(plugin, reason)
             else:
                 found[plugin.name] = value
+    if part == EDITOR:  # loaded while the game is on the screen: its texts and arenas stay
+        _stopped.update(plugin.name for plugin in {*_failed} - before)
     return found
 
 
@@ -85,6 +87,17 @@ def data_folders(kind: str) -> Iterator[tuple[str, Path]]:
     for plugin in plugins():
         if plugin not in _failed or plugin.name in _stopped:
             yield plugin.name, plugin.folder / kind
+
+
+def hidden() -> set[str]:
+    """The names of the plug-ins that no screen shows: they have failed so far, or have no screens."""
+    return {plugin.name for plugin in _failed} | _headless()
+
+
+@cache
+def _headless() -> set[str]:
+    loaded = [plugin for plugin in plugins() if plugin not in _failed]
+    return {plugin.name for plugin in loaded if not find_spec(f"{plugin.module}.{SCREENS}")}
 
 
 def leave_out(name: str, reason: str) -> None:
@@ -121,8 +134,8 @@ def rule_sources(name: str) -> tuple[Path, ...]:
 
 
 def kernel_sources(plugin: Plugin) -> tuple[Path, ...]:
-    """The source files of a plug-in with kernels: all but its screens."""
-    return tuple(_sources(plugin, (SCREENS,)))
+    """The source files of a plug-in with kernels: all but what belongs to the screen."""
+    return tuple(_sources(plugin, (SCREENS, EDITOR)))
 
 
 def _sources(plugin: Plugin, without: tuple[str, ...]) -> Iterator[Path]:

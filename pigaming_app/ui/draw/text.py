@@ -20,15 +20,15 @@ def fit_size(text: str, size: int, width: float, face: str = "head") -> int:
     return size if wide <= width else int(size * width / wide)
 
 
-def fit_text(text: str, size: int, width: float, face: str = "head") -> tuple[str, int]:
-    """A line and its size, px: smaller where it is too wide, but not below SMALLEST; then its end is cut off."""
+def fit_text(text: str, size: int, width: float, face: str = "head", smallest: int = SMALLEST) -> tuple[str, int]:
+    """A line and its size, px: smaller where it is too wide, but not below `smallest`; then its end is cut off."""
     fits = fit_size(text, size, width, face)
-    if fits >= SMALLEST:
+    if fits >= smallest:
         return text, fits
     kept = text
-    while kept and text_width(f"{kept}…", SMALLEST, face) > width:
-        kept = kept[:-1].rstrip()
-    return f"{kept}…", SMALLEST
+    while kept and text_width(f"{kept}…", smallest, face) > width:
+        kept = kept[:-1].rstrip(" .")
+    return f"{kept}…", smallest
 
 
 def parts(text: str) -> list[str]:

@@ -85,14 +85,6 @@ def test_of_four_the_better_half_goes_on():
     assert stages(event, 2) == [("w", 1, 2, 3, 4), ("l", 5, 6, 7, 8)]
 
 
-def test_equal_places_are_decided_by_scores_then_by_the_seeding():
-    event = new_event(Format.KNOCKOUT, 4)
-    one, two = event.open
-    event = event.record(Outcome(one.number, (("P1", "P4"),), {"P1": 2.0, "P4": 3.0}))
-    event = event.record(Outcome(two.number, (("P3", "P2"),), {"P2": 2.0, "P3": 2.0}))
-    assert stages(event, 2) == [("w", 2, 4), ("l", 1, 3)]
-
-
 def test_a_late_entrant_begins_in_the_losers_bracket():
     event = played(new_event(Format.KNOCKOUT, 4), rounds=1).add(Entrant("P5"))
     assert stages(event, 2) == [("l", 4, 5)]

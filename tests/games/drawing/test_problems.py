@@ -15,7 +15,7 @@ from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.hostile import VALUES
 
-GAMES = ("pitanks", "factory", "race")
+GAMES = tuple(games())
 SHIPPED = [(game, name) for game in GAMES for name in shipped_arenas(game)]
 LIMIT = 0.05  # s of processor time
 FLAT = '[title]\nen = "a"\npt = "a"\n' + "".join(
@@ -81,6 +81,11 @@ def test_they_are_found_while_somebody_draws(game: str, name: str) -> None:
         ("factory", "hall", "machine", 1, "at", (30, 216), "machine[2].at", (30, 216)),
         ("factory", "hall", "machine", 1, "at", (520, 300), "machine[2]", (520, 174)),
         ("factory", "hall", "start", 0, "at", (520, 216), "start[1]", (520, 216)),
+        ("football", "classic", "start", 0, "at", (60, 60), "start[1]", (60, 60)),
+        ("football", "classic", "goal", 0, "width", 600, "goal.width", (800, 450)),
+        ("football", "classic", "drop", 3, "at", (800, 5), "drop[4].at", (800, 5)),
+        ("football", "classic", "drop", 0, "at", (790, 450), "drop", (800, 450)),
+        ("football", "bumpers", "wall", 4, "to", (540, 1000), "wall[5].to", (540, 635)),
     ],
 )
 def test_each_is_where_it_arises(

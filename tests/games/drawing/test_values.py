@@ -9,8 +9,8 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.record import comparable_bytes
 from pigaming_app.sim.toml_table import FieldError
 
-SHIPPED = [(game, name) for game in ("pitanks", "factory", "race") for name in shipped_arenas(game)]
-MADE = [(game, f"surprise-{seed}") for game in ("pitanks", "factory", "race") for seed in range(3)]
+SHIPPED = [(game, name) for game in games() for name in shipped_arenas(game)]
+MADE = [(game, f"surprise-{seed}") for game in games() for seed in range(3)]
 
 
 def source_of(game: str, name: str) -> str:

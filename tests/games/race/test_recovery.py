@@ -8,7 +8,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import CoursePosition, locate, point_at
-from pigaming_app.games.race.recovery import BACK, BACKWARD_TICKS, RUN_UP, STILL_TICKS
+from pigaming_app.games.race.recovery import BACK, BACKWARD_TICKS, STILL_TICKS
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, STUCK, WRONG_WAY
 from pigaming_app.sim.contact import BERTH
 from pigaming_app.sim.world import HZ
@@ -103,7 +103,7 @@ def test_a_robot_that_pushes_without_moving_is_stuck():
     assert racer.lost == 0, "a robot that rests is not stuck"
 
 
-def test_after_a_missed_line_it_is_put_before_that_line_and_the_lap_goes_on():
+def test_after_a_missed_line_it_is_put_before_where_it_left_its_way_and_the_lap_goes_on():
     ride = Ride(present=(0,))
     one, two, three, _ = (line.along for line in ride.lines)
     racer, robot = ride.racers[0], ride.state.robots[0]
@@ -113,8 +113,9 @@ def test_after_a_missed_line_it_is_put_before_that_line_and_the_lap_goes_on():
     assert racer.lost == MISSED_LINE
     press(ride.match)
     assert robot.recover == 1
-    assert (robot.recover_x, robot.recover_y) == pytest.approx(point_at(ride.course, two - RUN_UP, 0.0))
-    ride.along(0, two - RUN_UP, three + 30.0)
+    left = two - 100.0
+    assert (robot.recover_x, robot.recover_y) == pytest.approx(point_at(ride.course, left - BACK, 0.0), abs=20.0)
+    ride.along(0, left - BACK, three + 30.0)
     assert (racer.missed, racer.passed, robot.recover) == (0, 3, 0)
 
 

@@ -20,10 +20,11 @@ class Arcade:
         self.socket.bind(("127.0.0.1", 0))
         self.socket.settimeout(2.0)
         self.config = BoardConfig(1, ARENA, KEY, self.socket.getsockname()[1], "Ruby")._replace(**about)
-        boards, wiring = {}, WIRING
+        wiring = WIRING
         if text:
-            boards, wiring = {self.config.board: text}, {self.config.board: wheels}
-        self.boards = Boards([self.config], paced=True, boards=boards, wiring=wiring)
+            self.config = self.config._replace(changed={"board.py": text.encode()})
+            wiring = {self.config.board: wheels}
+        self.boards = Boards([self.config], paced=True, wiring=wiring)
         self.to, self.now, self.delivered = ("127.0.0.1", self.boards.ports[0]), 0.0, 0
         self.counter = self.seq = 0
         self.nonce = b""

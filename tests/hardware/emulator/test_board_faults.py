@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.hardware.emulator.wifi.boards import Wheel
+from pigaming_app.hardware.emulator.wifi.boards import BoardConfig, Boards, Wheel
 from pigaming_app.hardware.radio.packets import RESTARTED, drive_packet
 from pigaming_app.hardware.robot_files import PROGRAM
 from pigaming_app.hardware.signals import WheelCommand
@@ -218,17 +218,40 @@ def test_a_robot_switched_on_before_its_network_joins_it_later(board):
         arcade.close()
 
 
+WRONG = {  # what is wrong in the files of a robot, and what it prints
+    "no config": ({"config.py": None}, "no module named 'config'"),
+    "a syntax error": ({"config.py": b'ROBOT = 1\nNETWORK = "at home\n'}, 'config.py", line 2: SyntaxError'),
+    "as by PowerShell's >": ({"config.py": "ROBOT = 2\r\n".encode("utf-16")}, 'config.py", line 1: SyntaxError'),
+    "a line is missing": ({"config.py": b"ROBOT, ARENA, RADIO = 1, 77, 'wifi'"}, "'NETWORK'"),
+    "no such robot": ({"config.py": b"ROBOT, ARENA = 5, 77"}, "ROBOT is 1 to 4"),
+    "no such arena": ({"config.py": b"ROBOT, ARENA = 1, 16384"}, "ARENA 0 to 16383"),
+    "no number": ({"config.py": b"ROBOT, ARENA = '1', 77"}, "TypeError"),
+    "no radio file": ({"wifi.py": None}, "no module named 'wifi'"),
+    "no board file": ({"board.py": None}, "no module named 'board'"),
+}
+
+
 @pytest.mark.long
-@pytest.mark.parametrize("wrong", repeated([{"robot": 0}, {"robot": 5}, {"arena": 16384}]))
-def test_a_robot_with_a_wrong_number_does_not_start(wrong):
-    arcade = Arcade(**wrong)
-    try:
-        arcade.run(4.0)
-        assert not arcade.received(b"PG2A")
-        assert arcade.boards.resets == [(0, 2)]
-        assert not any(arcade.motors)
-    finally:
-        arcade.close()
+def test_a_robot_with_a_wrong_file_brakes_and_tells_why_in_one_line_while_its_lamp_flashes():
+    configs = [BoardConfig(1, 77, bytes(16), 0, changed=changed) for changed, _ in WRONG.values()]
+    lamps = [""] * len(configs)
+    with Boards(configs, paced=True) as boards:
+        for step in range(80):
+            boards.advance(0.05 * step)
+            lamps = [lamp + str(pins.get("2")) for lamp, pins in zip(lamps, boards.pins, strict=True)]
+        for robot, (changed, words) in enumerate(WRONG.values()):
+            printed = list(boards.printed[robot])
+            assert printed == ["The robot cannot start. " + printed[0].partition(". ")[2]] * 2, "every 3 s"
+            assert words in printed[0]
+            assert "Traceback" not in printed[0]
+            if "board.py" not in changed:
+                assert [boards.pins[robot][pin] for pin in ("25", "26", "32", "33")] == [65535] * 4, "it brakes"
+                assert lamps[robot].count("01") >= 8
+            boards.disturb(robot, do="interrupt")
+        for step in range(80, 160):
+            boards.advance(0.05 * step)
+        assert not boards.resets
+        assert [len(lines) for lines in boards.printed] == [3] * len(configs), "Ctrl-C ends it, for repair by USB"
 
 
 @pytest.mark.long

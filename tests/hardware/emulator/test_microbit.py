@@ -91,10 +91,8 @@ class WithDivider(MicrobitConfig):
     """A robot that measures its battery at pin 2."""
 
     def files(self):
-        text = (
-            super().files()["main.py"].replace("BATTERY = None", "BATTERY = pin2").replace("pin16, r", "pin16, pin2, r")
-        )
-        return {"main.py": text}
+        text = super().files()["main.py"]
+        return {"main.py": text.replace(b"BATTERY = None", b"BATTERY = pin2").replace(b"pin16, r", b"pin16, pin2, r")}
 
 
 @pytest.fixture

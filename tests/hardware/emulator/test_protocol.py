@@ -8,11 +8,11 @@ from pigaming_app.hardware.emulator.arena import ARENA_ID, EmulatedArena
 from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.radio import TRANSPARENT, RadioChannel
 from pigaming_app.hardware.radio.link import Link
-from pigaming_app.hardware.radio.packets import EMPTY, LOW, drive_packet
-from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
+from pigaming_app.hardware.radio.packets import EMPTY, LOW, VERSION, RobotReport, drive_packet
+from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.corruption import corrupt_packets
-from tests.hardware.robot_packets import ARENA
+from tests.hardware.robot_packets import ARENA, report_packet
 
 AHEAD = WheelCommand(0.5, 0.5)
 
@@ -54,6 +54,24 @@ def test_two_arenas_on_one_channel_neither_obey_nor_feed_each_other():
     assert not any(firmware.stopped for firmware in other[0].firmwares)
     assert sorted(other[1].telemetry) == [0, 1, 2, 3]
     assert not any(other[1].misfit(robot) for robot in range(4)), "robots of this arena report too"
+
+
+def test_a_stranger_in_range_can_do_what_the_page_says_and_no_more():
+    """docs/hardware.md, "What a stranger can do": forge both kinds of packets; no report moves a robot."""
+    arena, _ = linked(11)
+    firmware, forged = arena.firmwares[0], report_packet(RobotReport(11, 1, VERSION, 7, 0, 5200))
+    protocol = XBeeProtocol(11, XBeeMode.TRANSPARENT)
+    protocol.receive(forged, 1.0)
+    assert protocol.telemetry[0].battery == 5.2, "a robot that is off seems to report"
+    protocol.receive(report_packet(RobotReport(11, 1, VERSION, 7, EMPTY, 3900)), 2.0)
+    assert protocol.telemetry[0].flags == EMPTY, "or one that drives, to have an empty battery"
+    firmware.receive(drive_packet(11, 7, [AHEAD] * 4), arena.clock())
+    assert not firmware.stopped, "whoever sends last drives"
+    began = arena.clock()
+    while not firmware.stopped:
+        firmware.receive(forged, arena.clock())
+        arena.advance(0.01)
+    assert arena.clock() - began < 0.27, "reports do not feed the deadman"
 
 
 def test_a_robot_that_falls_silent_is_not_replaced_by_that_of_another_arena():

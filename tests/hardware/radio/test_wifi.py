@@ -253,13 +253,30 @@ def test_without_a_network_there_is_a_fault_until_it_is_back(site, monkeypatch):
     assert site.link.fault is None
 
 
-def test_a_port_in_use_is_a_fault():
-    held = WifiNetwork(ARENA, KEY, lambda: 0.0, port=0, host="127.0.0.1").open()
-    second = WifiNetwork(ARENA, KEY, lambda: 0.0, port=held.bound, host="127.0.0.1")
+@pytest.mark.parametrize("robots", [0, 1])
+def test_a_port_in_use_is_a_fault(site, robots):
+    for _ in range(robots):
+        site.add().announce()
+        site.tick()
+    second = WifiNetwork(ARENA, KEY, lambda: 0.0, port=site.network.bound, host="127.0.0.1")
     link = Link(second.open, lambda: 0.0, WifiProtocol(second), "UDP port 47474")
     link.pump()
     assert link.fault.key == "radio_busy"
-    held.close()
+
+
+def test_a_robot_whose_address_changes_is_heard_and_driven_at_the_new_one(site):
+    robot = site.add()
+    robot.announce()
+    site.tick()
+    robot.socket.close()
+    robot.socket = site.add().socket
+    robot.announce()
+    site.tick()
+    robot.report(flags=8)
+    site.tick()
+    robot.receive()
+    assert site.link.telemetry[0].flags == 8
+    assert robot.obeyed
 
 
 def test_robots_of_this_arena_are_listed_and_driven_amid_a_hundred_strangers_that_announce_themselves(site):

@@ -1,6 +1,7 @@
 """Robots of a ROS network: units, the same safety, and a whole match over a real roscore with rostopic beside it."""
 
 import json
+import re
 import signal
 import socket
 import sys
@@ -18,8 +19,10 @@ from pigaming_app.hardware.ros import node as node_module
 from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
 from pigaming_app.hardware.ros.robots import RosLink, RosPoses
 from pigaming_app.hardware.ros.units import ArenaFrame
+from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.sim.world import DT, ROBOTS, World
+from pigaming_app.ui.i18n import LANGUAGES, texts
 from tests.hardware.ros.network import JOB, NEEDS_ROSCORE, network, until
 
 TRAINS = [UNMEASURED] * ROBOTS
@@ -121,6 +124,7 @@ def test_no_topic_is_registered_while_robots_drive(no_ros, monkeypatch):
     session = RosSession()
     rig = session.open()
     try:
+        assert rig.remote
         rig.link._closing.set()
         rig.link._thread.join()
         at_first = len(fake.registered)
@@ -129,7 +133,7 @@ def test_no_topic_is_registered_while_robots_drive(no_ros, monkeypatch):
         assert len(fake.sent) == 2
     finally:
         session.end()
-    assert len(fake.registered) == at_first == 4 + 1 + 4 + 1, "speeds, state; poses, joystick"
+    assert len(fake.registered) == at_first == 4 + 1 + 4 + 2, "speeds, state; poses, joystick, keys"
 
 
 def test_units_are_those_of_rep_103_and_come_back():
@@ -143,13 +147,8 @@ def test_units_are_those_of_rep_103_and_come_back():
 
 
 def test_without_poses_the_speeds_become_zero_and_at_the_end_they_are_zero_five_times():
-    node, now = Node(), [100.0]
-    frame = ArenaFrame.of_width(2112.0)
-    poses = RosPoses(node, frame, lambda: now[0], TRAINS)
-    rig = Rig(poses, poses, RosLink(node, poses, TRAINS), lambda: now[0], TRAINS)
-    world = World()
-    world.robots[0].present = 1
-    plant = RealPlant(world, rig, [0])
+    plant, node, now = remote_plant([0])
+    rig, frame = plant.rig, ArenaFrame.of_width(2112.0)
     zero, x = [], 800.0
     for tick in range(40):
         now[0] += DT
@@ -165,16 +164,60 @@ def test_without_poses_the_speeds_become_zero_and_at_the_end_they_are_zero_five_
     assert zero.index(True, 3) - 20 <= 10, "200 ms"
     assert all(zero[30:])
     assert plant.safety.pauses
-    assert plant.faults[0].name == "camera"
+    assert plant.faults[0].name == "poses"
     assert rig.link.quality(0).share == pytest.approx(0.5)
     assert rig.link.telemetry[0].battery == 0.0
-    assert rig.camera.fault is None
     now[0] += 1.0
     assert rig.camera.fault.key == "ros_poses"
     node.twists.clear()
     rig.close()
     assert node.twists == [(0, (0.0, 0.0))] * 5
     assert node.closed
+
+
+def remote_plant(robots):
+    """The plant of a match over a network that only remembers, its node, and the time."""
+    node, now = Node(), [100.0]
+    poses = RosPoses(node, ArenaFrame.of_width(2112.0), lambda: now[0], TRAINS)
+    rig = Rig(poses, poses, RosLink(node, poses, TRAINS), lambda: now[0], TRAINS)
+    rig.remote = True
+    world = World()
+    for robot in robots:
+        world.robots[robot].present = 1
+    return RealPlant(world, rig, robots), node, now
+
+
+@pytest.mark.parametrize(
+    ("late", "names", "cause"),
+    [
+        ((0.3, 0.3), {("poses", None), ("late", 0), ("late", 1)}, "ros_late"),
+        ((3.0, 3.0), {("poses", None), ("pose", 0), ("pose", 1), ("late", 0), ("late", 1)}, "ros_late"),
+        ((0.0, 1.5), {("pose", 1), ("late", 1)}, None),
+        ((0.0, 0.2), {("late", 1)}, None),
+        ((0.0, None), {("pose", 1), ("late", 1)}, None),
+        ((None, None), {("poses", None), ("pose", 0), ("pose", 1), ("late", 0), ("late", 1)}, "ros_poses"),
+    ],
+)
+def test_late_and_missing_poses_are_called_that(late, names, cause):
+    plant, node, now = remote_plant([0, 1])
+    for _ in range(150):
+        now[0] += DT
+        for robot, seconds in enumerate(late):
+            if seconds is not None:
+                node.poses[robot](robot, (0.5 + robot, 0.5, 0.0), seconds)
+        plant.sense()
+        plant.drive([(0.0, 0.0)] * 4, DT)
+    found = {(fault.name, fault.robot) for fault in plant.faults}
+    assert found <= names
+    assert {name for name in names if name[0] != "late"} <= found
+    told = cause_of(plant.rig, plant.faults[0].name)
+    assert (told.key if told else None) == cause
+    plant.close()
+    for language in LANGUAGES:
+        for fault in plant.faults:
+            assert not re.search(
+                "[ck][aáâ]m[aeé]r|[ck][aâ]b[elo]|radio", texts(language)[f"faults.{fault.name}"].lower()
+            )
 
 
 def test_a_link_thread_that_fails_leaves_zero_speeds(monkeypatch):
@@ -210,6 +253,20 @@ def test_a_joystick_drives_the_seat_it_names_or_the_first_person():
     assert session.stick(2, False) is None
 
 
+def test_keys_drive_the_seat_they_name_or_the_first_person_while_they_are_held():
+    session = RosSession()
+    session._take_keys("Up left robot_2 FIRE")
+    assert session.stick(1, False) == (1.0, -1.0, True, False)
+    assert session.stick(0, True) is None
+    session._take_keys("down right turbo")
+    assert session.stick(0, True) == (-1.0, 1.0, False, True)
+    assert session.stick(2, False) is None
+    session._take_keys("")
+    assert session.stick(0, True) == (0.0, 0.0, False, False)
+    session._take_keys("up robot_5 \N{SNOWMAN} down")
+    assert session.stick(0, True) == (0.0, 0.0, False, False)
+
+
 LOBBY = """
 import time
 from pigaming_app.scenes.app import Options
@@ -233,11 +290,11 @@ with opened(Options(first_scene=lobby, headless=True, ros_width=2112.0)) as app:
 
 @pytest.mark.long
 @NEEDS_ROSCORE
-def test_a_match_over_a_real_roscore_obeys_a_joystick_and_stops_without_poses(tmp_path: Path) -> None:
+def test_a_match_over_a_real_roscore_obeys_joystick_and_keys_and_stops_without_poses(tmp_path: Path) -> None:
     with network(tmp_path) as ros:
         mat = ros.start(*JOB, "ros", "--emulate")
         stick = "{header: {frame_id: robot_1}, axes: [0.0, 1.0], buttons: [0, 0]}"
-        ros.start("rostopic", "pub", "-r", "10", "/joystick", "sensor_msgs/Joy", stick)
+        joystick = ros.start("rostopic", "pub", "-r", "10", "/joystick", "sensor_msgs/Joy", stick)
         speeds, states = ros.watch("/robot_1/cmd_vel"), ros.watch("/game/state")
         until(lambda: "/robot_1/pose" in ros.topics())
         rules = ("--seats", "human,level1", "--real", "1", "--width", "2126")
@@ -249,12 +306,15 @@ def test_a_match_over_a_real_roscore_obeys_a_joystick_and_stops_without_poses(tm
         until(lambda: state().get("seconds", 0.0) > 1.0)
         assert state()["robots"][0]["robot"] == 1
         until(lambda: speeds.read() and float(speeds.lines[-1][1].split(",")[1]) > 0.2, 20.0)
+        joystick.terminate()
+        ros.start("rostopic", "pub", "-r", "10", "/key_input", "std_msgs/String", "robot_1 down")
+        until(lambda: speeds.read() and float(speeds.lines[-1][1].split(",")[1]) < -0.1, 20.0)
         mat.send_signal(signal.SIGSTOP)
         stopped = time.monotonic()
         until(lambda: (speeds.read(), time.monotonic() > stopped + 1.0)[1])
         late = [at - stopped for at, line in speeds.read() if any(float(number) for number in line.split(",")[1:])]
         assert late[-1] < 0.4, "the poses on their way, 200 ms, and a tick"
-        assert until(lambda: state()["faults"])[0]["name"] == "camera"
+        assert until(lambda: state()["faults"])[0]["name"] == "poses"
         assert state()["waiting"]
         match.send_signal(signal.SIGINT)
         assert match.wait(10) == 0

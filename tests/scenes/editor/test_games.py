@@ -12,6 +12,7 @@ from pigaming_app.games.factory.layout import PALLET
 from pigaming_app.games.race.circuit import read_course
 from pigaming_app.scenes.editor.checker import Verdict
 from pigaming_app.scenes.editor.games.factory import _slots
+from pigaming_app.scenes.editor.model.shapes import Item
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
 from pigaming_app.scenes.editor.parts.things import RADII
 from pigaming_app.scenes.editor.play_test import PlayTest
@@ -123,6 +124,56 @@ def test_race(artist: Artist) -> None:
     verdict = checked(artist).bench.verdict
     assert not verdict.problems
     assert len(verdict.routes[0]) > 300
+
+
+def test_football(artist: Artist) -> None:
+    """Corners are cut, bumpers and drop points are set on all quarters, and a post takes all others with it."""
+    editor = opened(artist, "football")
+    bench = editor.bench
+    for _ in range(3):
+        artist.choose("mirror")
+    assert bench.symmetry is Symmetry.FOUR
+    artist.choose("tool 2")
+    artist.click((100, 50))
+    ends = [{wall.get("from"), wall.get("to")} for wall in bench.history.now.of("wall")]
+    assert ends[0] == {(0, 130), (130, 0)}
+    for turn in (lambda x, y: (1600 - x, y), lambda x, y: (x, 900 - y), lambda x, y: (1600 - x, 900 - y)):
+        assert {turn(*end) for end in ends[0]} in ends[1:]
+    artist.choose("tool 1")
+    artist.click((600, 300))
+    assert len(bench.history.now.of("wall")) == 8
+    artist.choose("tool 3")
+    artist.click((600, 150))
+    assert len(bench.history.now.of("drop")) == 12, "of thirteen"
+    artist.choose("undo")
+    artist.click((550, 450))
+    assert {drop.get("at") for drop in bench.history.now.of("drop")[9:]} == {(550, 450), (1050, 450)}
+    artist.choose("mirror")
+    assert bench.symmetry is Symmetry.OFF
+    artist.click((0, 400))
+    artist.drag((0, 350), (0, 300))
+    assert [EDITORS["football"].part(bench.history.now, Item("goal", k)).get("width") for k in (0, 1)] == [300, 300]
+    artist.choose("dial 0")
+    assert bench.history.now.of("goal")[0].get("width") == 320
+    for _ in range(6):
+        artist.choose("undo")
+    assert bench.history.now == titled(drawing_of(EDITORS["football"].empty), "NEW")
+    verdict = checked(artist).bench.verdict
+    assert not verdict.problems
+    assert len(verdict.routes) == 6
+
+
+def test_the_middle_and_the_last_six_drop_points_stay(mouse: Mouse) -> None:
+    """Goals too: each is needed, and none is moved."""
+    bench = opened(mouse, "football").bench
+    assert Item("drop", 0) not in EDITORS["football"].items(bench.history.now)
+    for at in ((400, 450), (1200, 450), (400, 200), (400, 700), (1200, 200), (0, 450)):
+        mouse.click(at)
+        mouse.choose("delete")
+    drops, goals = (bench.history.now.of(kind) for kind in ("drop", "goal"))
+    assert (drops[0].get("at"), len(drops), len(goals)) == ((800, 450), 6, 1)
+    mouse.drag((10, 450), (400, 200))
+    assert bench.history.now.of("goal") == goals
 
 
 def test_a_line_follows_the_pointer_along_the_road(mouse: Mouse) -> None:

@@ -1,11 +1,13 @@
 """From the lobby and from the title to an arena of one's own, and back."""
 
 from pathlib import Path
+from typing import cast
 
 import pytest
 
+from pigaming_app.ai.registry import new_match
 from pigaming_app.events.day_log import DayLog
-from pigaming_app.games.arenas import load, own_arenas
+from pigaming_app.games.arenas import arenas, load, own_arenas
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.gallery.page import Gallery
@@ -112,14 +114,44 @@ def test_from_the_title(arcade: Arcade, home: Path) -> None:
     assert arcade.stack.top is title
 
 
-def test_a_game_without_tools_has_no_editor(arcade: Arcade) -> None:
-    """Such as a plug-in."""
-    (game,) = set(games()) - set(EDITORS)
-    page = MatchSetupPage(arcade.context, game, seats(game))
+def test_a_game_without_tools_has_no_editor(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Such as a plug-in may be; the gallery passes it over."""
+    monkeypatch.delitem(cast(dict[str, object], EDITORS), "football")
+    page = MatchSetupPage(arcade.context, "football", seats("football"))
     arcade.open(page)
     assert Button.X not in page.navigation.prompts.buttons
     arcade.press(Button.X)
     assert arcade.stack.top is page
+    arcade.open(Gallery(arcade.context, "football"))
+    shown = []
+    for _ in games():
+        shown.append(arcade.shown(Gallery).game)
+        arcade.press(Button.Y)
+    assert shown == ["pitanks", "factory", "race", "pitanks"]
+
+
+def test_a_pitch_is_drawn_played_saved_and_offered(arcade: Arcade, controls: Controls) -> None:
+    """By Robot Football, a plug-in: from the set-up of a match to the match on the own pitch."""
+    arcade.open(MatchSetupPage(arcade.context, "football", seats("football")))
+    arcade.press(Button.X)
+    assert arcade.shown(Gallery).game == "football"
+    arcade.press(Button.FIRE)
+    mouse = Mouse(arcade)
+    mouse.choose("tool 1")
+    mouse.click((800, 250))
+    editor = checked(mouse)
+    mouse.choose("play")
+    state = arcade.shown(PlayTest).match.state
+    assert (state.wall_count, state.mouth) == (1, 90.0)
+    arcade.press(Button.START)
+    checked(mouse)
+    editor.save("MINE")
+    arcade.press(Button.BACK)
+    while not isinstance(arcade.stack.top, MatchSetupPage):
+        arcade.press(Button.BACK)
+    assert arcade.shown(MatchSetupPage).chosen.arena == "mine"
+    assert arenas("football")[-1] == "mine"
+    assert new_match(arcade.shown(MatchSetupPage)._setup()).state.wall_count == 1
 
 
 @pytest.mark.parametrize("asked", [Device("pad", 7), Device("phone", 7), Device("mouse"), KEYS[1]])
@@ -130,7 +162,9 @@ def test_a_match_on_a_drawing_is_driven_by_a_device_that_is_there(arcade: Arcade
     assert test.devices[0] == (asked if asked in KEYS else KEYS[0])
 
 
-@pytest.mark.parametrize(("game", "name"), [("pitanks", "islands"), ("factory", "hall"), ("race", "classic")])
+@pytest.mark.parametrize(
+    ("game", "name"), [("pitanks", "islands"), ("factory", "hall"), ("race", "classic"), ("football", "classic")]
+)
 def test_the_way_back_from_a_match_hides_no_robot_and_no_rules(arcade: Arcade, game: str, name: str) -> None:
     """On the islands robots start in the middle of each side."""
     test = PlayTest(arcade.context, game, load(game, name), KEYS[0])

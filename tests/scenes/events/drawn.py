@@ -26,7 +26,7 @@ def an_event(
     wide: bool = False,
 ) -> Event:
     """An event of PiTanks in the short form; `brains`: of everybody; empty: people; `wide`: the widest names."""
-    entrants = tuple(Entrant(f"WWWWWWWWW{name}" if wide else name, brains) for name in names(count))
+    entrants = tuple(Entrant(f"{'W' * 21}{name}" if wide else name, brains) for name in names(count))
     games = ("pitanks", "factory", "race") if form is Format.GRAND_PRIX else ("pitanks",)
     fill = "level3" if form is Format.GRAND_PRIX else ""
     rounds = 0 if form is Format.KNOCKOUT else min(rounds, count - 1)
@@ -48,6 +48,12 @@ def played(event: Event, matches: int = 10_000) -> Event:
             break
         event = event.record(result_of(event.open[0]))
     return event
+
+
+def tied(event: Event) -> Event:
+    """The event after a match without a winner."""
+    fixture = event.open[0]
+    return event.record(Outcome(fixture.number, (fixture.entrants,), extra=fixture.extra))
 
 
 def running(event: Event, name: str = "event") -> RunningEvent:

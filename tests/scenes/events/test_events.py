@@ -26,7 +26,7 @@ from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
-from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
+from pigaming_app.scenes.events.setup.entrants_page import SENTENCE_ROOM, EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
@@ -38,6 +38,9 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import BODY
+from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.protocol import SeatView
@@ -166,7 +169,7 @@ def test_a_list_is_pasted_or_dropped_and_a_bad_one_is_refused(arcade: Arcade, tm
     arcade.context.dropped += [tmp_path / "list.csv", tmp_path / "list.bin", tmp_path / "nowhere.txt"]
     arcade.frame(draw=True)
     assert len(page.draft.entrants) == 7
-    assert page.navigation.sentence == arcade.context.words("events.unread")
+    assert page.navigation.sentence == "nowhere.txt: " + arcade.context.words("events.unread")
     page.focus.move_to("0")
     arcade.press(Button.X)
     assert page.draft.entrants[0].name == "Bea"
@@ -175,20 +178,37 @@ def test_a_list_is_pasted_or_dropped_and_a_bad_one_is_refused(arcade: Arcade, tm
 @pytest.mark.parametrize(
     ("text", "key", "words"),
     [
-        ("Ana\nMaria da Conceição\n", "bad_name", {"line": 2, "text": "Maria da Conceição"}),
-        ("Ana\nAna\n", "taken", {"name": "Ana"}),
-        ("Ana\nBea,level1,Red,x\n", "bad_line", {"line": 2, "text": "Bea,level1,Red,x"}),
-        ("\n".join(f"N{i}" for i in range(500)), "full", {"most": 64}),
-        ("Ana\nBea=level9\n", "bad_ai", {}),
+        ("Ana\nAna Beatriz Carla Duarte E\n", "bad_name", {"line": 2, "text": "Ana Beatriz C…uarte E"}),
+        ("Ana\nAna\n", "bad_taken", {"line": 2, "text": "Ana"}),
+        ("Ana\nBea,level1,Red,x\n", "bad_line", {"line": 2, "text": "Bea, level1, Red, x"}),
+        ("\n".join(f"N{i}" for i in range(500)), "bad_full", {"line": 65, "text": "N64", "most": 64}),
+        ("Ana\nBea=level9\n", "bad_ai", {"line": 2, "text": "level9"}),
     ],
 )
-def test_a_list_is_refused_as_a_whole_with_the_line_and_the_reason(
-    arcade: Arcade, text: str, key: str, words: dict[str, object]
+def test_a_list_is_refused_as_a_whole_with_file_line_and_reason(
+    arcade: Arcade, tmp_path: Path, text: str, key: str, words: dict[str, object]
 ) -> None:
     page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
     page.add_list(text)
     assert page.draft.entrants == []
     assert page.navigation.sentence == arcade.context.words(f"events.{key}", **words)
+    (tmp_path / "list.csv").write_text(text, encoding="utf-8")
+    arcade.context.dropped.append(tmp_path / "list.csv")
+    page.update(0.1)
+    assert page.navigation.sentence == "list.csv: " + arcade.context.words(f"events.{key}", **words)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_said_of_a_list_is_legible_on_the_page(arcade: Arcade, language: str) -> None:
+    """Long names of files, AIs, people and columns."""
+    arcade.context.words.switch(language)
+    page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
+    name = "Bernardino Albuquerque de Sousa"
+    lists = (name, "Ana\nAna", f"Ana,a,b,{name}", f"Ana={name}", "\n".join(f"N{i}" for i in range(99)))
+    for text in (*lists, f"Name;Anmerkungen;Jahrgangsstufe;{name};Klassenleitung\nAna\nBea\n"):
+        page.add_list(text, "Anmeldungen Tag der offenen Tür.csv")
+        assert fit_size(page.navigation.sentence, BODY, SENTENCE_ROOM, "body") >= 36, page.navigation.sentence
+    assert len(page.draft.entrants) == 2
 
 
 def test_the_clipboard_may_be_empty(arcade: Arcade) -> None:
@@ -486,7 +506,7 @@ def test_a_result_that_cannot_be_saved_is_said_and_kept(arcade: Arcade, monkeypa
         disk.setattr(event_files, "write_with_backup", full)
         finish(arcade, (3, 1))
         arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
-    assert arcade.shown(NextMatch).message == "app.unsaved"
+    assert arcade.shown(NextMatch).message == arcade.context.words("app.unsaved")
     assert len(run.event.outcomes) == 1
     assert saved(run).outcomes == {}
     arcade.wait(INPUT_LOCKOUT + 0.1)
@@ -509,14 +529,14 @@ def test_two_processes_on_one_event_lose_and_double_nothing(arcade: Arcade) -> N
     third = run.event.open[0]
     assert other.change(lambda event: event.record(result_of(third)))
     arcade.press(Button.FIRE)
-    assert arcade.shown(NextMatch).message == "events.elsewhere"
+    assert arcade.shown(NextMatch).message == arcade.context.words("events.elsewhere")
     assert run.event == other.event, "nobody plays a match that has a result"
     arcade.press(Button.FIRE)
     third = run.event.open[0]
     assert other.change(lambda event: event.record(result_of(third)))
     finish(arcade, (3, 1))
     arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
-    assert arcade.shown(NextMatch).message == "events.elsewhere"
+    assert arcade.shown(NextMatch).message == arcade.context.words("events.elsewhere")
     assert saved(run) == run.event == other.event
 
 
@@ -524,9 +544,9 @@ def test_a_robot_that_is_gone_is_said_and_its_match_skipped(arcade: Arcade) -> N
     run = running(an_event(brains=str(folders().data / "robots" / "GONE.npz")))
     page = at_next(arcade, run)
     arcade.press(Button.FIRE)
-    assert arcade.shown(NextMatch).message == "events.failed"
+    assert arcade.shown(NextMatch).message == arcade.context.words("events.failed")
     arcade.press(Button.X)
-    assert page.message == "events.skipped"
+    assert page.message == arcade.context.words("events.skipped")
 
 
 def test_no_folder_for_events_is_said(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:

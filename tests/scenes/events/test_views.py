@@ -1,20 +1,26 @@
 """Tables, brackets and posters of every size: everybody is on a page, nothing lies outside."""
 
+from collections import Counter
 from itertools import pairwise
 from pathlib import Path
 
 import pygame
 import pytest
 
+from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events import bracket_view, poster, table_view
-from pigaming_app.scenes.events.bracket_view import BOTTOM, COLUMNS, TOP, placed
+from pigaming_app.scenes.events.bracket_view import BOTTOM, COLUMNS, LATER, TOP, placed
+from pigaming_app.scenes.events.overview import overview
 from pigaming_app.scenes.events.poster import PosterJob
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
+from tests.events.examples import by_chance, new_event, ranked
+from tests.events.examples import played as all_played
 from tests.scenes.arcade import Arcade
 from tests.scenes.events.drawn import an_event, played, running
+from tests.scenes.measuring import faults, measuring
 
 SIZES = (3, 8, 16, 33, 64)
 
@@ -46,6 +52,53 @@ def test_every_match_is_on_one_page_of_the_bracket_and_inside_of_it(arcade: Arca
             assert places[0].top >= TOP
             assert places[-1].bottom <= BOTTOM
             assert all(one.bottom < other.top for one, other in pairwise(places))
+
+
+def shown_matches(event: Event) -> Counter[tuple[str, int]]:
+    """Matches on the pages of the bracket, by stage and round."""
+    pages = overview(Words("en"), event).bracket
+    return Counter((box.stage, box.round) for page in pages for column in page for box in column.boxes)
+
+
+@pytest.mark.parametrize(("count", "seats"), [(3, 2), (5, 2), (8, 2), (16, 2), (33, 2), (64, 2), (9, 3), (27, 4)])
+def test_the_bracket_shows_every_round_before_the_first_match(count: int, seats: int) -> None:
+    """As many matches in each round as are then played, whoever wins; the second final may not be needed."""
+    event = new_event(Format.KNOCKOUT, count, seats=seats)
+    before = shown_matches(event)
+    event = all_played(event, by_chance(count))
+    after = Counter((fixture.stage, fixture.round) for fixture in event.fixtures)
+    assert {*before} - {*after} <= {("final", event.round), ("final", event.round + 1)}
+    assert all(before[key] == number for key, number in after.items())
+    assert shown_matches(event) == after
+
+
+def test_names_are_known_as_soon_as_the_matches_before_are_decided() -> None:
+    """Worked by hand for eight of whom the better seed wins: 1 – 8, 4 – 5, 2 – 7, 3 – 6, then 1 – 4."""
+    event = new_event(Format.KNOCKOUT, 8)
+    for fixture in event.open[:2]:
+        event = event.record(ranked(fixture, *sorted(fixture.entrants)))
+    boxes = [box for page in overview(Words("en"), event).bracket for column in page for box in column.boxes]
+    names = {(box.stage, box.round): [] for box in boxes}
+    for box in boxes:
+        names[box.stage, box.round].append(tuple(sorted(box.names)))
+    assert names["winners", 2] == [("P1", "P4"), ("", "")]
+    assert names["losers", 2] == names["losers", 3] == [("", "")] * 2
+    assert [box.state for box in boxes].count(LATER) == len(boxes) - 4
+    assert [(box.stage, bool(box.note)) for box in boxes if box.stage == "final"] == [("final", False), ("final", True)]
+
+
+def test_a_bracket_is_set_in_large_type(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Names of 24 wide letters: capitals of 28 px, in type of 40 px, and none outside of its box."""
+    run = running(played(an_event(Format.KNOCKOUT, 8, wide=True), 6))
+    with measuring(monkeypatch) as screen:
+        page = TablePage(arcade.context, run)
+        for page.page in range(2):
+            screen.marks.clear()
+            page.draw(screen)
+            names = [mark for mark in screen.texts if mark.text.startswith("W") and "…" in mark.text]
+            assert len(names) == (14 if page.page == 0 else 4)
+            assert all(mark.box[3] - mark.box[1] >= 27 for mark in names)
+            assert faults(screen) == []
 
 
 def test_those_who_go_on_are_marked_and_lead_to_the_next_match(arcade: Arcade) -> None:

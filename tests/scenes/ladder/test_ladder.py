@@ -103,6 +103,26 @@ def test_a_climb_from_the_first_rung_to_the_letters_and_the_table(arcade: Arcade
     assert "BAA ★★★★★" in arcade.shown(LadderChoice)._line("pitanks")
 
 
+def test_a_climb_in_football_is_one_against_one_on_all_pitches(arcade: Arcade) -> None:
+    """By the rules of the party: the next goal decides a level match. A loss by three goals is a clear one."""
+    arcade.open(LadderPage(arcade.context, Climber(Climb("football"), 1, KEYS[0])))
+    for own, other, said, clear in ((3, 0, "won", 0), (2, 1, "up", 0), (1, 3, "lost", 0), (1, 4, "again", 1)):
+        climber, scene = page(arcade).climber, begin(arcade)
+        state, setup = scene.match.state, scene.setup
+        assert setup.arena == ("classic", "bumpers")[climber.climb.rung - 1]
+        assert [bool(robot.present) for robot in state.robots] == [True, True, False, False]
+        assert setup.seats[1].brain == f"level{climber.climb.rung}"
+        state.robots[0].score = state.robots[1].score = 1
+        state.tick = state.rules.ticks - 1
+        scene.match.tick()
+        assert (scene.match.over, state.golden_goal) == (0, 1)
+        state.robots[0].score, state.robots[1].score = own, other
+        scene.match.tick()
+        assert scene.match.over
+        arcade.stack.apply(Swap(after_match(climber, scene)))
+        assert (page(arcade).said, page(arcade).climb.clear) == (said, clear)
+
+
 def test_weaker_robots_are_offered_between_matches_and_shown_on_the_ladder(arcade: Arcade) -> None:
     arcade.open(LadderPage(arcade.context, Climber(Climb("pitanks", rung=3, beaten=2), 1, KEYS[0])))
     play_unseen(arcade, -5, 5)
@@ -203,7 +223,7 @@ def test_a_damaged_file_is_told_in_one_line_and_a_full_disk_too(
 def test_the_table_steps_through_the_games_and_a_mouse_drives_by_keyboard(arcade: Arcade) -> None:
     arcade.context.scores.add(table_of("all"), "ANA", worth(Climb("all", beaten=3, lost=4)))
     arcade.press(Button.Y)
-    for game in ("factory", "race", "all", "pitanks"):
+    for game in ("factory", "race", "football", "all", "pitanks"):
         arcade.press(Button.RIGHT)
         assert arcade.shown(Climbers).game == game
     for button, game in ((Button.LEFT, "all"), (Button.RIGHT, "pitanks")):

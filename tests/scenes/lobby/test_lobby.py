@@ -262,15 +262,18 @@ def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:
 def test_everyone_chooses_a_driving_style_on_the_own_card_with_pad_keys_or_mouse(arcade: Arcade) -> None:
     def styles() -> list[str]:
         devices = arcade.shown(Lobby).seats.devices()
-        return [arcade.context.driving.of(device, "pitanks", "pickups") for device in devices if device]
+        return [arcade.context.driving.of(device, "pitanks", "party") for device in devices if device]
 
     with VirtualPad() as pad:
         arcade.wait(0.1)
         arcade.press(Button.FIRE)
         pad.tap("a")
         arcade.frame()
-        assert styles() == [TURN, TURN]
+        assert styles() == [TURN, POINT], "by the rules of party, pads point"
         arcade.press(Button.RIGHT)
+        assert styles() == [POINT, POINT]
+        pad.tap("left")
+        arcade.frame()
         assert styles() == [POINT, TURN]
         pad.tap("right")
         arcade.frame()

@@ -88,6 +88,7 @@ def test_a_robot_shows_the_driving_style_of_its_device_and_stays_on_its_card(arc
     with VirtualPad() as pad:
         arcade.frame()
         device = Device("pad", pad.number)
+        arcade.context.driving.change(device, "pitanks", "party", -1)
         pad.stick(1.0, 0.0)
         arcade.wait(1.0)
         robot = arcade.shown(ControlsTest).driven[device].robots[0]

@@ -6,6 +6,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.game import Outcome
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.lobby.scene import game_choice
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.celebration import Celebration, confetti
@@ -151,7 +152,7 @@ def test_everything_is_rendered_before_it_is_shown(
     assert not made
 
 
-@pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
+@pytest.mark.parametrize("game", games())
 def test_confetti_comes_from_both_sides_and_falls_out_of_the_picture(game: str) -> None:
     pygame.display.set_mode((1920, 1080))
     party = Celebration(game, [1], [PLAYERS[1]])

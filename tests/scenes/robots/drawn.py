@@ -1,12 +1,13 @@
 """Pages of a match with real robots in any state, without robots, for tests of their texts."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import pygame
 
-from pigaming_app.hardware.control.safety import RULES, Fault, SafetyRule
+from pigaming_app.hardware.control.safety import REMOTE, RULES, Fault, SafetyRule
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import radio_message
@@ -21,6 +22,7 @@ from pigaming_app.scenes.things.unplayable_page import UnplayablePage
 from tests.scenes.arcade import KEYS, Arcade, setup
 
 PAUSING = {rule.name: rule for rule in RULES if rule.pauses}
+PAUSING |= {REMOTE[name]: replace(rule, name=REMOTE[name]) for name, rule in PAUSING.items() if name in REMOTE}
 WHERE = "/dev/serial/by-id/usb-FTDI_FT231X_USB_UART_DN02MQBC-if00-port0"  # a long port
 
 
@@ -30,7 +32,8 @@ def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
         Fault(name, None if PAUSING[name].everyone else 3, PAUSING[name].response, True, 0.0)
         for name in (rule.name, "foreign")
     ]
-    cause = SimpleNamespace(fault=OperatorMessage("radio_denied", port=WHERE))
+    late = OperatorMessage("ros_late", seconds="88.8")
+    cause = SimpleNamespace(fault=late if rule.name in REMOTE.values() else OperatorMessage("radio_denied", port=WHERE))
     latched = {3} if rule.latched else set[int]()
     safety = SimpleNamespace(latched=latched, stopped=rule.name == "stopped")
     match: Any = SimpleNamespace(

@@ -55,5 +55,5 @@ def test_without_robots_the_reason_is_shown_and_simulated_robots_play(
     match = arcade.shown(MatchScene)
     match.stop()
     until(arcade, NextMatch)
-    assert arcade.shown(NextMatch).message == "events.unplayed"
+    assert arcade.shown(NextMatch).message == arcade.context.words("events.unplayed")
     assert saved(page.running).outcomes == {}

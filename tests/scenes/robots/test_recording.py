@@ -133,6 +133,14 @@ def test_the_cause_is_among_the_faults_that_a_replay_shows(monkeypatch: pytest.M
     assert shown == ["camera", "lost", "lost"]
 
 
+@pytest.mark.parametrize("name", sorted(match_recording.NAMES))
+def test_every_fault_that_a_file_may_hold_is_shown(controls: Controls, name: str) -> None:
+    arcade = Arcade(controls)
+    faults = ReplayFaults(replays.recorded(new_match(match_for("pitanks", "easy easy off off", 1.0))), Words("en"))
+    faults.faults = [match_recording.RecordedFault(name, 3, 9, True, 60.0)]
+    faults.draw(arcade.screen, 20)
+
+
 def test_a_match_without_people_ends_at_a_fault_that_needs_them(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -144,7 +144,7 @@ def test_who_plays_and_who_is_next_on_which_device(arcade: Arcade) -> None:
     assert (now_line(words, now), next_line(words, now)) == ("", f"Next: {one} (WASD)  –  {other} (Arrows)")
     playing = event_now(arcade.context, [a_match(arcade, run)])
     assert playing
-    assert now_line(words, playing) == f"Now: {one}  –  {other}"
+    assert now_line(words, playing) == f"Now: {one} – {other}"
     assert [called.name for called in playing.called] == [*second.entrants]
 
 

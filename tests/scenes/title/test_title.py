@@ -15,10 +15,12 @@ from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.kiosk_unlock import HOLD
 from pigaming_app.scenes.title.language import BOX as LANGUAGE_BOX
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.scenes.views.game_tile import TileStrip
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.widgets.focus import Focus
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
@@ -115,13 +117,30 @@ def test_fire_on_the_language_changes_it_and_the_next_one_leaves_it(arcade: Arca
     assert words.language == LANGUAGES[3]
 
 
+SAFE = pygame.Rect(96, 54, 1728, 972)
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_nothing_on_the_title_lies_on_something_else(arcade: Arcade, language: str) -> None:
+def test_every_game_of_a_clone_is_in_the_first_view_and_nothing_lies_on_something_else(
+    arcade: Arcade, language: str
+) -> None:
     arcade.context.words.switch(language)
-    spots = [spot for spot in Title(arcade.context).focus.spots if spot.rect.x < 1824]  # the next tile peeks in
-    safe = pygame.Rect(96, 54, 1728, 972)
-    assert all(safe.contains(spot.rect) for spot in spots)
+    spots = Title(arcade.context).focus.spots
+    assert {"pitanks", "factory", "race", "football"} <= {spot.name for spot in spots}
+    assert all(SAFE.contains(spot.rect) for spot in spots)
     assert not [(a.name, b.name) for a, b in combinations(spots, 2) if a.rect.colliderect(b.rect)]
+
+
+@pytest.mark.parametrize("count", range(1, 8))
+def test_fewer_games_are_centred_and_of_more_the_next_one_peeks_in(count: int) -> None:
+    strip = TileStrip([str(i) for i in range(count)])
+    tiles = [spot.rect for spot in strip.spots()]
+    assert sum(map(SAFE.contains, tiles)) == min(count, 4)
+    assert tiles[0].left + tiles[min(count, 4) - 1].right == pytest.approx(1920, abs=1)
+    assert sum(tile.left < 1880 for tile in tiles) == min(count, 5), "40 px of the next one are seen"
+    focus = Focus(strip.spots(), str(count - 1))
+    strip.follow(focus)
+    assert SAFE.contains(strip.spots()[-1].rect)
 
 
 def test_when_nobody_is_there_a_match_begins_and_any_press_ends_it(arcade: Arcade) -> None:

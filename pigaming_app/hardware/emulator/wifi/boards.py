@@ -9,6 +9,8 @@ import queue
 import shutil
 import subprocess
 import threading
+from base64 import b64encode
+from collections import deque
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -21,6 +23,7 @@ HERE = Path(__file__).parent / "micropython"
 INTERPRETER = "node_modules/@micropython/micropython-webassembly-pyscript/micropython.mjs"
 INSTALLING, ANSWER = 120.0, 60.0  # s, timeouts
 FULL = 65535  # duty of a PWM pin
+PRINTED = 100  # lines of a board that are kept
 
 Shares = tuple[float, float]  # voltage of the left and the right motor, as shares of the battery's
 
@@ -51,6 +54,7 @@ WIRING: Mapping[str, tuple[Wheel, Wheel]] = {  # of the board files
     "board_pololu_2040": (Wheel(None, 11, 15), Wheel(None, 10, 14)),
     "microbit": (Wheel(8, 12), Wheel(0, 16)),
 }
+DIVIDERS = {"board_pololu_2040": 11}  # of the battery's voltage; on robots of one's own 3
 
 
 class BoardConfig(NamedTuple):
@@ -63,18 +67,19 @@ class BoardConfig(NamedTuple):
     name: str = ""
     board: str = "board_esp32"
     radio: str = "wifi"
+    changed: Mapping[str, bytes | None] = {}  # files in place of the usual ones; None: none
 
-    def files(self) -> dict[str, str]:
+    def files(self) -> dict[str, bytes]:
         """Files of the robot, by name."""
-        files = {file.name: file.read_text("utf-8") for file in PROGRAM.glob("*.py")}
-        main = files.pop("robot.py")
-        return {**files, "main.py": main, "config.py": self._config()}
+        files: dict[str, bytes | None] = {file.name: file.read_bytes() for file in PROGRAM.glob("*.py")}
+        main, board = files.pop("robot.py"), files.get(f"{self.board}.py")
+        files |= {"main.py": main, "board.py": board, "config.py": self._config().encode()}
+        return {name: data for name, data in {**files, **self.changed}.items() if data is not None}
 
     def _config(self) -> str:
         return (
             f'NETWORK, PASSWORD = "emulated", ""\nROBOT, NAME, ARENA = {self.robot}, {self.name!r}, {self.arena}\n'
-            f'KEY, BOARD, RADIO = "{self.key.hex()}", "{self.board}", "{self.radio}"\n'
-            f'HOST, PORT = "127.0.0.1", {self.port}\n'
+            f'KEY, RADIO = "{self.key.hex()}", "{self.radio}"\nHOST, PORT = "127.0.0.1", {self.port}\n'
         )
 
 
@@ -85,9 +90,9 @@ class MicrobitConfig(NamedTuple):
     arena: int
     board: str = "microbit"
 
-    def files(self) -> dict[str, str]:
+    def files(self) -> dict[str, bytes]:
         """Its only file."""
-        return {"main.py": microbit_program(self.number, self.arena)}
+        return {"main.py": microbit_program(self.number, self.arena).encode()}
 
 
 def interpreter() -> Path:
@@ -115,28 +120,33 @@ def interpreter() -> Path:
     return found
 
 
+def _spec(config: BoardConfig | MicrobitConfig) -> dict[str, Any]:
+    """One robot for `boards.mjs`."""
+    files = {file.name: file.read_bytes() for file in HERE.glob("*.py")} | config.files()
+    encoded = {name: b64encode(data).decode() for name, data in files.items()}
+    return {"board": config.board, "divider": DIVIDERS.get(config.board, 3), "files": encoded}
+
+
 class Boards:
     """Running boards; a context manager. `paced`: their time passes in `advance` only, else it is the system's.
 
-    `boards` are further board files by name, `wiring` the motors of all of them. `pins` holds the values at the pins of
-    every robot, 0 to 65535; times are s of `advance`, or of `time.monotonic`. Raises NoMicroPython.
+    `wiring`: the motors by board. `pins` holds the values at the pins of every robot, 0 to 65535, `printed` its lines
+    on USB; times are s of `advance`, or of `time.monotonic`. Raises NoMicroPython.
     """
 
     def __init__(
         self,
         configs: Sequence[BoardConfig | MicrobitConfig],
         paced: bool = False,
-        boards: Mapping[str, str] = {},
         wiring: Mapping[str, tuple[Wheel, Wheel]] = WIRING,
     ) -> None:
         self.pins: list[Mapping[str, int]] = [{} for _ in configs]
         self.powered_until = [float("-inf")] * len(configs)  # s, when the motors were last switched off
         self.resets: list[tuple[int, int]] = []  # robot and cause (1 power, 2 program, 3 watchdog), in order
+        self.printed = [deque[str](maxlen=PRINTED) for _ in configs]
         self._wiring = [wiring[config.board] for config in configs]
-        files = {file.name: file.read_text("utf-8") for file in HERE.glob("*.py")}
-        files |= {f"{name}.py": text for name, text in boards.items()}
         first = {
-            "robots": [{**files, **config.files()} for config in configs],
+            "robots": [_spec(config) for config in configs],
             "interpreter": interpreter().as_uri(),
             "paced": paced,
         }
@@ -158,7 +168,8 @@ class Boards:
         """Disturb a board.
 
         `do`: "reboot", "off", "hang loop" (the timer runs on), "hang board", or in the main loop "error" or "interrupt"
-        (Ctrl-C); `battery`: mV; `button`, `offline`: 1 or 0; `pulses`: totals of the left and the right encoder.
+        (Ctrl-C); `battery`, `reference` (of the ADC): mV; `button`, `offline`: 1 or 0; `pulses`: totals of the left and
+        the right encoder.
         """
         self._tell({"robot": robot, **order})
 
@@ -226,5 +237,7 @@ class Boards:
             self.pins[robot] = message["pins"]
             if was_on and not any(self._shares(robot)):
                 self.powered_until[robot] = message["at"] / 1000
+        elif "printed" in message:
+            self.printed[message["robot"]].append(message["printed"])
         elif "reset" in message:
             self.resets.append((message["robot"], message["reset"]))

@@ -7,7 +7,7 @@ TIMER = 0  # a hardware timer
 WATCHDOG_MS = 1000  # the least that an ESP32 allows
 LED, BATTERY_PIN = 2, 34
 BUTTON = 0  # BOOT: stops the robot; again: it may drive
-BATTERY_FULL_MV = 3.1 * 3 * 1000  # ADC at its end: 3.1 V behind a divider of 200 kOhm and 100 kOhm
+DIVIDER = 3  # the ADC measures a third of the battery: 200 kOhm and 100 kOhm
 LOW_MV, EMPTY_MV = 4400, 4000
 UART = (2, 17, 16)  # for RADIO = "serial_radio"
 

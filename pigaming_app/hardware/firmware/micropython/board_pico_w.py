@@ -7,7 +7,7 @@ TIMER = -1  # of the chip's alarm pool
 WATCHDOG_MS = 500
 LED, BATTERY_PIN = "LED", 26
 BUTTON = 22  # to ground; stops the robot; again: it may drive
-BATTERY_FULL_MV = 3.3 * 3 * 1000  # ADC at its end: 3.3 V behind a divider of 200 kOhm and 100 kOhm
+DIVIDER = 3  # the ADC measures a third of the battery: 200 kOhm and 100 kOhm
 LOW_MV, EMPTY_MV = 4400, 4000
 UART = (0, 0, 1)  # for RADIO = "serial_radio"
 

@@ -7,7 +7,7 @@ TIMER = -1
 WATCHDOG_MS = 500
 LED, BATTERY_PIN = 25, 26
 BUTTON = 0  # C: stops the robot; again: it may drive
-BATTERY_FULL_MV = 3.3 * 11 * 1000
+DIVIDER = 11  # the ADC measures an eleventh of the battery
 LOW_MV, EMPTY_MV = 4400, 4000
 UART = (0, 28, 29)
 

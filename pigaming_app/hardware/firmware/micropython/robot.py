@@ -1,25 +1,25 @@
 """Program of a PiGaming robot in stock MicroPython: obeys drive packets, reports, and stops by itself.
 
-On the robot: this file as `main.py`, `config.py`, `motors.py`, the board file and the radio file that `config` names.
-A hardware timer stops the motors 200 ms after the last new command, whatever the main loop does; the watchdog restarts
-a robot whose main loop or timer hangs. Any error stops the motors at once and restarts the robot. docs/hardware.md,
-section Protocol, has the packets.
+On the robot: this file as `main.py`, the board file as `board.py`, `motors.py`, `config.py`, and the radio file that
+`config` names. A hardware timer stops the motors 200 ms after the last new command, whatever the main loop does; the
+watchdog restarts a robot whose main loop or timer hangs. An error stops the motors at once, is printed in one line, and
+restarts the robot; one in its files keeps it from starting. docs/hardware.md, section Protocol, has the packets.
 """
 
+import io
 import sys
 import time
 from binascii import crc32
 
-import config
 from machine import ADC, WDT, WDT_RESET, Pin, Timer, reset, reset_cause
 
 DRIVE, REPORT, VERSION = 0xD1, 0xD5, 2
 BODY = 13  # bytes of a drive packet before its check
 MIDDLE = 63  # speed code of a wheel at rest
-DEADMAN, LOW, EMPTY, RESTARTED, PARKED = 1, 2, 4, 8, 16  # flags of a report
 DEADMAN_MS, TIMER_MS, REPORT_MS, SLOT_MS, BATTERY_MS = 200, 10, 200, 10, 20
 LONELY_MS = 3000  # ms without a command after which the reports end
 RESTART_MS = 3000  # until a restart after an error, unless the watchdog is earlier
+SUPPLY_MV = 3300  # 65535 of an ADC without calibration
 
 
 def checked(packet):
@@ -28,27 +28,30 @@ def checked(packet):
     return packet + bytes([crc >> shift & 0x7F for shift in (0, 7, 14, 21, 28)])
 
 
+def brake(board):
+    try:
+        board.left.drive(0)
+    finally:
+        board.right.drive(0)
+
+
 class Robot:
     """Motors, battery and lamp of a board, and the rules for when the motors may run."""
 
-    def __init__(self, board, restarted=False):
+    def __init__(self, board, config, lamp, restarted):
         if not 1 <= config.ROBOT <= 4 or not 0 <= config.ARENA < 1 << 14:
             raise ValueError("config.py: ROBOT is 1 to 4, ARENA 0 to 16383")
-        self.board, self.restarted = board, restarted
+        self.board, self.lamp, self.restarted = board, lamp, restarted
         self.arena, self.address = config.ARENA, config.ROBOT
         self.seq = -1  # sequence number of the last command
         self.driven = self.ticked = self.measured = time.ticks_ms()  # ms: last command, last tick of the timer, battery
         self.report_at = self.driven  # ms
         self.stopped = True  # by the deadman; True until the first command
-        self.empty = False
-        self.parked = self.down = False  # stopped by the button; whether that is down
+        self.empty = self.parked = self.down = False  # the battery; stopped by the button; whether that is down
         self.button = Pin(board.BUTTON, Pin.IN, Pin.PULL_UP) if board.BUTTON is not None else None
-        self.lamp = Pin(board.LED, Pin.OUT) if board.LED is not None else None
-        self.sensor = ADC(Pin(board.BATTERY_PIN)) if board.BATTERY_PIN is not None else None
-        if hasattr(ADC, "ATTN_11DB") and self.sensor is not None:  # ESP32
-            self.sensor.atten(ADC.ATTN_11DB)
+        options = {"atten": ADC.ATTN_11DB} if hasattr(ADC, "ATTN_11DB") else {}  # ESP32: 0.15 to 2.45 V
+        self.sensor = ADC(Pin(board.BATTERY_PIN), **options) if board.BATTERY_PIN is not None else None
         self.millivolts = self.read_battery()  # 0 without a divider
-        self.halt()
         self.timer = Timer(board.TIMER)
         try:
             self.timer.init(mode=Timer.PERIODIC, period=TIMER_MS, callback=self.watch, hard=True)
@@ -64,13 +67,7 @@ class Robot:
     def halt(self):
         """Brake both wheels until the next command."""
         self.stopped = True
-        self.brake()
-
-    def brake(self):
-        try:
-            self.board.left.drive(0)
-        finally:
-            self.board.right.drive(0)
+        brake(self.board)
 
     def obey(self, packet, now):
         """Carry out a drive packet; True if it is a new command of this arena."""
@@ -100,7 +97,7 @@ class Robot:
             self.millivolts += (self.read_battery() - self.millivolts) // 4
             self.empty = self.millivolts < (self.board.LOW_MV if self.empty else self.board.EMPTY_MV)
         if self.empty or self.parked:
-            self.brake()
+            brake(self.board)
         self.board.left.regulate(since)
         self.board.right.regulate(since)
         if self.lamp is not None:
@@ -110,12 +107,15 @@ class Robot:
         """Voltage of the battery in mV, 0 without a divider."""
         if self.sensor is None:
             return 0
-        return int(self.sensor.read_u16() * self.board.BATTERY_FULL_MV) >> 16
+        calibrated = hasattr(self.sensor, "read_uv")  # an ESP32: its reference varies, and 0 is not 0 V
+        mv = self.sensor.read_uv() / 1000 if calibrated else self.sensor.read_u16() * SUPPLY_MV / 65535
+        return round(mv * self.board.DIVIDER)
 
     def flags(self):
+        """Flags of a report, from bit 0: stopped by the deadman, battery low, empty, restarted, parked."""
         low = self.sensor is not None and self.millivolts < self.board.LOW_MV
-        parts = (DEADMAN * self.stopped, LOW * low, EMPTY * self.empty, RESTARTED * self.restarted)
-        return sum(parts) + PARKED * self.parked
+        states = (self.stopped, low, self.empty, self.restarted, self.parked)
+        return sum(1 << bit for bit, state in enumerate(states) if state)
 
     def report(self, now):
         """The report packet if it is due, else None."""
@@ -152,18 +152,45 @@ def run(robot, radio):
         time.sleep_ms(2)
 
 
+def reason(error):
+    """An error and its place in one line."""
+    text = io.StringIO()
+    sys.print_exception(error, text)
+    return ": ".join([line.strip() for line in text.getvalue().strip().split("\n")[-2:]])
+
+
+def await_repair(lamp, why):
+    """Repeat why the robot cannot start, and let the lamp flash twice and twice again, until Ctrl-C."""
+    while True:
+        print("The robot cannot start.", why)
+        for step in range(20):
+            if lamp is not None:
+                lamp.value(step % 5 in (0, 2))
+            time.sleep_ms(RESTART_MS // 20)
+
+
 def main():
-    """Run; after an error, but not after Ctrl-C, restart."""
+    """Start and run; after an error, but not after Ctrl-C, restart."""
+    lamp = None
     try:
-        robot = Robot(__import__(config.BOARD), reset_cause() == WDT_RESET)
-        try:
-            run(robot, __import__(config.RADIO).Radio(robot))
-        finally:
-            robot.halt()
+        import board
+
+        brake(board)
+        lamp = Pin(board.LED, Pin.OUT) if board.LED is not None else None
+        import config
+
+        robot = Robot(board, config, lamp, reset_cause() == WDT_RESET)
+        radio = __import__(config.RADIO).Radio(robot)
     except Exception as error:
-        sys.print_exception(error)
-        time.sleep_ms(RESTART_MS)
-        reset()
+        await_repair(lamp, reason(error))
+    try:
+        run(robot, radio)
+    except Exception as error:
+        print("The robot restarts.", reason(error))
+    finally:
+        robot.halt()
+    time.sleep_ms(RESTART_MS)
+    reset()
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ import network
 DRIVE, REPORT, ANNOUNCE = b"PG2D", b"PG2T", b"PG2A"
 HEAD, CODE = 12, 8  # bytes
 ANNOUNCE_MS, RECONNECT_MS = 1000, 8000
+MOST = 64  # datagrams of strangers in one turn: a flood leaves time for the rest of the program
 
 
 class Radio:
@@ -25,10 +26,11 @@ class Radio:
 
     def __init__(self, robot):
         self.robot = robot
+        self.home, self.name = (config.NETWORK, config.PASSWORD), config.NAME.encode()[:16]
+        self.everybody = config.HOST, config.PORT
         key = unhexlify(config.KEY) + bytes(48)
         self.inner, self.outer = bytes([b ^ 0x36 for b in key]), bytes([b ^ 0x5C for b in key])
         self.received = self.sent = 0  # counters of the newest datagrams
-        self.unsent = 0
         self.owner = None  # address of the arcade whose command came last
         self.announced = self.tried = time.ticks_add(time.ticks_ms(), -RECONNECT_MS)
         self.station = network.WLAN(network.STA_IF)
@@ -48,7 +50,7 @@ class Radio:
 
     def receive(self):
         """The next valid drive packet, or None. Other datagrams are dropped."""
-        while True:
+        for _ in range(MOST):
             try:
                 data, sender = self.socket.recvfrom(128)
             except OSError:
@@ -70,14 +72,14 @@ class Radio:
             if time.ticks_diff(now, self.tried) >= RECONNECT_MS:
                 self.tried = now
                 try:
-                    self.station.connect(config.NETWORK, config.PASSWORD)
+                    self.station.connect(*self.home)
                 except OSError as error:
                     print("an ESP32 goes on trying by itself:", error)
         elif self.robot.stopped and time.ticks_diff(now, self.announced) >= ANNOUNCE_MS:
             self.announced, robot = now, self.robot
             numbers = struct.pack(">HBBB", robot.arena, robot.address, robot.board.KIND, 2)
             state = struct.pack(">QHB", self.received, robot.millivolts, robot.flags())
-            self._send(ANNOUNCE, numbers + self.nonce + state + config.NAME.encode()[:16], (config.HOST, config.PORT))
+            self._send(ANNOUNCE, numbers + self.nonce + state + self.name, self.everybody)
 
     def _send(self, kind, body, address):
         self.sent += 1
@@ -85,4 +87,4 @@ class Radio:
         try:
             self.socket.sendto(data + self.code(data), address)
         except OSError:
-            self.unsent += 1  # no network at present; the next one will do
+            return  # no network at present; the next one will do

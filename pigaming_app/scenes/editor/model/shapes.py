@@ -17,6 +17,7 @@ from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import GlowCanvas, Point
 from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.draw.icons import Pen
 
 MOST = 60  # parts of a kind that are shown; no arena that can be played has more
 FAR = 400.0  # px
@@ -133,6 +134,7 @@ class Tools:
     palette: Sequence[Tool] = ()
     empty = ""  # text of the arena file to begin with; empty: that of `template`
     template = ""  # the name of an arena that comes with the game
+    pictures: ClassVar[Mapping[str, Callable[[Pen], None]]] = {}  # of tools and dials, by name, where they have none
 
     def items(self, drawing: Drawing) -> list[Item]:
         """All parts that can be pointed at, those below others first."""

@@ -4,19 +4,22 @@ In a kiosk the button is held until a correction opens: visitors can read the re
 """
 
 import logging
+from dataclasses import dataclass
 
 import pygame
 
+from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import WALKOVER, Fixture, Outcome
 from pigaming_app.scenes.events.manage.event_page import HOLD_IN_KIOSK
 from pigaming_app.scenes.events.manage.text_page import TextPage
-from pigaming_app.scenes.events.running import RunningEvent, stage_name
+from pigaming_app.scenes.events.names import places_line, places_of, shortened
+from pigaming_app.scenes.events.running import RunningEvent, decided_by, stage_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, text
@@ -31,7 +34,9 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 IDLE = 60.0  # s without input before the return to the table
 MESSAGE_SECONDS = 5.0
 ROWS, TOP, HIGH, PITCH = 7, 212, 88, 104  # px
+RESULT_ROOM = RIGHT - LEFT - 570  # px
 NOTES = ("note_referee", "note_robot", "note_agreed", "note_seats")
+LABEL_ROOM = 430  # px, of a name in a row
 MAX_NOTE = 40  # characters
 NOTE, SAVE = " note", " save"  # rows below the entrants, whose names begin with no space
 
@@ -103,9 +108,11 @@ class ResultsList:
             text(words("events.no_results"), LABEL, MIST, "head").draw(screen, 960, 540)
         black_out(screen, *(row_box(i) for i in range(len(self.shown))))
         for i, fixture in enumerate(self.shown):
-            outcome = event.outcomes[fixture.number]
+            outcome = result_of(event, fixture)
             where = stage_name(words, fixture.stage, fixture.round)
-            line = "   ".join(f"{place}. {' = '.join(names)}" for place, names in places_of(outcome))
+            how = decided_by(words, event, fixture.number)
+            room = RESULT_ROOM - text_width(how, BODY) - 40
+            line = f"{places_line(outcome, room)}   {how}"
             noted = bool(outcome.note)
             result_row(where, line, noted, self.focus.name == str(i)).draw(screen, *row_box(i).topleft)
         if self.shown:
@@ -133,7 +140,7 @@ class ResultsList:
             self.context.sounds.play("refused")
             return None
         self.context.sounds.play("accept")
-        return Swap(MatchScene(self.context, setup, after=lambda scene: ResultsList(self.context, self.running)))
+        return Swap(MatchScene(self.context, setup, after=ShownAgain(self.running, fixture.entrants)))
 
     @property
     def pages(self) -> int:
@@ -144,9 +151,8 @@ class ResultsList:
     def played(self) -> list[Fixture]:
         """The matches with a result that can be corrected, newest first."""
         event = self.running.event
-        recorded = [number for number, outcome in event.outcomes.items() if outcome.note != WALKOVER]
         by_number = {fixture.number: fixture for fixture in event.fixtures}
-        return [by_number[number] for number in reversed(recorded)]
+        return [by_number[number] for number in reversed([*event.played])]
 
     def _show(self) -> None:
         self.holding.clear()
@@ -154,12 +160,23 @@ class ResultsList:
         self.focus.set_spots([FocusSpot(str(i), row_box(i)) for i in range(max(1, len(self.shown)))])
 
 
+@dataclass(frozen=True)
+class ShownAgain:
+    """A match that was watched again. Called after it, it returns the results; `names`: see `MatchScene`."""
+
+    event: RunningEvent
+    names: tuple[str, ...]
+
+    def __call__(self, scene: MatchScene) -> ResultsList:
+        return ResultsList(scene.context, self.event)
+
+
 class Correction:
     """The places of one match, and the reason why they change."""
 
     def __init__(self, context: Context, running: RunningEvent, fixture: Fixture) -> None:
         self.context, self.running, self.fixture = context, running, fixture
-        before = running.event.outcomes[fixture.number]
+        before = result_of(running.event, fixture)
         self.scores = before.scores
         self.places = {name: place for place, names in places_of(before) for name in names}
         self.names = sorted(fixture.entrants, key=lambda name: (self.places[name], name))
@@ -209,15 +226,17 @@ class Correction:
         glow_bar(screen, self.focus.box)
         for spot in self.focus.spots:
             value, box, hot = self._value(spot.name), spot.rect, spot.name == self.focus.name
-            said = spot.name if spot.name in self.names else words(f"events.{spot.name.strip()}")
+            named = spot.name in self.names
+            said = shortened(spot.name, LABEL_ROOM, BODY, "body") if named else words(f"events.{spot.name.strip()}")
             setting_row.label(said, hot).draw(screen, box.x + 40, box.centery)
             setting_row.value(value.kind, value.options, value.chosen, hot).draw(screen, box.x, box.centery)
         self.focus.draw(screen)
         frame(*setting_row.PANEL.size).draw(screen, *setting_row.PANEL.topleft)
         setting_row.describe(screen, words("events.correct"), words("events.correct_line"))
         for i, (place, names) in enumerate(places_of(self.outcome)):
-            line = f"{place}.  {' = '.join(names)}"
-            text(line, LABEL, FOCUS if place == 1 else ICE, "head", "l", setting_row.PANEL.w - 80).draw(
+            room = (setting_row.PANEL.w - 130) // len(names) - 40
+            line = f"{place}.  {' = '.join(shortened(name, room, BODY) for name in names)}"
+            text(line, BODY, FOCUS if place == 1 else ICE, "head", "l", setting_row.PANEL.w - 80).draw(
                 screen, setting_row.PANEL.x + 40, setting_row.PANEL.y + 80 + 76 * i
             )
         if self.navigation.sentence:
@@ -282,13 +301,9 @@ class Correction:
         return Pop()
 
 
-def places_of(outcome: Outcome) -> list[tuple[int, tuple[str, ...]]]:
-    """Each place with those who share it: after two second ones comes a fourth."""
-    found, ahead = [], 0
-    for names in outcome.places:
-        found.append((1 + ahead, names))
-        ahead += len(names)
-    return found
+def result_of(event: Event, fixture: Fixture) -> Outcome:
+    """The result of a match; while its extra matches are open, that of the match itself."""
+    return event.outcomes.get(fixture.number) or event.played[fixture.number][0]
 
 
 def row_box(i: int) -> pygame.Rect:
@@ -303,8 +318,7 @@ def result_row(where: str, line: str, noted: bool, hot: bool) -> LitImage:
     layer = Layer(0, 0, w, HIGH)
     layer.glow.line(cut_box(0, 0, w, HIGH, 16), FOCUS if hot else STEEL, THIN, True)
     layer.canvas.body(where, 32, HIGH / 2, MIST, "l", fit_size(where, BODY, 400, "body"))
-    room = w - 480 - (90 if noted else 30)
-    line, size = fit_text(line, LABEL, room)
+    line, size = fit_text(line, LABEL, RESULT_ROOM)
     layer.canvas.text(line, size, 470, HIGH / 2, FOCUS if hot else ICE, "head")
     if noted:
         icon(layer.glow, "pencil", w - 56, HIGH / 2, 22, FOCUS, 4)

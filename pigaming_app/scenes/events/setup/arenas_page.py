@@ -7,16 +7,16 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached, playable_arenas
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.draw.text import fit_size, text, wrap_balanced
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, heading
 
 IDLE = 120.0  # s without input before the return to the title
-HEAD_Y, TOP, HIGH, PITCH, GAP, WIDEST = 246, 300, 88, 104, 24, 640  # px
+HEAD_Y, TOP, HIGH, PITCH, GAP, WIDEST = 246, 300, 94, 104, 24, 640  # px
 ROWS = 6  # arenas of a game that fit
 
 
@@ -94,5 +94,10 @@ def cell(title: str, turn: str, w: int, hot: bool) -> LitImage:
     layer.glow.line(cut_box(0, 0, w, HIGH, 16), edge, THIN, True)
     layer.glow.line(cut_box(20, 18, 64, HIGH - 36, 12), ICE if turn else STEEL, THIN, True)
     layer.canvas.text(turn, BODY, 52, HIGH / 2, FOCUS, "head", "c")
-    layer.canvas.text(title, fit_size(title, LABEL, w - 140), 112, HIGH / 2, ICE if turn or hot else MIST, "head")
+    lines, largest = [title], LABEL
+    if text_width(title, BODY) > w - 132:
+        lines, largest = wrap_balanced(title, 2, BODY, "head"), BODY
+    for i, line in enumerate(lines):
+        y = HIGH / 2 + 42 * (i - (len(lines) - 1) / 2)
+        layer.canvas.text(line, fit_size(line, largest, w - 132), 104, y, ICE if turn or hot else MIST, "head")
     return layer.render()

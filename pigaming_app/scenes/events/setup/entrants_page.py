@@ -14,7 +14,7 @@ from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import AIS, find_brain, level_of
 from pigaming_app.events.entrant_lists import ListError, entrants_of_text, read_list
 from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
-from pigaming_app.games.setup import ChoiceError
+from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.format_pictures import row_picture
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
@@ -37,13 +37,16 @@ from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 IDLE = 180.0  # s without input before the return to the title
 MESSAGE_SECONDS = 4.0
 MAX_LIST = 100_000  # bytes of a dropped file
-MAX_SHOWN = 20  # characters of a line that is refused
+MAX_SHOWN, MOST_SHOWN = 20, 44  # characters of a file's name, of a line that is refused; of columns
+SENTENCE_ROOM = RIGHT - LEFT - 60  # px
 TEAMS = 4  # that can be chosen here
-COLUMNS, CELL_W, CELL_H, PITCH_X, PITCH_Y, TOP = 8, 202, 66, 218, 80, 204  # px
+TOP, GAP = 204, 14  # px
+NARROW = 300  # px: a cell with little room for a team
+GRIDS = {32: (4, 80), 66: (6, 58)}  # columns, and px from row to row, by number of entrants at most
 DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
 LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN = "letters", "add_ai", "strength", "paste", "begin"
 SIGNS = {LETTERS: "plus", ADD_AI: "ai", PASTE: "list", BEGIN: "play"}
-DEEDS = (LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN)
+DEEDS = {LETTERS: 402, ADD_AI: 292, STRENGTH: 272, PASTE: 402, BEGIN: 264}  # px, width of each
 
 Begin = Callable[[Draft], "StackOperation | str"]
 
@@ -100,14 +103,17 @@ class EntrantsPage:
                 )
             else:
                 entrant = self._entrant(spot.name)
-                cell(entrant.name, entrant.team, bool(entrant.brain), hot).draw(screen, *spot.rect.topleft)
+                cell(entrant.name, entrant.team, bool(entrant.brain), spot.rect.size, hot).draw(
+                    screen, *spot.rect.topleft
+                )
         if not draft.entrants:
             row_picture("entrants", 0).draw(screen, 960, 390)
             text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 610)
             text(words("events.drop"), BODY, MIST).draw(screen, 960, 690)
         self.focus.draw(screen)
         if self.navigation.sentence:
-            caption(self.navigation.sentence, FOCUS).draw(screen, 960, self.navigation.prompts.y)
+            size = fit_size(self.navigation.sentence, BODY, SENTENCE_ROOM, "body")
+            caption(self.navigation.sentence, FOCUS, size=size).draw(screen, 960, self.navigation.prompts.y)
         else:
             self.navigation.prompts.items = tuple(self._hints())
             self.navigation.prompts.draw(screen)
@@ -128,51 +134,39 @@ class EntrantsPage:
         self.focus.set_spots(self._spots())
         return ""
 
-    def add_list(self, text: str) -> None:
-        """Enter everybody of a list, and show how many."""
+    def add_list(self, text: str, file: str = "") -> None:
+        """Enter everybody of a list, and show how many. `file`: its name."""
         words, count = self.context.words, 0
         try:
-            found = entrants_of_text(one_a_line(text))
-            for entrant in found:
-                self._require_brain(entrant.brain)
+            found = entrants_of_text(one_a_line(text), self._require_brain)
         except ListError as error:
-            log.warning("list of entrants: %s", error)
-            self._refuse(self._reason(error))
+            log.warning("list of entrants %s: %s", file, error)
+            shown = one_line(error.text, MAX_SHOWN)
+            self._refuse(words(f"events.bad_{error.kind}", line=error.line, text=shown, most=MOST), file)
             return
-        except ChoiceError as error:
-            log.warning("list of entrants: %s", error)
-            self._refuse(words("events.bad_ai"))
-            return
-        for entrant in found:
+        for entrant in found.entrants:
             name = HARMLESS if is_rude(entrant.name.upper()) else entrant.name
             count += not self._add(replace(entrant, name=name))
-        if count:
-            self.navigation.show_message(words("events.added", count=count))
-            self.context.sounds.play("ready")
-        else:
-            self._refuse(words("events.no_names"))
+        if not count:
+            self._refuse(words("events.no_names"), file)
+            return
+        message = words("events.added", count=count)
+        if found.ignored:
+            message += "  ·  " + words("events.ignored", columns=one_line(", ".join(found.ignored), MOST_SHOWN))
+        self.navigation.show_message(message)
+        self.context.sounds.play("ready")
 
     def _require_brain(self, brain: str) -> None:
         """Raises ChoiceError unless an AI plays all games of the event."""
-        for game in self.draft.games if brain else ():
+        for game in self.draft.games:
             find_brain(game, brain)
-
-    def _reason(self, error: ListError) -> str:
-        """Why a list cannot be taken."""
-        words = self.context.words
-        if error.full:
-            return words("events.full", most=MOST)
-        if error.taken:
-            return words("events.taken", name=error.taken)
-        key = "events.bad_name" if error.name else "events.bad_line"
-        return words(key, line=error.line, text=one_line(error.text, MAX_SHOWN))
 
     def _read(self, path: Path) -> None:
         try:
-            self.add_list(read_list(path, MAX_LIST))
+            self.add_list(read_list(path, MAX_LIST), path.name)
         except (OSError, ValueError) as error:
             log.warning("%s: %s", path.name, error)
-            self._refuse(self.context.words("events.unread"))
+            self._refuse(self.context.words("events.unread"), path.name)
 
     def _paste(self) -> None:
         try:
@@ -181,8 +175,9 @@ class EntrantsPage:
             log.warning("clipboard: %s", error)
             self._refuse(self.context.words("events.no_names"))
 
-    def _refuse(self, sentence: str) -> None:
-        self.navigation.show_message(sentence)
+    def _refuse(self, sentence: str, file: str = "") -> None:
+        """Show why not. `file`: name of the file that is refused."""
+        self.navigation.show_message(f"{one_line(file, MAX_SHOWN)}: {sentence}" if file else sentence)
         self.context.sounds.play("refused")
 
     def _change_team(self, spot: str) -> None:
@@ -264,15 +259,19 @@ class EntrantsPage:
         return brain_name(words, self.draft.games[0], self.brain)
 
     def _spots(self) -> list[FocusSpot]:
-        cells = [
-            FocusSpot(
-                str(i), pygame.Rect(LEFT + PITCH_X * (i % COLUMNS), TOP + PITCH_Y * (i // COLUMNS), CELL_W, CELL_H)
-            )
-            for i in range(len(self.draft.entrants))
-        ]
-        w = (RIGHT - LEFT - DEED_GAP * (len(DEEDS) - 1)) // len(DEEDS)
-        boxes = (pygame.Rect(LEFT + (w + DEED_GAP) * i, DEEDS_Y, w, DEED_H) for i in range(len(DEEDS)))
-        return [*cells, *(FocusSpot(deed, box) for deed, box in zip(DEEDS, boxes, strict=True))]
+        count = len(self.draft.entrants)
+        columns, down = next(grid for most, grid in GRIDS.items() if count <= most)
+        across = (RIGHT - LEFT + GAP) // columns
+        boxes = (
+            pygame.Rect(LEFT + across * (i % columns), TOP + down * (i // columns), across - GAP, down - GAP)
+            for i in range(count)
+        )
+        cells = [FocusSpot(str(i), box) for i, box in enumerate(boxes)]
+        x, spots = LEFT, []
+        for name, w in DEEDS.items():
+            spots.append(FocusSpot(name, pygame.Rect(x, DEEDS_Y, w, DEED_H)))
+            x += w + DEED_GAP
+        return [*cells, *spots]
 
 
 def brains_for(played: tuple[str, ...]) -> tuple[str, ...]:
@@ -304,16 +303,18 @@ def deed(word: str, sign: str, w: int, hot: bool) -> LitImage:
 
 
 @cached
-def cell(name: str, team: str, ai: bool, hot: bool) -> LitImage:
+def cell(name: str, team: str, ai: bool, size: tuple[int, int], hot: bool) -> LitImage:
     """An entrant; top left at (0, 0)."""
-    layer = Layer(0, 0, CELL_W, CELL_H)
-    layer.glow.line(cut_box(0, 0, CELL_W, CELL_H, 12), FOCUS if hot else STEEL, THIN, True)
+    w, h = size
+    layer = Layer(0, 0, w, h)
+    layer.glow.line(cut_box(0, 0, w, h, 12), FOCUS if hot else STEEL, THIN, True)
     left = 58 if ai else 16
     if ai:
-        icon(layer.glow, "ai", 34, CELL_H / 2, 18, MIST, 3)
-    right = CELL_W - (60 if team else 14)
+        icon(layer.glow, "ai", 34, h / 2, 18, MIST, 3)
+    side = w // 3 if team and w > NARROW else 46 if team else 0
+    right = w - 14 - side
     if team:
-        layer.canvas.text(team, fit_size(team, BODY, 40), CELL_W - 34, CELL_H / 2, MIST, "head", "c")
-    name, size = fit_text(name, LABEL, right - left, "hero")
-    layer.canvas.text(name, size, (left + right) / 2, CELL_H / 2, FOCUS if hot else ICE, "hero", "c")
+        layer.canvas.text(shortened(team, side - 10, BODY), BODY, w - 14, h / 2, MIST, "head", "r")
+    name, font_size = fit_text(name, LABEL, right - left, "hero", BODY)
+    layer.canvas.text(name, font_size, (left + right) / 2, h / 2, FOCUS if hot else ICE, "hero", "c")
     return layer.render()

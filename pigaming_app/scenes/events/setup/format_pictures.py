@@ -35,17 +35,19 @@ def picture(form: Format) -> LitImage:
 
 
 def _bracket(ink: GlowCanvas) -> None:
-    for i, y in enumerate((-105, -35, 35, 105)):
-        ink.line(cut_box(-160, y - 22, 84, 44, 8), PLAYERS[i], THIN, True)
-        ink.line(
-            [(-76, y), (-48, y), (-48, y + (35 if i % 2 == 0 else -35)), (-20, y + (35 if i % 2 == 0 else -35))],
-            STEEL,
-            THIN,
-        )
-    for y, color in ((-70, PLAYERS[0]), (70, PLAYERS[2])):
-        ink.line(cut_box(-20, y - 22, 84, 44, 8), color, THIN, True)
-        ink.line([(64, y), (84, y), (84, 0), (100, 0)], STEEL, THIN)
-    ink.line(cut_box(100, -24, 64, 48, 8), FOCUS, LINE, True)
+    """Two sides: the unbeaten above, those with one life left below in dashes, and the final of both."""
+    upper, lower = (-172, -84, 4), (-84, 4)  # px, left edges of the rounds of either side
+    rounds = [(x, [(-136, -90, -44, 2), (-113, -21), (-67,)][i], False) for i, x in enumerate(upper)]
+    rounds += [(x, [(74, 120), (97,)][i], True) for i, x in enumerate(lower)]
+    for k, (x, ys, beaten) in enumerate(rounds):
+        following = rounds[k + 1] if k + 1 < len(rounds) and len(ys) > 1 else (108, (15,), False)
+        for i, y in enumerate(ys):
+            box = cut_box(x, y - 16, 62, 32, 7)
+            color = PLAYERS[(i + k) % 4]
+            ink.dashes(box, dim(color, 0.7), THIN, 9, 6) if beaten else ink.line(box, color, THIN, True)
+            there = following[1][i // 2]
+            ink.line([(x + 64, y), (following[0] - 13, y), (following[0] - 13, there), (following[0], there)], STEEL, 3)
+    ink.line(cut_box(108, -9, 70, 48, 8), FOCUS, LINE, True)
 
 
 def _cross_table(ink: GlowCanvas) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import pygame
 
+from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.results.spelling import Spelling
@@ -19,7 +20,7 @@ IDLE = 90.0  # s without input before the return to the entrants
 INPUT_LOCKOUT = 0.3  # s during which input is ignored
 W, H, GAP, MIDDLE = 216, 276, 48, 500  # px, letter boxes
 LETTERS = 3
-RECENT, RECENT_Y, HINT_Y = 8, 250, 800  # names shown, and px
+RECENT, RECENT_ROOM, RECENT_Y, HINT_Y = 8, 180, 250, 800  # names shown, and px
 
 
 class LettersPage:
@@ -74,7 +75,9 @@ class LettersPage:
         words, names = self.context.words, self.names()
         screen.blit(backdrop(), (0, 0))
         heading(words("events.letters"), words("events.count", count=len(names))).draw(screen)
-        text("  ".join(names[-RECENT:]), LABEL, MIST, "head").draw(screen, 960, RECENT_Y)
+        text("   ".join(shortened(name, RECENT_ROOM) for name in names[-RECENT:]), LABEL, MIST, "head").draw(
+            screen, 960, RECENT_Y
+        )
         xs = [middle(i) for i in range(LETTERS)]
         for x in xs:
             letter_box(W, H).draw(screen, x, MIDDLE)

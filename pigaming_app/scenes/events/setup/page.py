@@ -14,7 +14,6 @@ from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.views import game_tile
 from pigaming_app.ui.draw import BODY, readable, text_width
 from pigaming_app.ui.draw.layers import backdrop
-from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.focus import Focus
@@ -137,7 +136,10 @@ class SetupPage:
         if row == "game":
             return words("events.turns" if option == BY_TURNS else f"games.{option}")
         if row == "order" and isinstance(option, tuple):
-            return "  ·  ".join(words(f"events.short_{game}") for game in option)
+            names = [words(f"events.short_{game}") for game in option]
+            whole = "  ·  ".join(names)
+            fits = text_width(whole, readable(BODY), "body") <= setting_row.VALUE_ROOM
+            return whole if fits else words("events.first_game", game=names[0])
         if row == "length":
             return self._length(str(option))
         if row == "fill":
@@ -145,9 +147,8 @@ class SetupPage:
         return str(option)
 
     def _line(self, row: str) -> str:
-        """The description of a row; of the order of the games the order itself, if the row has no room for it."""
-        order = self._name("order", self.draft.order)
-        if row == "order" and fit_text(order, readable(BODY), setting_row.VALUE_ROOM, "body")[0] != order:
+        """The description of a row; of the games their order, for which the row may have no room."""
+        if row == "order":
             return ", ".join(self.context.words(f"events.short_{game}") for game in self.draft.order)
         return self.context.words(f"events.{row}_line")
 

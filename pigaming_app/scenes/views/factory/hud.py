@@ -3,7 +3,7 @@
 Panels are baked into the background when their content changes.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -14,7 +14,7 @@ from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.factory import order_cards, panels, star_panel
 from pigaming_app.scenes.views.factory.order_cards import Order
 from pigaming_app.scenes.views.factory.panels import EDGE, NUMBER, H, Mate, W, X, Y
-from pigaming_app.scenes.views.hud.ai_sign import ai_of
+from pigaming_app.scenes.views.hud.ai_sign import ai_of, name_of
 from pigaming_app.scenes.views.hud.parts import CLOCK, HudParts
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.sim.world import HZ
@@ -38,6 +38,7 @@ class FactoryHud:
         self.parts = HudParts(background)
         self.teams = (ICE,) if state.rules.allies else tuple(range(TEAMS))
         self.delivered = list(state.delivered)
+        self.names: Sequence[str] = ()  # of the first seats, in an event
         self.calls: dict[int, tuple[str, int]] = {}  # by team: the call on its panel, and the tick at which it ends
 
     def call(self, team: int, key: str, tick: int) -> None:
@@ -79,7 +80,7 @@ class FactoryHud:
 
     def _mates(self, state: Factory, team: int) -> tuple[Mate, ...]:
         return tuple(
-            (i, ai_of(self.players[i]), round(16 * robot.turbo))
+            (i, ai_of(self.players[i]), name_of(self.names, i), round(16 * robot.turbo))
             for i, robot in enumerate(state.robots)
             if robot.present and robot.team == team
         )
@@ -97,7 +98,8 @@ class FactoryHud:
             yield from star_panel.jobs(state)
             return
         for team in self.teams:
-            yield partial(panels.frame, team)
+            named = tuple((seat, brain, name, 0) for seat, brain, name, _ in self._mates(state, team) if name)
+            yield partial(panels.frame, team, mates=named)
             for form in range(DELIVERED + 1):
                 yield partial(panels.small_crate, team, form, order_cards.SIZES[0][0])
         if state.rules.party:
@@ -116,7 +118,8 @@ def team_bits(
 ) -> Iterator[Bit]:
     """Pieces of a team's panel; the second team's is mirrored."""
     x, mirrored = X[team], team != ICE
-    yield panels.frame(team), (x - EDGE, Y - EDGE), None
+    named = tuple((seat, brain, name, 0) for seat, brain, name, _ in mates if name)
+    yield panels.frame(team, mates=named), (x - EDGE, Y - EDGE), None
     text, rest = str(number), f"/{goal}" if goal else ""
     wide = panels.count_width(text, rest)
     yield from panels.count_bits(text, rest, x + W - NUMBER - wide if mirrored else x + NUMBER, color)

@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.games.factory.state import ICE as FIRST_TEAM
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory.background import draw_lorry
-from pigaming_app.scenes.views.hud.ai_sign import level_mark
+from pigaming_app.scenes.views.hud.ai_sign import driver_tab, level_mark
 from pigaming_app.scenes.views.hud.parts import number_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
@@ -20,14 +20,22 @@ Y, H, W, EDGE = 26, 104, 652, 24  # px: top, height and width of a panel, margin
 X = (160, 1108)
 EMBLEM, NUMBER = 58, 106  # px from a panel's outer edge
 MIDDLE = Y + H / 2
-Mate = tuple[int, str, int]  # seat, its AI or empty, turbo in sixteenths
+NAMES = -9  # px, of the middle of the names below the upper line
+Mate = tuple[int, str, str, int]  # seat, its AI and name or empty, turbo in sixteenths
 
 
 @cached
-def frame(team: int, lorry: bool = False) -> pygame.Surface:
-    """Outline and emblem of a panel; with a lorry for its emblem if there is only one team."""
+def frame(team: int, lorry: bool = False, mates: tuple[Mate, ...] = ()) -> pygame.Surface:
+    """Outline and emblem of a panel; with a lorry for its emblem if there is only one team. `mates`: whose names stand
+    on its upper line.
+    """
     ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
     _outline(ink, team)
+    for i, (seat, brain, name, _) in enumerate(mates):
+        x, room = 24 + (W - 48) / len(mates) * i, (W - 48) / len(mates)
+        ink.solid(cut_box(x, NAMES - 18, 38, 34, 4))
+        badge(ink, seat, x + 18, NAMES, 14)
+        driver_tab(ink, brain, name, x + 34, NAMES, room - 50, PLAYERS[seat])
     if lorry:
         ink.set_transform(EDGE + EMBLEM, EDGE + H / 2, 0.0, 0.8)
         draw_lorry(ink, 0, 0, COLORS[team], 1)
@@ -112,5 +120,5 @@ def robot_bits(mates: tuple[Mate, ...], xs: tuple[float, ...]) -> Iterator[Bit]:
     """Robots in columns centred at `xs`, at most two in each."""
     columns = [mates[2 * i : 2 * i + 2] for i in range(len(xs))]
     for x, column in zip(xs, columns, strict=True):
-        for i, (seat, brain, turbo) in enumerate(column):
+        for i, (seat, brain, _, turbo) in enumerate(column):
             yield centred(robot_sign(seat, brain, turbo), x, MIDDLE + (0 if len(column) == 1 else -25 + 50 * i))

@@ -1,6 +1,7 @@
 """View of Robot Factory: robots with forks, crates, running machines, people."""
 
 import math
+from collections.abc import Sequence
 from functools import partial
 
 import pygame
@@ -77,6 +78,9 @@ class FactoryView(MatchView):
         self.people = self.people_before = _people(state)
         self.add_prewarm_jobs(self.hud.jobs(state))
         self.add_prewarm_jobs(jobs(self.seats, state, self.notes))
+
+    def show_names(self, names: Sequence[str]) -> None:
+        self.hud.names = names
 
     def watch(self, state: Factory) -> list[SoundCue]:
         self.record_poses(state)

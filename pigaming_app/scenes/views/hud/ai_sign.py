@@ -1,20 +1,27 @@
-"""The sign of an AI on cards and in rows: its icon, and its level, if it is one."""
+"""Who drives, on cards and in rows: the icon of an AI with its level, if it is one, and names of an event."""
+
+from collections.abc import Sequence
 
 from pigaming_app.ai.registry import level_of
 from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.ui.draw import WHITE, Color, GlowCanvas, cut_box, icon, mix, text_width
+from pigaming_app.ui.draw.text import fit_text
 
-TAB = 32  # px, type size on a card's outline
+TAB = 34  # px, type size on a card's outline
 
 
-def ai_tab(ink: GlowCanvas, brain: str, x: float, y: float, color: Color) -> None:
-    """The sign on the upper line of a card, which it interrupts; x: its left edge. Nothing without a brain."""
+def driver_tab(ink: GlowCanvas, brain: str, name: str, x: float, y: float, room: float, color: Color) -> None:
+    """Who drives, on the upper line of a card, which it interrupts, within `room` px from x: the sign of an AI, and the
+    name of an entrant, or else the level of the AI. Nothing without either.
+    """
+    lead = 46 if brain else 4
+    text, size = fit_text(name, TAB, room - lead - 4, "hero", TAB) if name else (level_mark(brain), TAB)
+    w = text_width(text, size, "hero") + 6 if text else 0.0
+    if brain or text:
+        ink.solid(cut_box(x, y - 18, lead + w - 2, 34, 4))
     if brain:
-        text = level_mark(brain)
-        w = text_width(text, TAB, "hero") if text else 0.0
-        ink.solid(cut_box(x, y - 18, 44 + w + (6 if text else 0), 34, 4))
         icon(ink, "ai", x + 22, y, 17, mix(color, WHITE, 0.5), 3)
-        ink.text(text, TAB, x + 46, y, mix(color, WHITE, 0.8), "hero")
+    ink.text(text, size, x + lead, y, mix(color, WHITE, 0.8), "hero")
 
 
 def level_mark(brain: str) -> str:
@@ -32,3 +39,8 @@ def ai_mark(ink: GlowCanvas, brain: str, x: float, y: float, color: Color, r: in
 def ai_of(driver: str) -> str:
     """The AI on a seat, by its driver; empty: a person, or nobody."""
     return "" if driver in ("human", "off") else driver
+
+
+def name_of(names: Sequence[str], seat: int) -> str:
+    """The name on a seat; empty if there is none."""
+    return names[seat] if seat < len(names) else ""

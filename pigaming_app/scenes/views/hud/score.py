@@ -4,7 +4,7 @@ Free-for-all: one panel per seat, two on either side of the clock. Two teams: on
 clock and linked to their panels.
 """
 
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -12,7 +12,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
-from pigaming_app.scenes.views.hud.ai_sign import ai_of, ai_tab
+from pigaming_app.scenes.views.hud.ai_sign import ai_of, driver_tab, name_of
 from pigaming_app.scenes.views.hud.parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits
 from pigaming_app.ui.draw import (
     ICE,
@@ -92,6 +92,7 @@ class ScoreHud:
         self.slots, self.sums = layout(state.robots)
         self.parts = HudParts(background)
         self.points: dict[int, int] = {}
+        self.names: Sequence[str] = ()  # of the first seats, in an event
 
     def show(self, state: Any) -> list[SeatPanel]:
         """Bake changed parts; returns the panels whose points changed."""
@@ -102,7 +103,7 @@ class ScoreHud:
         for slot in self.slots:
             leads = self.leads(state, slot.seat, slot.seat == ahead) and not self.sums
             turbo = round(64 * state.robots[slot.seat].turbo) if self.has_turbo else None
-            content = points[slot.seat], leads, ai_of(self.players[slot.seat]), turbo, self.extras(state, slot.seat)
+            content = points[slot.seat], leads, self._driver(slot.seat), turbo, self.extras(state, slot.seat)
             self.parts.show(slot, content, slot.x - 4, slot.w + 8, partial(self._panel_bits, slot, *content))
         for panel in self.sums:
             total = totals[panel.team], self.leads(state, panel.mates[0].seat, panel.team == ahead)
@@ -115,7 +116,7 @@ class ScoreHud:
         """Prewarm jobs for the pieces of the panels."""
         for slot in self.slots:
             for leads in {False, not self.sums}:
-                yield partial(frame, slot.seat, slot.w, leads, ai_of(self.players[slot.seat]), self.has_turbo)
+                yield partial(frame, slot.seat, slot.w, leads, *self._driver(slot.seat), self.has_turbo)
             yield partial(pulse, slot.seat, slot.w)
             if self.has_turbo:
                 yield partial(turbo_bar, slot.seat, slot.w, True)
@@ -139,14 +140,18 @@ class ScoreHud:
         """Bake the clock if it has changed."""
         self.parts.countdown(state, 84)
 
+    def _driver(self, seat: int) -> tuple[str, str]:
+        """The AI on a seat, and the name of an entrant; either may be empty."""
+        return ai_of(self.players[seat]), name_of(self.names, seat)
+
     def _panel_bits(
-        self, slot: SeatPanel, score: int, leads: bool, brain: str, turbo: int | None, extras: Hashable
+        self, slot: SeatPanel, score: int, leads: bool, driver: tuple[str, str], turbo: int | None, extras: Hashable
     ) -> list[Bit]:
         """Pieces of a panel."""
         x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
         text = str(score).replace("-", "−")
         size = SUB if number_width(text, SUB) < slot.w - 176 else LABEL
-        bits: list[Bit] = [(frame(slot.seat, slot.w, leads, brain, turbo is not None), (x - EDGE, Y - EDGE), None)]
+        bits: list[Bit] = [(frame(slot.seat, slot.w, leads, *driver, turbo is not None), (x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
         if turbo is not None:
             full = EDGE + round((slot.w - 32) * turbo / 64)
@@ -176,8 +181,8 @@ def sole_leader(points: dict[int, int]) -> int | None:
 
 
 @cached
-def frame(player: int, w: int, leads: bool, brain: str, turbo: bool) -> pygame.Surface:
-    """Outline and badge of a panel, with the leader's crown and the AI mark."""
+def frame(player: int, w: int, leads: bool, brain: str, name: str, turbo: bool) -> pygame.Surface:
+    """Outline and badge of a panel, with the leader's crown and who drives."""
     ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
     outline = cut_box(0, 0, w, H)
     if leads:
@@ -187,7 +192,7 @@ def frame(player: int, w: int, leads: bool, brain: str, turbo: bool) -> pygame.S
     if leads:
         ink.solid(cut_box(22, -22, 44, 32, 4))
         icon(ink, "crown", 44, -6, 16, color, THIN)
-    ai_tab(ink, brain, 100, -4, color)
+    driver_tab(ink, brain, name, 76, -4, w - 92, color)
     return ink.lit(0.7)
 
 

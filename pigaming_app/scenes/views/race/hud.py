@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.background import Background, Bit
-from pigaming_app.scenes.views.hud.ai_sign import ai_of
+from pigaming_app.scenes.views.hud.ai_sign import ai_of, name_of
 from pigaming_app.scenes.views.hud.parts import CLOCK, XS, H, HudParts, Y, number_bits
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import drives_wrong
@@ -41,6 +41,7 @@ class RaceHud:
         self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
         self.parts = HudParts(background)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: (direction, tick) of its last change of place
+        self.names: Sequence[str] = ()  # of the first seats, in an event
         self.notice: tuple[tuple[str, ...], int] = (), 0  # words in place of the clock, and their first tick
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
@@ -78,6 +79,7 @@ class RaceHud:
                     race_cards.frame,
                     seat,
                     ai_of(self.players[seat]),
+                    name_of(self.names, seat),
                     alarm,
                     done,
                     bool(state.rules.party) and not (alarm or done),
@@ -128,6 +130,7 @@ class RaceHud:
             done=done,
             item=ICONS[racer.item] if state.rules.party and not done and not sign else "none",
             slip=bool(racer.slip) and not done,
+            name=name_of(self.names, seat),
         )
 
     def _gap(self, state: Race, seat: int) -> float:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit
-from pigaming_app.scenes.views.hud.ai_sign import ai_tab
+from pigaming_app.scenes.views.hud.ai_sign import driver_tab
 from pigaming_app.scenes.views.hud.parts import CLOCK, PANEL_W, H, Y, number_bits
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.ui.draw import (
@@ -46,8 +46,8 @@ LEFT, LAP, RIGHT = 16, 103, W - 14  # px: left edge of place and lap, right edge
 GAP = 122  # px, maximum width of a gap
 FOOT = W - 40  # px, length of the lap bar
 SIGNS = W - 132  # px, centre of the warnings
-ITEM = W - 122  # px, EDGE left of the centre of the item slot
-ITEM_SIZE = 31  # px, radius
+ITEM = W - 68  # px, EDGE left of the centre of the item slot
+ITEM_SIZE, ITEM_UP = 28, 5  # px, radius, and its centre above the card
 
 
 @dataclass(frozen=True)
@@ -69,21 +69,24 @@ class RaceCard:
     done: bool
     item: str = "none"  # that it holds: "", or the name of its icon; "none": there are no items
     slip: bool = False  # in a slipstream
+    name: str = ""  # of an entrant, in an event
 
 
 def card_bits(card: RaceCard, x: int) -> list[Bit]:
     """Pieces of a card with its left edge at `x`."""
     corner = (x - EDGE, Y - EDGE)
-    bits: list[Bit] = [(frame(card.seat, card.brain, bool(card.sign), card.done, card.item != "none"), corner, None)]
+    bits: list[Bit] = [
+        (frame(card.seat, card.brain, card.name, bool(card.sign), card.done, card.item != "none"), corner, None)
+    ]
     number = FOCUS if card.done and card.place == 1 else WHITE
     text = str(card.place)
     bits += number_bits(text, PLACE, x + LEFT, Y + ROW, number)
     after = x + LEFT + round(number_width(text, PLACE)) + 1
     bits.append((word(card.ending, number, ENDING), (after - EDGE, Y + ROW - 15 - EDGE), None))
     if card.moved:
-        bits.append((mover(card.moved > 0), (x + W - 40 - EDGE, Y - EDGE), None))
+        bits.append((mover(card.moved > 0), (after + 15 - EDGE, Y + ROW + 16 - EDGE), None))
     if card.item != "none":
-        bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE), None))
+        bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE - ITEM_UP), None))
     full, empty = turbo(card.seat, True, card.slip), turbo(card.seat, False, False)
     bits += _part_lit(full, empty, (x + 17, Y + 80), card.turbo * CELLS * CELL / 64)
     bits += _part_lit(
@@ -120,19 +123,21 @@ def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], 
 
 
 @cached
-def frame(seat: int, brain: str, alarm: bool, done: bool, slot: bool) -> pygame.Surface:
-    """Outline and badge of a card; red during a warning, bold after the finish; `slot`: with a gap for an item."""
+def frame(seat: int, brain: str, name: str, alarm: bool, done: bool, slot: bool) -> pygame.Surface:
+    """Outline and badge of a card, and who drives; red during a warning, bold after the finish. `slot`: with a gap for
+    an item.
+    """
     ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
     outline, edge = cut_box(0, 0, W, H), ALARM if alarm else color
     if alarm or done:
         ink.fill(outline, dim(edge, 0.16))
     ink.line(outline, edge if alarm or done else dim(edge, 0.8), LINE if alarm or done else THIN, True)
     if slot:
-        ink.fill(regular_polygon(6, ITEM_SIZE + 9, 0.0, ITEM + EDGE, 0.0), (0, 0, 0))
+        ink.fill(regular_polygon(6, ITEM_SIZE + 9, 0.0, ITEM + EDGE, -ITEM_UP), (0, 0, 0))
     ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
     ink.solid(cut_box(14, -20, 56, 36, 4))
     badge(ink, seat, 42, -2, 20)
-    ai_tab(ink, brain, 84, -2, color)
+    driver_tab(ink, brain, name, 76, -2, (ITEM + EDGE - ITEM_SIZE - 12 if slot else W - 16) - 76, color)
     return ink.lit(0.7)
 
 

@@ -90,6 +90,9 @@ class RaceView(MatchView):
         if not self.party:
             self.recorder = GhostRecorder(folder, self.arena, self.players)
 
+    def show_names(self, names: Sequence[str]) -> None:
+        self.cards.names = names
+
     def watch(self, state: Race) -> list[SoundCue]:
         self.record_poses(state)
         self.cards.follow(state)

@@ -3,8 +3,8 @@ import { randomBytes } from "node:crypto";
 import { parentPort, receiveMessageOnPort, workerData } from "node:worker_threads";
 
 const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7, FAULT = 8, OFFLINE = 9,
-  PULSES = 10; // as in boards.mjs
-const { numbers, inbox, files, interpreter, paced } = workerData;
+  PULSES = 10, REFERENCE = 12; // as in boards.mjs
+const { numbers, inbox, robot, interpreter, paced } = workerData;
 const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
 const pins = {};
 let changed = false;
@@ -14,7 +14,10 @@ globalThis.bridge = {
   ticks: () => Math.floor(time()),
   random: (size) => randomBytes(size).toString("hex"),
   cause: () => numbers[CAUSE],
+  board: () => robot.board,
   battery: () => numbers[BATTERY],
+  divider: () => robot.divider,
+  reference: () => numbers[REFERENCE],
   button: () => numbers[BUTTON],
   hangs: () => numbers[HANG] === 1,
   fault: () => Atomics.exchange(numbers, FAULT, 0),
@@ -56,15 +59,15 @@ const { loadMicroPython } = await import(interpreter);
 const micropython = await loadMicroPython({
   heapsize: 128 * 1024, // bytes, about that of an ESP32
   linebuffer: true,
-  stdout: (line) => console.error(line),
-  stderr: (line) => console.error(line),
+  stdout: (line) => parentPort.postMessage(["print", line]),
+  stderr: (line) => parentPort.postMessage(["print", line]),
 });
 micropython.FS.mkdir("/robot");
-for (const [name, text] of Object.entries(files)) micropython.FS.writeFile(`/robot/${name}`, text);
+for (const [name, data] of Object.entries(robot.files)) micropython.FS.writeFile(`/robot/${name}`, Buffer.from(data, "base64"));
 micropython.runPython("import sys\nsys.path.insert(0, '/robot')\nimport standins");
 try {
-  micropython.runPython(files["main.py"]);
+  micropython.runPython("exec(compile(open('/robot/main.py').read(), 'main.py', 'exec'))");
 } catch (error) {
-  console.error(String(error));
+  parentPort.postMessage(["print", String(error)]);
 }
 micropython.runPython("standins.prompt()");

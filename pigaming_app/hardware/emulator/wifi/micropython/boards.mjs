@@ -1,17 +1,18 @@
 // Emulated boards: one worker thread with MicroPython for each robot, UDP sockets on loopback, a watchdog, and a clock.
 //
-// Standard input: one JSON object a line. The first configures: {"robots": [{file: text}, ...], "interpreter": path,
-// "paced": bool}. Then {"now": ms, "received": [number, ...]} advances the clock of paced boards once each has received so
-// many datagrams, and {"robot": index, "do": "reboot" | "off" | "hang loop" | "hang board" | "error" | "interrupt",
-// "battery": mV, "button": 0 | 1, "offline": 0 | 1, "pulses": [left, right]} disturbs one.
-// Standard output: {"ports"}, {"robot", "at", "pins"}, {"robot", "reset"}, {"now"}. Times are ms: of the clock if paced,
-// else of the system's monotonic clock.
+// Standard input: one JSON object a line. The first configures: {"robots": [{"board": name, "divider": of the battery's
+// voltage, "files": {name: base64}}, ...], "interpreter": path, "paced": bool}. Then {"now": ms, "received": [number, ...]}
+// advances the clock of paced boards once each has received so many datagrams, and {"robot": index, "do": "reboot" | "off" |
+// "hang loop" | "hang board" | "error" | "interrupt", "battery": mV, "reference": mV, "button": 0 | 1, "offline": 0 | 1,
+// "pulses": [left, right]} disturbs one.
+// Standard output: {"ports"}, {"robot", "at", "pins"}, {"robot", "reset"}, {"robot", "printed"}, {"now"}. Times are ms: of
+// the clock if paced, else of the system's monotonic clock.
 import dgram from "node:dgram";
 import { createInterface } from "node:readline";
 import { MessageChannel, Worker } from "node:worker_threads";
 
 export const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7, FAULT = 8, OFFLINE = 9,
-  PULSES = 10, SIZE = 12;
+  PULSES = 10, REFERENCE = 12, SIZE = 13;
 const lines = createInterface({ input: process.stdin })[Symbol.asyncIterator]();
 const first = JSON.parse((await lines.next()).value);
 const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
@@ -20,10 +21,11 @@ const wake = (robot) => { Atomics.add(robot.numbers, WAKE, 1); Atomics.notify(ro
 let sending = 0;
 
 class Robot {
-  constructor(index, files) {
-    Object.assign(this, { index, files, received: 0, idle: -1, worker: null });
+  constructor(index, robot) {
+    Object.assign(this, { index, robot, received: 0, idle: -1, worker: null });
     this.numbers = new Int32Array(new SharedArrayBuffer(4 * SIZE));
     this.numbers[BATTERY] = 5200;
+    this.numbers[REFERENCE] = 1100;
     this.socket = dgram.createSocket({ type: "udp4", lookup: (host, options, done) => done(null, host, 4) });
     this.socket.on("message", (data, from) => {
       this.received++;
@@ -47,7 +49,7 @@ class Robot {
     this.numbers[CAUSE] = cause;
     this.idle = -1;
     const worker = this.worker = new Worker(new URL("board.mjs", import.meta.url), {
-      workerData: { numbers: this.numbers, inbox: port2, files: this.files, interpreter: first.interpreter, paced: first.paced },
+      workerData: { numbers: this.numbers, inbox: port2, robot: this.robot, interpreter: first.interpreter, paced: first.paced },
       transferList: [port2],
     });
     worker.on("message", (message) => worker === this.worker && this.hear(message));
@@ -58,6 +60,7 @@ class Robot {
     if (kind === "pins") say({ robot: this.index, at: values[0], pins: values[1] });
     if (kind === "idle") { this.idle = values[0]; settle(); }
     if (kind === "reset") this.reset(2);
+    if (kind === "print") say({ robot: this.index, printed: values[0] });
     if (kind === "send") {
       sending++;
       this.socket.send(Buffer.from(values[0], "hex"), values[2], values[1], () => { sending--; settle(); });
@@ -86,7 +89,7 @@ class Robot {
   }
 }
 
-const robots = first.robots.map((files, index) => new Robot(index, files));
+const robots = first.robots.map((robot, index) => new Robot(index, robot));
 let goal = null;
 const time = () => first.paced ? robots[0].numbers[NOW] : monotonic();
 
@@ -114,6 +117,7 @@ async function advance(order) {
 
 function disturb(robot, order) {
   if (order.battery !== undefined) robot.numbers[BATTERY] = order.battery;
+  if (order.reference !== undefined) robot.numbers[REFERENCE] = order.reference;
   if (order.button !== undefined) robot.numbers[BUTTON] = order.button;
   if (order.offline !== undefined) robot.numbers[OFFLINE] = order.offline;
   order.pulses?.forEach((total, encoder) => { robot.numbers[PULSES + encoder] = total; });

@@ -3,18 +3,13 @@
 Timers and interrupts of an RP2040 may be hard: their callbacks must not allocate memory. An ESP32 refuses that.
 """
 
+import adc
 import js
 from micropython import heap_lock, heap_unlock
 
-try:
-    from config import BOARD
-except ImportError:
-    BOARD = "microbit"
-
-ESP32 = BOARD.startswith("board_esp32")
+ESP32 = js.bridge.board().startswith("board_esp32")
 PWRON_RESET, WDT_RESET = 1, 3
-FULL_MV = 9900  # of the battery at the end of the ADC, behind a divider by 3
-FULL_MV_ESP32 = (2850, 9300)  # the same for the attenuations of 0 and 11 dB
+ADC = adc.Esp32 if ESP32 else adc.Rp2
 timers = []
 interrupts = []
 _locked = False  # in a hard callback
@@ -71,6 +66,10 @@ class Pin:
             return int(not js.bridge.button())  # to ground, with a pull-up
         put(self.name, value)
 
+    def analog(self):
+        """The voltage here behind the divider of the battery, and the reference of the chip's ADC, mV."""
+        return js.bridge.battery() / js.bridge.divider(), js.bridge.reference()
+
     def irq(self, handler, trigger, **hard):
         if hard and ESP32:
             raise TypeError("extra keyword arguments given")
@@ -86,20 +85,6 @@ class PWM:
         if not 0 <= duty <= 65535:
             raise ValueError(duty)
         put(self.name, duty)
-
-
-class ADC:
-    if ESP32:
-        ATTN_11DB = 3
-
-        def atten(self, attenuation):
-            self.full = FULL_MV_ESP32[attenuation == self.ATTN_11DB]
-
-    def __init__(self, pin):
-        self.full = FULL_MV_ESP32[0] if ESP32 else FULL_MV
-
-    def read_u16(self):
-        return min(65535, js.bridge.battery() * 65536 // self.full)
 
 
 class UART:

@@ -16,7 +16,7 @@ ROBOT, ARENA = 1, 0  # number of the robot, 1 to 4; id of the arena, 1 to 16383:
 # Kitronik's motor driver board 5620 (DRV8833, four AA cells): pins ahead and back of each motor
 LEFT, RIGHT = (pin8, pin12), (pin0, pin16)
 BATTERY = None  # or pin2, also in the line with `import`: with a divider of 200 kOhm and 100 kOhm at the cells
-BATTERY_FULL_MV = 3.3 * 3 * 1000
+DIVIDER, SUPPLY_MV = 3, 3300
 LOW_MV, EMPTY_MV = 4600, 4400  # the board needs 4.5 V
 
 DRIVE, REPORT, VERSION = 0xD1, 0xD5, 2
@@ -121,7 +121,7 @@ class Robot:
 
     def read_battery(self):
         """Voltage of the battery in mV, 0 without a divider."""
-        return int(BATTERY.read_analog() * BATTERY_FULL_MV) // TOP if BATTERY is not None else 0
+        return BATTERY.read_analog() * SUPPLY_MV * DIVIDER // TOP if BATTERY is not None else 0
 
     def flags(self):
         low = BATTERY is not None and self.millivolts < LOW_MV

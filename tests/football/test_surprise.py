@@ -1,0 +1,52 @@
+"""Pitches from a seed."""
+
+import pytest
+
+from pigaming_app.ai.registry import new_match
+from pigaming_app.games.arenas import load
+from pigaming_app.games.drawing.problems import problems
+from pigaming_app.games.drawing.values import drawing_of
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
+from tests.cases import repeated
+
+
+def check(seed: int) -> tuple[int, int]:
+    """Check that a pitch looks the same from all sides; returns the width of its goals and its number of walls."""
+    arena = load("football", f"surprise-{seed}")
+    assert not problems(games()["football"], drawing_of(arena.source)), seed
+    ends = {frozenset({(w.ax, w.ay), (w.bx, w.by)}): w.half for w in arena.walls}
+    for turn in (lambda x, y: (1600 - x, y), lambda x, y: (x, 900 - y)):
+        assert {frozenset(turn(*end) for end in wall): half for wall, half in ends.items()} == ends
+        assert {turn(*spot) for spot in arena.plan.drops} == set(arena.plan.drops)
+        assert {turn(s.x, s.y) for s in arena.starts} == {(s.x, s.y) for s in arena.starts}
+    return 2 * round(arena.plan.mouth), len(arena.walls)
+
+
+def dropped(seed: int) -> float:
+    """Drops anew a minute, in two minutes of four robots; they score."""
+    one, two, three, four = (Seat("level5", team) for team in (0, 1, 0, 1))
+    match = new_match(Setup("football", f"surprise-{seed}", (one, two, three, four), 2.0, seed, "standard"))
+    drops, was_out, goals = 0, True, 0
+    while not match.over:
+        match.tick()
+        out = match.state.ball.out > 0
+        drops += out and not was_out and match.state.goals == goals
+        was_out, goals = out, match.state.goals
+    assert goals
+    return drops / 2
+
+
+def test_pitches_are_playable_fair_and_differ() -> None:
+    found = [check(seed) for seed in range(12)]
+    assert len({width for width, _ in found}) > 3
+    assert len({walls for _, walls in found}) > 3
+    assert dropped(1) < 1.0
+    assert load("football", "surprise-3") == load("football", "surprise-3")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", repeated(range(0, 1000, 200)))
+def test_a_thousand_seeds_can_be_played(first: int) -> None:
+    assert len({check(seed) for seed in range(first, first + 200)}) > 50
+    assert sum(dropped(seed) for seed in range(first, first + 200, 25)) / 8 < 0.5

@@ -1,0 +1,118 @@
+"""Names of entrants in the match, at its end and on the pages, shortened where they are long."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.events.event import Event
+from pigaming_app.events.spec import Entrant, EventSpec, Format, Outcome
+from pigaming_app.games.game import Outcome as MatchOutcome
+from pigaming_app.games.game import Row
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.events.names import places_line
+from pigaming_app.scenes.events.next_page import EventMatch
+from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
+from pigaming_app.scenes.events.setup.page import SetupPage
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.headline import headline
+from pigaming_app.ui.draw import BODY, readable, text_width
+from pigaming_app.ui.draw.glow import GlowCanvas
+from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.widgets import setting_row
+from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.scenes.cache import empty_cache
+from tests.scenes.events.drawn import running
+
+NAMES = ("Ana", "Maximilian v. Hohenstein", "HAL", "Wolfgang Wimmersbacher")
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    return Arcade(controls)
+
+
+def a_match(arcade: Arcade, game: str, seats: int, variant: str) -> MatchScene:
+    """A match of three people and an AI, or of the first two of them."""
+    entrants = tuple(Entrant(name, "level3" if name == "HAL" else "") for name in NAMES)
+    run = running(
+        Event(EventSpec("T", Format.GRAND_PRIX, (game,), entrants, seats=seats, variants={game: variant})), game
+    )
+    fixture = run.event.open[0]
+    wanted = run.setup(fixture)
+    assert wanted
+    devices = [None if run.brain(name) else KEYS[i] for i, name in enumerate(fixture.entrants)]
+    return MatchScene(arcade.context, wanted, devices, after=EventMatch(run, fixture))
+
+
+@pytest.mark.parametrize("seats", [2, 4])
+@pytest.mark.parametrize("game", [*games()])
+def test_the_hud_has_the_name_of_everybody(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, game: str, seats: int
+) -> None:
+    """As the picture is drawn, before and after the countdown: whole, or with an ellipsis, and in large type."""
+    written: list[tuple[str, int]] = []
+    write = GlowCanvas.text
+
+    def noted(ink: GlowCanvas, said: str, size: int, *rest: object, **named: object) -> object:
+        written.append((said, size))
+        return write(ink, said, size, *rest, **named)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(GlowCanvas, "text", noted)
+    with empty_cache():
+        scene = a_match(arcade, game, seats, "party")
+        scene.runner.view.draw(arcade.screen, scene.match.state, 1.0, 0.1)
+        hud, captions = list(written), []
+        written.clear()
+        scene.runner.draw_captions(arcade.screen, scene.devices)
+        captions = [said for said, _ in written]
+    for name in scene.names:
+        assert any(is_short_for(said, name) and size >= 34 for said, size in hud), (name, hud)
+        assert any(is_short_for(said.split("  ·  ")[0], name) for said in captions), (name, captions)
+    assert not {"P1", "You"} & {*captions, *(said for said, _ in hud)}
+
+
+def is_short_for(said: str, name: str) -> bool:
+    """True for a name, or at least three letters of it and an ellipsis."""
+    return said == name or (said.endswith("…") and len(said) > 3 and name.startswith(said[:-1]))
+
+
+@pytest.mark.parametrize(
+    ("winners", "names", "line"),
+    [
+        ((1,), ("Ana", "Bea"), "Bea wins!"),
+        ((0, 2), ("Ana", "Bea", "Eva", "Zoë"), "Ana + Eva win!"),
+        ((3,), ("Ana", "Bea", "Eva"), "AI 4 ★★★ wins!"),
+    ],
+)
+def test_winners_are_named_in_teams_too(winners: tuple[int, ...], names: Sequence[str], line: str) -> None:
+    """An AI that fills a seat has no name."""
+    teams = (0, 1, 0, 1) if len(winners) > 1 else (0, 1, 2, 3)
+    rows = tuple(Row(seat, team, 1, 0, {}, {}, ()) for seat, team in enumerate(teams))
+    match = setup("human human human level3", teams=teams)
+    assert headline(Words("en"), MatchOutcome(rows, winners, (), 60.0), match, (), names) == line
+
+
+def test_a_result_is_one_line_of_large_type() -> None:
+    outcome = Outcome(1, tuple((name,) for name in NAMES))
+    line = places_line(outcome, 1000)
+    assert text_width(line, BODY) <= 1000
+    assert line.startswith("1. Ana   2. Maxi")
+    assert "3. HAL   4. Wolf" in line
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_order_of_the_games_is_legible(arcade: Arcade, language: str) -> None:
+    """The row has what fits in type of 40 px, the line beside it the whole order."""
+    arcade.context.words.switch(language)
+    draft = Draft(game=BY_TURNS)
+    page = SetupPage(arcade.context, draft, lambda draft: "")
+    for order in draft.options("order"):
+        draft.choose("order", order)
+        shown = page._value("order")
+        names = [arcade.context.words(f"events.short_{game}") for game in draft.order]
+        assert text_width(shown.options[shown.chosen], readable(BODY), "body") <= setting_row.VALUE_ROOM
+        assert names[0] in shown.options[shown.chosen]
+        assert page._line("order") == ", ".join(names)
