@@ -1,7 +1,8 @@
 """The day log: every match, start, end and failure of the arcade, and the batteries of its robots.
 
 A text file for each day in the folder `days` of the user's data, one JSON object a line; lines are only appended.
-A line is written at once, so a killed process loses none. Lines that cannot be read are skipped and counted.
+A line is written at once, so a killed process loses none. Lines that cannot be read are skipped and counted. Each names
+its arcade, as several may run at once; while one runs, it holds the lock of a file of its name.
 """
 
 import contextlib
@@ -9,16 +10,19 @@ import json
 import logging
 import os
 import re
-from dataclasses import asdict, dataclass
+import secrets
+from dataclasses import asdict, dataclass, replace
 from datetime import date, datetime, timedelta
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from pigaming_app.storage.file_lock import hold, is_held
 from pigaming_app.storage.log import require_file
 from pigaming_app.storage.parsing import ParseError, describe_error, one_line, parse_json, read
 
 FOLDER = "days"
+RUNNING = "running-"  # beginning of the name of an arcade's file
 KEPT_DAYS = 56  # days after which a file is deleted
 MAX_BYTES = 8_000_000  # of one day; nothing is appended beyond
 MAX_LINE = 1000  # characters
@@ -27,6 +31,7 @@ MOST_VOLTS = 100.0
 ROBOTS = ("simulated", "emulated", "real")
 PROGRAM = ("start", "end", "failure")  # failure: of a screen; the arcade went on at the title
 _NAME = re.compile(r"[a-z0-9_]{1,60}")
+_ARCADE = re.compile(r"[0-9a-f]{0,16}")
 _FILE = re.compile(r"(\d{4}-\d{2}-\d{2})\.jsonl")
 log = logging.getLogger("pigaming")
 
@@ -42,6 +47,7 @@ class PlayedMatch:
     ais: int
     robots: str = "simulated"  # one of ROBOTS
     complete: bool = True
+    arcade: str = ""  # a name of the run of the arcade; empty in a log without names
 
 
 @dataclass(frozen=True)
@@ -50,6 +56,7 @@ class ProgramEvent:
 
     at: datetime
     what: str
+    arcade: str = ""
 
 
 @dataclass(frozen=True)
@@ -59,6 +66,7 @@ class Battery:
     at: datetime
     robot: int
     volts: float
+    arcade: str = ""
 
 
 Record = PlayedMatch | ProgramEvent | Battery
@@ -73,6 +81,8 @@ class DayLog:
 
     def __init__(self, data: Path | None = None) -> None:
         self.folder = data / FOLDER if data else None
+        self.arcade = secrets.token_hex(4)
+        self._held: int | None = None  # handle of the file of this arcade, while it runs
         self._silent = False  # a loss has been logged
 
     def add(self, record: Record) -> None:
@@ -80,7 +90,8 @@ class DayLog:
         if self.folder is None:
             return
         try:
-            _append(self.folder / f"{record.at:%Y-%m-%d}.jsonl", to_line(record))
+            line = to_line(replace(record, arcade=self.arcade))
+            _append(self.folder / f"{record.at:%Y-%m-%d}.jsonl", line)
         except (OSError, ValueError) as error:
             if not self._silent:
                 log.warning("The day log cannot be written: %s.", describe_error(error))
@@ -89,15 +100,37 @@ class DayLog:
     def note(self, what: str) -> None:
         """Append one of PROGRAM now."""
         self.add(ProgramEvent(now(), what))
-
-    def delete_old(self, today: date) -> None:
-        """Delete the files of days more than KEPT_DAYS ago."""
         if self.folder is None:
             return
+        if what == "start":
+            self._held = hold(_running(self.folder, self.arcade))
+        elif what == "end" and self._held is not None:
+            os.close(self._held)
+            self._held = None
+            with contextlib.suppress(OSError):
+                _running(self.folder, self.arcade).unlink()
+
+    def delete_old(self, today: date) -> None:
+        """Delete the files of days more than KEPT_DAYS ago, and those of arcades that crashed."""
+        if self.folder is None:
+            return
+        for path in self.folder.glob(f"{RUNNING}*"):
+            if not is_held(path):
+                with contextlib.suppress(OSError):
+                    path.unlink()
         for day in days(self.folder.parent):
             if day < today - timedelta(days=KEPT_DAYS):
                 with contextlib.suppress(OSError):
                     (self.folder / f"{day}.jsonl").unlink()
+
+
+def runs(data: Path, arcade: str) -> bool:
+    """True if an arcade is running now."""
+    return is_held(_running(data / FOLDER, arcade))
+
+
+def _running(folder: Path, arcade: str) -> Path:
+    return folder / f"{RUNNING}{arcade}"
 
 
 def now() -> datetime:
@@ -139,9 +172,10 @@ def to_line(record: Record) -> str:
     """The line of a record, without its end."""
     kind = {PlayedMatch: "match", Battery: "battery"}.get(type(record))
     values = {"what": kind} if kind else {}
-    return json.dumps(
-        {**values, **asdict(record), "at": record.at.isoformat(timespec="seconds")}, separators=(",", ":")
-    )
+    values |= asdict(record) | {"at": record.at.isoformat(timespec="seconds")}
+    if not record.arcade:
+        del values["arcade"]
+    return json.dumps(values, separators=(",", ":"))
 
 
 def parse_line(line: str) -> Record:
@@ -162,18 +196,21 @@ def _parsed(line: str) -> Record:
     at = datetime.fromisoformat(_text(values, "at"))
     if at.tzinfo is not None:
         raise ValueError("at: not local time")
-    what = values.get("what")
+    what, arcade = values.get("what"), values.get("arcade", "")
+    if not isinstance(arcade, str) or not _ARCADE.fullmatch(arcade):
+        raise ValueError("arcade: no name")
     if what in PROGRAM:
-        return ProgramEvent(at, str(what))
+        return ProgramEvent(at, str(what), arcade)
     if what == "battery":
-        return Battery(at, _whole(values, "robot", 1, 4), _number(values, "volts", MOST_VOLTS))
+        return Battery(at, _whole(values, "robot", 1, 4), _number(values, "volts", MOST_VOLTS), arcade)
     if what != "match":
         raise ValueError("what: unknown")
     game, robots, complete = _text(values, "game"), _text(values, "robots"), values.get("complete")
     if not _NAME.fullmatch(game) or robots not in ROBOTS or not isinstance(complete, bool):
         raise ValueError("not a match")
     seconds = _number(values, "seconds", MOST_SECONDS)
-    return PlayedMatch(at, game, seconds, _whole(values, "people", 0, 4), _whole(values, "ais", 0, 4), robots, complete)
+    people, ais = _whole(values, "people", 0, 4), _whole(values, "ais", 0, 4)
+    return PlayedMatch(at, game, seconds, people, ais, robots, complete, arcade)
 
 
 def _append(path: Path, line: str) -> None:

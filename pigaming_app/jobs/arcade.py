@@ -9,6 +9,7 @@ from pigaming_app.jobs.kiosk import child
 from pigaming_app.jobs.terminal.command import own_command
 from pigaming_app.jobs.terminal.options import decimal, display, integer, mat_options, mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.storage.safe_mode import DEFAULTS, is_safe
 
 if TYPE_CHECKING:
     from pigaming_app.scenes.app import Options
@@ -83,9 +84,15 @@ def ros_width(arguments: Namespace) -> float | None:
 
 
 def show(options: "Options") -> int:
-    """Run the arcade until it is closed; returns its exit code. Raises Refusal without a display."""
+    """Run the arcade until it is closed, in safe mode without the options of screens and phones. Returns the exit code.
+
+    Raises Refusal without a display.
+    """
     from pigaming_app.scenes.start import run
     from pigaming_app.ui.window import NoDisplay
 
+    if is_safe():
+        changed = {name: value for name, value in options.changed_settings.items() if name not in DEFAULTS}
+        options = replace(options, display=None, scoreboard=None, changed_settings=changed)
     with refused(NoDisplay):
         return run(replace(options, heartbeat=child.heartbeat()))

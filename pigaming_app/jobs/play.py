@@ -46,6 +46,7 @@ from pigaming_app.sim.world import DT, ROBOTS
 from pigaming_app.storage.parsing import ParseError, describe_error, quote, read_text
 from pigaming_app.storage.plugins.endless import overseer
 from pigaming_app.storage.safe_files import NotSaved, require_writable
+from pigaming_app.storage.safe_mode import is_safe
 from pigaming_app.storage.settings import Settings, folders
 
 PICTURE_TIMEOUT = 4.0  # s, timeout of the picture in a match delayed by real robots
@@ -86,6 +87,10 @@ def run(arguments: Namespace) -> int:
     """Play the match; the exit code. Raises Refusal or NotSaved."""
     if needs_supervisor(arguments) and not arguments.headless and not arguments.screenshot:
         return supervised(arguments)
+    if arguments.kiosk and is_safe():  # the match may be what fails
+        from pigaming_app.scenes.app import Options
+
+        return show(Options(kiosk=True))
     with refused(ChoiceError, ArenaError):
         return _play(arguments)
 

@@ -53,6 +53,9 @@ def lines(report: DayReport) -> list[str]:
             row = [counts.get(name, 0) for name in names]
             out.append(f"{hour:>5}:00" + "".join(f"{count:12}" for count in (*row, sum(row))))
     out.append(f"starts {report.starts}, crashes {report.crashes}, failed screens {report.failures}")
+    if report.sessions:
+        hours, minutes = divmod(round(report.open_seconds / 60), 60)
+        out.append(f"open for {hours}:{minutes:02} h, at most {report.at_once} arcades at once")
     for robot, volts in report.batteries.items():
         out.append(f"robot {robot}: {volts.last:.1f} V, lowest {volts.lowest:.1f} V")
     if report.skipped:

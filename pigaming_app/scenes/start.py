@@ -20,10 +20,12 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.app import App, Options
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_choice import choose_kiosk_rules
 from pigaming_app.scenes.preloaded import MODULES
 from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.safe_mode import DEFAULTS, is_safe
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import FILE, Settings, folders
 from pigaming_app.ui import memory as heap
@@ -58,11 +60,16 @@ def opened(options: Options) -> "Iterator[App]":
     data_folders = folders()
     first_start = not any(os.path.exists(data_folders.config / name) for name in (FILE, f"{FILE}.bak"))
     settings, damaged = Settings.load(data_folders.config)
+    if is_safe():
+        settings.use_defaults(DEFAULTS)
     if first_start:
         settings.language = system_language()
     scores, damaged_scores = Scores.load(data_folders.data)
     for name, value in options.changed_settings.items():
         settings.choose(name, value)
+    if options.kiosk:
+        choose_kiosk_rules(settings)
+    settings.settle()
     windowed = options.headless or options.emulator_seed is not None  # next to the emulated camera's window
     canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
     crash_file = _open_log(data_folders.data)

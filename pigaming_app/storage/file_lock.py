@@ -53,6 +53,36 @@ def locked(path: Path) -> Iterator[None]:
         yield
 
 
+def hold(path: Path) -> int | None:
+    """Lock a file, which is created, until its handle is closed or this process ends. The handle; None: impossible."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    except OSError:
+        return None
+    try:
+        _take(handle)
+    except OSError:
+        os.close(handle)
+        return None
+    return handle
+
+
+def is_held(path: Path) -> bool:
+    """True if a process holds the lock of a file, see `hold`."""
+    try:
+        handle = os.open(path, os.O_RDWR)
+    except OSError:
+        return False
+    try:
+        _take(handle)
+    except OSError as error:
+        return isinstance(error, BUSY)
+    finally:
+        os.close(handle)
+    return False
+
+
 def _wait(handle: int, deadline: float) -> None:
     """Take the lock once it is free. Raises TimeoutError at `deadline`, OSError if locks are not supported."""
     while True:

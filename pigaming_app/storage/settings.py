@@ -8,6 +8,7 @@ the settings that it has changed.
 import logging
 import os
 import re
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, fields
 from datetime import time
 from pathlib import Path
@@ -25,6 +26,8 @@ MAX_NAME = 60  # characters
 MAX_GAMES = 64
 MAX_DEVICES = 16  # with changed controls, and functions of each
 MAX_MESSAGES = 5  # per file
+DRAWN = ("arena_id", "wifi_key")  # settings that identify this arena to its robots
+VISITORS = ("language", "strength")  # settings that visitors choose, beside those of each game
 log = logging.getLogger("pigaming")
 
 
@@ -235,12 +238,14 @@ class Settings:
     quiet_from: str = _setting("00:00", TimeOfDay())  # title and attract mode are silent from here
     quiet_until: str = _setting("00:00", TimeOfDay())  # to here; the same time: never
     group_minutes: int = _setting(0, Range(0, 120))  # from the title to the title; 0: no limit
+    keep_choices: bool = _setting(False, Boolean())  # visitors' choices stay and are saved
     controls: dict[str, dict[str, int]] = field(
         default_factory=dict, metadata={"validator": ChangedControls()}
     )  # changed keys and buttons, by key cluster (keys1 to keys4) and by kind of pad
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
     def __post_init__(self) -> None:
+        self._house: Flat | None = None  # choices of the house, while visitors make theirs; None: there are no visitors
         self._base: Flat | None = None  # as last loaded or saved; None: never, so all values count as changed
         self._seen: Flat = {}  # content of the file at that time
 
@@ -273,11 +278,59 @@ class Settings:
             raise ValueError(f"{name} = {value!r} is {error}")
         setattr(self, name, value)
 
+    def settle(self, *names: str) -> None:
+        """Make the present choices those of the house: all, or of VISITORS those named once there are visitors."""
+        now = _choices(self)
+        if not names:
+            self._house = now
+        elif self._house is not None:
+            self._house = self._house | {(None, name): now[None, name] for name in names}
+
+    def return_to_house(self) -> None:
+        """Give up the visitors' choices, unless they are kept."""
+        if self._house is None or self.keep_choices:
+            return
+        self.games = {}
+        for key, value in self._house.items():
+            self._set(key, value)
+
+    def leave_choices_unsaved(self) -> None:
+        """Do not save the present choices of games, unless they are changed."""
+        if self._base is not None:
+            self._base = self._base | {key: value for key, value in _flat(self).items() if key[0] is not None}
+
+    def use_defaults(self, names: Iterable[str]) -> None:
+        """Use the defaults of these settings, which are not saved unless they are changed or kept."""
+        default = Settings()
+        for name in names:
+            setattr(self, name, getattr(default, name))
+        if self._base is not None:
+            self._base = self._base | {(None, name): getattr(default, name) for name in names}
+
+    def keep(self, names: Iterable[str]) -> None:
+        """Save these settings with the next changes, as they are."""
+        if self._base is not None:
+            self._base = {key: value for key, value in self._base.items() if key[0] or key[1] not in names}
+
+    def take_over(self, other: "Settings", names: Iterable[str] | None = None) -> list[str]:
+        """Take over the values of other settings, all or these, except what is drawn once for this installation.
+
+        Returns the names of those that differed.
+        """
+        for game in self.games:
+            other.choice(game)
+        values = _flat(other)
+        wanted = {*values} if names is None else {(None, name) for name in names}
+        changed = [key for key in _differing(values, _flat(self)) if key in wanted and key[1] not in DRAWN]
+        for key in changed:
+            self._set(key, values[key])
+        return [_name(key) for key in changed]
+
     def save(self, folder: Path) -> None:
         """Merge the changes of this instance into the file. Raises NotSaved; the file is then intact."""
         import tomli_w
 
-        path, own = folder / FILE, _flat(self)
+        path, own = folder / FILE, self._own()
         with locked(path):
             merged, problems = Settings.load(folder)
             for sentence in [*problems, *self._foreign(_flat(merged))]:
@@ -287,9 +340,15 @@ class Settings:
             write_with_backup(path, tomli_w.dumps(asdict(merged)))
         self._base, self._seen = own, _flat(merged)
 
+    def _own(self) -> Flat:
+        """The settings to be saved: choices of the house in place of the visitors', unless these are kept."""
+        if self._house is None or self.keep_choices:
+            return _flat(self)
+        return {key: value for key, value in _flat(self).items() if key not in _choices(self)} | self._house
+
     def _changed(self) -> list[Key]:
         """The settings changed by this instance since it last loaded or saved."""
-        own = _flat(self)
+        own = self._own()
         return [*own] if self._base is None else _differing(own, self._base)
 
     def _foreign(self, stored: Flat) -> list[str]:
@@ -313,13 +372,24 @@ def _flat(settings: Settings) -> Flat:
     return flat
 
 
+def _choices(settings: Settings) -> Flat:
+    """The settings that visitors choose."""
+    return {key: value for key, value in _flat(settings).items() if key[0] is not None or key[1] in VISITORS}
+
+
 def _differing(now: Flat, before: Flat) -> list[Key]:
     """The keys whose values differ; a missing game counts as having the defaults."""
     return [key for key, value in now.items() if before.get(key, getattr(_DEFAULT, key[1], None)) != value]
 
 
+def _name(key: Key) -> str:
+    """A setting's name in messages."""
+    game, name = key
+    return one_line(name if game is None else f"games.{game}.{name}")
+
+
 def _names(keys: list[Key]) -> str:
-    return ", ".join(one_line(name if game is None else f"games.{game}.{name}") for game, name in keys[:MAX_MESSAGES])
+    return ", ".join(map(_name, keys[:MAX_MESSAGES]))
 
 
 def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str]:

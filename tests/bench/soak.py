@@ -1,7 +1,8 @@
-"""Soak test of the simulator: `python -m tests.bench.soak [HOURS]`. Exit code 1 where an invariant breaks.
+"""Soak test: `python -m tests.bench.soak [HOURS]`. Exit code 1 where an invariant breaks.
 
 The hours are shared among the games, and every simulated second of every match is checked: no NaN, no robot in a wall,
-and the invariants of the game. Then 10,000 plain matches are created and played briefly: memory must stay flat.
+and the invariants of the game. Then 10,000 plain matches are created and played briefly: memory must stay flat. Last,
+10,000 buttons are pressed on all screens: open files, threads and memory must stay level.
 """
 
 import argparse
@@ -29,12 +30,14 @@ SECONDS = 120
 
 
 def main(hours: float) -> int:
-    """Run both soak tests; returns the exit code."""
+    """Run the three soak tests; returns the exit code."""
     wrong = [trouble for game in games() for seconds in day(game, hours / len(games())) for trouble in seconds]
     print(f"{hours:g} simulated hours: {len(wrong)} broken invariants", *wrong[:5], sep="\n  ")
     grown = memory()
     print(f"10,000 matches: memory grew by {grown:.1f} MB")
-    return int(bool(wrong) or grown > 8.0)
+    from tests.bench import presses  # late: it loads every screen
+
+    return int(bool(presses.main()) or bool(wrong) or grown > 8.0)
 
 
 def setup(game: str, arena: str, seed: int) -> Setup:
@@ -113,6 +116,6 @@ def memory() -> float:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(prog="python -m tests.bench.soak", description="Soak test of the simulator.")
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.soak", description="Soak test.")
     parser.add_argument("hours", type=float, nargs="?", default=24.0, help="simulated hours (24)")
     sys.exit(main(parser.parse_args().hours))

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from datetime import date, datetime, timedelta
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from pigaming_app.events.day_log import (
     PlayedMatch,
     ProgramEvent,
     days,
+    now,
     parse_line,
     read_day,
     to_line,
@@ -40,7 +42,7 @@ def test_records_come_back_as_they_were_added(tmp_path: Path) -> None:
     log = DayLog(tmp_path)
     for record in RECORDS:
         log.add(record)
-    assert read_day(tmp_path, DAY) == (RECORDS, 0)
+    assert read_day(tmp_path, DAY) == ([replace(record, arcade=log.arcade) for record in RECORDS], 0)
     assert read_day(tmp_path, date(2026, 11, 24)) == ([], 0)
     assert days(tmp_path) == [DAY]
 
@@ -87,7 +89,7 @@ def test_a_damaged_line_is_skipped_and_counted(tmp_path: Path, line: str) -> Non
         file.write(line.encode() + b"\n\xff\xfe\n")
     log.add(MATCH)
     records, skipped = read_day(tmp_path, DAY)
-    assert records == [MATCH, MATCH]
+    assert records == [replace(MATCH, arcade=log.arcade)] * 2
     assert skipped == (2 if line.strip() else 1)
 
 
@@ -97,7 +99,8 @@ def test_a_line_torn_by_a_power_cut_costs_only_itself(tmp_path: Path) -> None:
     file = tmp_path / FOLDER / "2026-11-23.jsonl"
     file.write_bytes(file.read_bytes() + to_line(MATCH).encode()[:40])
     log.add(RECORDS[2])
-    assert read_day(tmp_path, DAY) == ([MATCH, RECORDS[2]], 1)
+    records, skipped = read_day(tmp_path, DAY)
+    assert ([replace(record, arcade="") for record in records], skipped) == ([MATCH, RECORDS[2]], 1)
 
 
 def test_a_killed_process_loses_no_line(tmp_path: Path) -> None:
@@ -176,9 +179,81 @@ def test_the_figures_of_a_day() -> None:
         "starts": 3,
         "crashes": 1,
         "failures": 1,
+        "arcades_at_once": 1,
+        "open_seconds": 10_800,
         "batteries": {"2": {"last": 4.7, "lowest": 4.5}},
         "skipped_lines": 3,
     }
+
+
+A, B, C = "a1", "b2", "c3"
+
+
+def test_arcades_that_overlap_are_no_crashes() -> None:
+    records = [
+        ProgramEvent(at(9), "start", A),
+        ProgramEvent(at(10), "start", B),
+        replace(played(10), arcade=A),
+        ProgramEvent(at(11), "start", C),
+        ProgramEvent(at(12), "end", A),
+        ProgramEvent(at(13), "end", C),
+        ProgramEvent(at(15), "end", B),
+        ProgramEvent(at(16), "start", A + "0"),
+        ProgramEvent(at(17), "end", A + "0"),
+    ]
+    report = figures(DAY, records)
+    assert (report.starts, report.crashes, report.at_once, report.open_seconds) == (4, 0, 3, 7 * 3600.0)
+    nameless = figures(DAY, [replace(record, arcade="") for record in records])
+    assert (nameless.starts, nameless.crashes, nameless.at_once, nameless.open_seconds) == (4, 0, 3, 7 * 3600.0)
+    assert report.as_json() == nameless.as_json()
+
+
+def test_the_crash_of_one_of_two_is_counted_once_and_with_its_last_record() -> None:
+    records = [
+        ProgramEvent(at(9), "start", A),
+        ProgramEvent(at(9, 30), "start", B),
+        replace(played(11, seconds=600.0), arcade=A),
+        ProgramEvent(at(14), "end", B),
+        ProgramEvent(at(15), "start", C),
+    ]
+    report = figures(DAY, records, going_on={C})
+    assert report.crashes == 1
+    assert [(one.end, one.crashed) for one in report.sessions[:2]] == [(at(11, 20), True), (at(14), False)]
+
+
+def test_what_runs_or_ends_on_another_day_has_not_crashed(tmp_path: Path) -> None:
+    log, other, lost = DayLog(tmp_path), DayLog(tmp_path), DayLog(tmp_path)
+    for one in (log, other, lost):
+        one.add(ProgramEvent(at(22), "start"))
+    other.add(ProgramEvent(at(22) + timedelta(days=2), "end"))
+    assert report_of(tmp_path, DAY).crashes == 2
+    log.note("start")
+    assert report_of(tmp_path, DAY).crashes == 1
+    log.note("end")
+    assert report_of(tmp_path, DAY).crashes == 1, "it ended later"
+    assert report_of(tmp_path, DAY + timedelta(days=2)).crashes == 0
+
+
+def test_of_two_real_processes_the_killed_one_has_crashed(tmp_path: Path) -> None:
+    code = (
+        "import sys\nfrom pathlib import Path\nfrom pigaming_app.events.day_log import DayLog\n"
+        "log = DayLog(Path(sys.argv[1]))\nlog.note('start')\nprint(flush=True)\ninput()\nlog.note('end')\n"
+    )
+    command = [sys.executable, "-c", code, str(tmp_path)]
+    first, second = (subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) for _ in range(2))
+    for process in (first, second):
+        assert process.stdout
+        process.stdout.readline()
+    today = now().date()
+    report = report_of(tmp_path, today)
+    assert (report.starts, report.crashes, report.at_once) == (2, 0, 2)
+    first.kill()
+    first.communicate(timeout=60)
+    assert report_of(tmp_path, today).crashes == 1
+    second.communicate(b"\n", 60)
+    assert report_of(tmp_path, today).crashes == 1
+    DayLog(tmp_path).delete_old(today)
+    assert [path.name for path in (tmp_path / FOLDER).iterdir()] == [f"{today}.jsonl"]
 
 
 def test_a_day_without_matches_has_figures() -> None:

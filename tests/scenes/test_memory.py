@@ -2,6 +2,8 @@
 
 import gc
 import random
+import subprocess
+import sys
 import weakref
 from collections.abc import Hashable
 from pathlib import Path
@@ -9,6 +11,7 @@ from pathlib import Path
 import pygame
 import pytest
 
+from pigaming_app import ROOT
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -27,7 +30,7 @@ from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.bench.memory import press
-from tests.cases import one_in
+from tests.cases import one_in, repeated
 from tests.scenes.arcade import Arcade, Floor
 
 pytestmark = pytest.mark.usefixtures("_cache_as_in_the_arcade")
@@ -193,3 +196,13 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
         gc.enable()
         pygame.display.quit()
     assert alive == [True, True, True, False, False]
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts the files of /proc")
+@pytest.mark.parametrize(("presses", "each"), repeated([(1_300, 3), (10_000, 12)]))
+def test_open_files_threads_and_memory_stay_level_over_presses_on_all_screens(presses: int, each: int) -> None:
+    command = [sys.executable, "-m", "tests.bench.presses", str(presses), str(each)]
+    done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    assert done.returncode == 0, done.stdout
+    assert done.stdout.count("Usage") >= 3

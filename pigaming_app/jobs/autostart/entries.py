@@ -1,11 +1,13 @@
 """The file with which each system starts a program when the user's session begins."""
 
+import os
 import plistlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 LABEL = "pt.pigaming.kiosk"
+HOME_VARIABLE = "PIGAMING_HOME"  # see `folders`
 
 
 @dataclass(frozen=True)
@@ -17,28 +19,31 @@ class StartEntry:
 
 
 def start_entry(platform: str, home: Path, variables: Mapping[str, str], command: Sequence[str]) -> StartEntry:
-    """The file for a platform (of `sys.platform`), the user's home and environment. Raises ValueError.
+    """The file for a platform (of `sys.platform`), the user's home and environment, whose HOME_VARIABLE it sets.
 
-    The error is a phrase; no system can start a file with a control character in its name.
+    Raises ValueError with a phrase: no system can start a file with a control character in its name.
     """
-    if not all(word.isprintable() for word in command):
-        raise ValueError("the folder of the program has an unprintable character in its name")
+    own = {HOME_VARIABLE: os.path.abspath(variables[HOME_VARIABLE])} if variables.get(HOME_VARIABLE) else {}
+    for words, what in ((command, "the folder of the program"), (own.values(), HOME_VARIABLE)):
+        if not all(word.isprintable() for word in words):
+            raise ValueError(f"{what} has an unprintable character in its name")
     if platform == "win32":
-        return _windows(home, variables, command)
+        return _windows(home, variables, own, command)
     if platform == "darwin":
-        return _macos(home, command)
-    return _linux(home, variables, command)
+        return _macos(home, own, command)
+    return _linux(home, variables, own, command)
 
 
-def _linux(home: Path, variables: Mapping[str, str], command: Sequence[str]) -> StartEntry:
+def _linux(home: Path, variables: Mapping[str, str], own: Mapping[str, str], command: Sequence[str]) -> StartEntry:
     """A desktop entry in the autostart folder of the XDG specification."""
     given = Path(variables.get("XDG_CONFIG_HOME", ""))
     folder = (given if given.is_absolute() else home / ".config") / "autostart"  # relative ones do not count
+    setting = ["/usr/bin/env", *(f"{name}={value}" for name, value in own.items())] if own else []
     lines = (
         "[Desktop Entry]",
         "Type=Application",
         "Name=PiGaming",
-        f"Exec={' '.join(map(_quoted_for_exec, command))}",
+        f"Exec={' '.join(map(_quoted_for_exec, [*setting, *command]))}",
         "Terminal=false",
         "X-GNOME-Autostart-enabled=true",
     )
@@ -52,20 +57,26 @@ def _quoted_for_exec(word: str) -> str:
     return '"{}"'.format(word.replace("\\", "\\\\").replace("%", "%%"))
 
 
-def _windows(home: Path, variables: Mapping[str, str], command: Sequence[str]) -> StartEntry:
+def _windows(home: Path, variables: Mapping[str, str], own: Mapping[str, str], command: Sequence[str]) -> StartEntry:
     """A batch file in the start-up folder."""
     roaming = Path(variables.get("APPDATA") or home / "AppData" / "Roaming")
     folder = roaming / "Microsoft" / "Windows" / "Start Menu" / "Programs" / "Startup"
-    words = " ".join('"{}"'.format(word.replace("%", "%%")) for word in command)
-    lines = ("@echo off", "chcp 65001 >nul", f'start "PiGaming" /min {words}')
+    setting = (f"set {_quoted_for_batch(f'{name}={value}')}" for name, value in own.items())
+    words = " ".join(map(_quoted_for_batch, command))
+    lines = ("@echo off", "chcp 65001 >nul", *setting, f'start "PiGaming" /min {words}')
     return StartEntry(folder / "PiGaming.bat", "\r\n".join([*lines, ""]).encode())
 
 
-def _macos(home: Path, command: Sequence[str]) -> StartEntry:
+def _quoted_for_batch(word: str) -> str:
+    return '"{}"'.format(word.replace("%", "%%"))
+
+
+def _macos(home: Path, own: Mapping[str, str], command: Sequence[str]) -> StartEntry:
     """A launch agent of the user's graphical sessions."""
     agent = {
         "Label": LABEL,
         "ProgramArguments": list(command),
+        "EnvironmentVariables": dict(own),
         "RunAtLoad": True,
         "ProcessType": "Interactive",
         "LimitLoadToSessionType": "Aqua",

@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from threading import Thread
 from time import sleep
@@ -21,15 +21,18 @@ DUMP_TIME = 0.3  # s for the stacks of a hung process to be written
 
 
 class ArcadeProcess:
-    """A started arcade; what it writes to standard error is passed on. Raises OSError."""
+    """A started arcade; what it writes to standard error is passed on. `variables`: more of its environment.
 
-    def __init__(self, command: Sequence[str]) -> None:
+    Raises OSError.
+    """
+
+    def __init__(self, command: Sequence[str], variables: Mapping[str, str] | None = None) -> None:
         handle, name = tempfile.mkstemp(prefix="pigaming-", suffix=".beat")
         os.close(handle)
         self._file = Path(name)
         self._heartbeat = Heartbeat(self._file)
         self.errors: deque[str] = deque(maxlen=LINES)
-        environment = {**os.environ, VARIABLE: name}
+        environment = {**os.environ, **(variables or {}), VARIABLE: name}
         try:
             self._process = subprocess.Popen(
                 command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, env=environment, errors="replace", **OWN_GROUP

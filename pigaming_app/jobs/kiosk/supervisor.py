@@ -71,17 +71,20 @@ class Child(Protocol):
 
 
 class Supervisor:
-    """Starts arcades by `start`, one after the other. `report` is called with each that crashed or hung."""
+    """Starts arcades by `start`, one after the other. `report` is called with each that crashed or hung, `watch` with
+    the frames of one that is running.
+    """
 
     def __init__(
         self,
         start: Callable[[], Child],
         report: Callable[[Child, Ending], None],
         limits: Limits,
+        watch: Callable[[int], None] = lambda _: None,
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        self._start, self._report, self._limits = start, report, limits
+        self._start, self._report, self._limits, self._also_watch = start, report, limits, watch
         self._clock, self._sleep = clock, sleep
 
     def run(self) -> int:
@@ -125,6 +128,7 @@ class Supervisor:
             if silent > (self._limits.hang if beats else self._limits.start):
                 child.kill()
                 break
+            self._also_watch(child.beats)
             self._sleep(self._limits.poll)
         return Ending(code, self._clock() - began, child.beats, silent)
 

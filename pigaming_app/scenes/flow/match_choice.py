@@ -99,11 +99,12 @@ def change_rules(game: Game, choice: Choice, name: str) -> None:
     fit_choice(after, choice)
 
 
-def reset_rules(settings: Settings) -> None:
-    """Choose the rule set of kiosks in every game that has it."""
+def choose_kiosk_rules(settings: Settings) -> None:
+    """Choose the rule set of kiosks in every game that has it, unless another one was chosen."""
     for game in games().values():
-        if KIOSK_RULES in game.variants:
+        if KIOSK_RULES in game.variants and not settings.choice(game.name).variant:
             change_rules(game, settings.choice(game.name), KIOSK_RULES)
+    settings.leave_choices_unsaved()
 
 
 def choice_summary(context: Context, game: str) -> str:

@@ -178,7 +178,9 @@ class MatchSetupPage:
         return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
 
     def _save_selection(self) -> None:
-        """Save the selection for the next match."""
+        """Save the selection for the next start, if visitors' choices are kept."""
+        if not self.context.settings.keep_choices:
+            return
         try:
             self.context.settings.save(folders().config)
         except NotSaved as error:

@@ -1,10 +1,10 @@
 """What the operator has on every screen: F2 changes the second screen, F10 opens the operator's page; the time limit
-of a group.
+of a group, after whom the house's choices return.
 """
 
 import logging
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import pygame
 
@@ -20,11 +20,19 @@ if TYPE_CHECKING:
     from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
 
 LOOK = 1.0  # s between two looks for displays
+WAITED = 60.0  # s without a press on the title, or in attract mode, until the house's choices return
 HOLD, HOLD_IN_KIOSK = 1.0, 5.0  # s for which F10 is held
 SIZE, SENTENCE_Y = 34, 1047  # px, of what a group is told: below the row of prompts
 MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
 
 log = logging.getLogger("pigaming")
+
+
+@runtime_checkable
+class Waiting(Protocol):
+    """A scene before anybody plays: title and attract mode."""
+
+    waits: bool
 
 
 class OperatorDesk:
@@ -42,6 +50,7 @@ class OperatorDesk:
         self.arena_moved = False  # by the system, as its display is gone
         self.looked = 0.0  # s since the last look at them
         self.dismissed = False  # closed by its close button
+        self.returned = False  # the house's choices, since the last press
         self.number = 0  # of the display of the second screen; 0: none
         self._open(context.settings.scoreboard if scoreboard is None else scoreboard)
 
@@ -68,6 +77,7 @@ class OperatorDesk:
                 self._open_page(stack)
         if self.limited:
             stack.apply(self.limit.update(seconds, stack.scenes))
+            self._return_to_house(stack.scenes)
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw what a group is told, unless a notice is in its place."""
@@ -135,6 +145,15 @@ class OperatorDesk:
             log.warning("The display of the second screen is gone.")
             self.window.close()
             self.notices.add(self.context.words("scoreboard.none"))
+
+    def _return_to_house(self, scenes: Sequence[Scene]) -> None:
+        """Give up the visitors' rules, arenas and language once nobody has pressed anything for a while."""
+        context = self.context
+        waiting = context.idle >= WAITED and all(isinstance(scene, Waiting) and scene.waits for scene in scenes)
+        if waiting and not self.returned:
+            context.settings.return_to_house()
+            context.words.switch(context.settings.language)
+        self.returned = waiting
 
     def _next_page(self, scenes: Sequence[Scene]) -> None:
         """Choose the next page that has something to show. A window that was closed opens again, with the same page."""

@@ -9,14 +9,19 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.settings_page import SettingsPage
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation
+from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.operator import pictures
 from pigaming_app.scenes.operator.group_limit import InMatch
+from pigaming_app.scenes.operator.safe_start_notice import SafeStartNotice
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("figures", "quiet_from", "quiet_until", "volume_cap", "group_minutes", "scoreboard", "board", "end_all")
+SAFE_START = "safe_start"  # a row after failed starts only
+ROWS = (
+    "figures", "quiet_from", "quiet_until", "volume_cap", "group_minutes", "keep_choices",
+    "scoreboard", "board", "end_all",
+)  # fmt: skip
 END_SECONDS = 1.0  # s for which a button is held to end all matches
 STEP_MINUTES = 30  # of the quiet hours
 LIMITS = (0, 5, 10, 15, 20, 30, 45, 60)  # minutes of a group
@@ -29,7 +34,9 @@ class OperatorPage(SettingsPage):
 
     def __init__(self, context: Context, below: Sequence[Scene] = ()) -> None:
         self.below = below
-        super().__init__(context, "operator", "operator.title", ROWS, END_SECONDS)
+        self.safe_start = SafeStartNotice(context)
+        rows = (SAFE_START, *ROWS) if self.safe_start.due else ROWS
+        super().__init__(context, "operator", "operator.title", rows, END_SECONDS)
 
     def on_enter(self) -> None:
         if self.below:
@@ -55,6 +62,10 @@ class OperatorPage(SettingsPage):
     def render_picture(self, name: str, chosen: int) -> object:
         return pictures.drawn(name, chosen)
 
+    def line(self, name: str) -> str:
+        """The description of a row, or what became of failed starts."""
+        return self.safe_start.line if name == SAFE_START else super().line(name)
+
     def value(self, name: str) -> SettingValue:
         """The value of a row; the hours go round."""
         settings, words = self.context.settings, self.context.words
@@ -71,6 +82,10 @@ class OperatorPage(SettingsPage):
                     words("setup.min", minutes=str(minutes)) if minutes else words("options.off") for minutes in LIMITS
                 ]
                 return SettingValue("arrows", tuple(texts), _nearest(settings.group_minutes))
+            case "keep_choices":
+                return SettingValue("toggle", (words("operator.undo"), words("operator.keep")), settings.keep_choices)
+            case "safe_start":
+                return SettingValue("deed", (self.safe_start.deed,))
             case "scoreboard":
                 displays = self.context.canvas.displays()
                 return SettingValue(
@@ -83,12 +98,16 @@ class OperatorPage(SettingsPage):
         return SettingValue("deed", (words("options.open" if name == "figures" else "options.clear"),))
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
-        """Open the figures, or begin to end all matches."""
+        """Open the figures, agree to what became of failed starts, or begin to end all matches."""
         if name == "figures":
             from pigaming_app.scenes.operator.figures_page import FiguresPage
 
             self.context.sounds.play("accept")
             return Push(FiguresPage(self.context))
+        if name == SAFE_START:
+            self.context.sounds.play("accept")
+            self.save(self.safe_start.agree)
+            return None if self.safe_start.due else Swap(OperatorPage(self.context, self.below))
         self.context.sounds.play("move")
         self.holding.begin(event)
         return None
@@ -105,6 +124,9 @@ class OperatorPage(SettingsPage):
                 context.sounds.volume(*settings.loudness)
             case "group_minutes":
                 settings.group_minutes = LIMITS[chosen]
+            case "keep_choices":
+                settings.keep_choices = bool(chosen)
+                settings.settle()  # what was chosen by now is the house's
             case "scoreboard":
                 settings.scoreboard = chosen
             case "board":

@@ -30,6 +30,15 @@ def drawn(name: str, chosen: int) -> LitImage:
             [(-70, 104), (70, 104), (0, 0)], ICE, LINE, True
         )
         ink.fill([(-34, 92), (34, 92), (0, 54)], FOCUS)
+    elif name == "keep_choices":
+        ink.line([(-130, -4), (0, -116), (130, -4)], ICE, LINE)
+        ink.line([(-92, -36), (-92, 108), (92, 108), (92, -36)], ICE, LINE)
+        icon(ink, "check" if chosen else "turn_left", 0, 28, 44, FOCUS, LINE)
+    elif name == "safe_start":
+        ink.line(
+            [(0, -116), (92, -84), (92, 10), (52, 78), (0, 116), (-52, 78), (-92, 10), (-92, -84)], ICE, LINE, True
+        )
+        icon(ink, "check", 0, 0, 44, FOCUS, LINE)
     elif name in ("scoreboard", "board"):
         on = chosen > 0 or name == "board"
         ink.line(cut_box(-196, -84, 176, 116, 12), STEEL, LINE, True).line([(-138, 66), (-78, 66)], STEEL, LINE)

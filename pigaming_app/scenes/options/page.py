@@ -128,6 +128,8 @@ class OptionsPage(SettingsPage):
         match name:
             case "language":
                 settings.language = LANGUAGES[chosen]
+                if self.operator or not context.kiosk:
+                    settings.settle("language")
                 context.words.switch(settings.language)
                 self.rewarm()
             case "music" | "sounds":

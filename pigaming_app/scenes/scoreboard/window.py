@@ -21,7 +21,7 @@ log = logging.getLogger("pigaming")
 
 
 class ScoreboardWindow:
-    """The window on display `number`, from 1; on that of the arcade, and if it is not there, a small one.
+    """The window on display `number`, from 1; on that of the arcade or its mirror, and if it is not there, a small one.
 
     If the system supports only one window, this is logged and the arcade runs on. `trouble`: the reason.
     """
@@ -36,6 +36,9 @@ class ScoreboardWindow:
         self._size = (0, 0)
         try:
             self.window = _open(number - 1 if self.fills else None)
+            if self.fills and _covers_arcade(self.window):
+                self.window.destroy()
+                self.fills, self.window = False, _open(None)
             self.window.get_surface()
             _focus_arcade()
         except pygame.error as reason:
@@ -111,10 +114,15 @@ def _open(display: int | None) -> pygame.Window:
     title = "PiGaming: scores"
     if display is None:
         return pygame.Window(title, WINDOWED, position=(24, 24), resizable=True)
+    middle = pygame.WINDOWPOS_CENTERED | display  # of this display, in either direction
     size = pygame.display.get_desktop_sizes()[display]
-    window = pygame.Window(title, size, position=pygame.WINDOWPOS_CENTERED | display, borderless=True)
-    window.set_fullscreen(desktop=True)
-    return window
+    return pygame.Window(title, size, (middle, middle), borderless=True, fullscreen_desktop=True)
+
+
+def _covers_arcade(window: pygame.Window) -> bool:
+    """True if a window that fills a display lies over the arcade: the two displays are mirrored."""
+    arcade = pygame.Rect(pygame.display.get_window_position(), pygame.display.get_window_size())
+    return arcade.collidepoint(pygame.Rect(window.position, window.size).center)
 
 
 def _focus_arcade() -> None:

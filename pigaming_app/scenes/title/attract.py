@@ -39,7 +39,7 @@ GLOWS = 6  # brightnesses of the prompt
 class Attract:
     """Up to five shows per game, cyclically, from a random game; pushed over the title when idle."""
 
-    untimed = True
+    untimed = waits = True
 
     def __init__(self, context: Context) -> None:
         self.context = context

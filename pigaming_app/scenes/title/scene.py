@@ -6,10 +6,10 @@ After a while without input, attract mode starts.
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import reset_rules
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
+from pigaming_app.scenes.title.language import LanguageName
 from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
 from pigaming_app.scenes.views.game_tile import TileStrip, tile
@@ -49,6 +49,8 @@ REST = 1.0  # s on the title until memory is released: by then its own pictures 
 class Title:
     """The lowest scene of the stack."""
 
+    waits = True
+
     def __init__(self, context: Context) -> None:
         self.context = context
         self.clock = 0.0
@@ -56,17 +58,17 @@ class Title:
         self.tiles = TileStrip(shown_games())
         self.game = self.tiles.names[0]  # the game whose tile was focused last
         self.focus = Focus(self._spots())
+        self.language = LanguageName(context)
         self.lab: Scene | None = None
         self.music = True  # off in the quiet hours
         self.since = 0.0  # s since the last return
         self.asked: set[str] = set()  # new plug-ins that were asked about
 
     def on_enter(self) -> None:
-        """Release the sprites of matches and start the music; in a kiosk, offer its rules and driving styles again."""
+        """Release the sprites of matches and start the music; in a kiosk, offer its driving styles again."""
         surfaces.release_matches()
         self.since = 0.0
         if self.context.kiosk:
-            reset_rules(self.context.settings)
             self.context.driving.forget_one_button()
         self.context.idle = 0.0
         self.music = not self.context.quiet
@@ -75,8 +77,11 @@ class Title:
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Directions and the mouse move the focus; FIRE, START or a click activate; Y changes the language."""
+        again = event.button is Button.Y or (event.button is Button.CLICK and self.focus.spot_at(event) == "language")
+        if not again and self.language.left_by(event):
+            return None
         if event.button is Button.Y:
-            self._next_language()
+            self.language.next()
         elif self.focus.handle(event):
             self.context.sounds.play("move")
             if self.tiles.follow(self.focus):
@@ -88,6 +93,9 @@ class Title:
     def update(self, seconds: float) -> StackOperation:
         """Animate; start attract mode when idle."""
         self.clock += seconds
+        self.language.update(seconds)
+        if self.spoken != self.context.words.language:
+            self.focus.set_spots(self._spots())
         self.focus.update(seconds)
         self.tiles.update(seconds)
         self._keep_quiet()
@@ -116,6 +124,7 @@ class Title:
         self._prompt(screen)
         self._foot(screen)
         self.focus.draw(screen)
+        self.language.draw(screen)
 
     # ---- internals
 
@@ -145,7 +154,7 @@ class Title:
 
     def _open(self, name: str) -> StackOperation:
         if name == "language":
-            self._next_language()
+            self.language.next()
             return None
         scene = self._scene(name)
         self.context.sounds.play("accept")
@@ -192,13 +201,6 @@ class Title:
         self.lab = self.lab or Lab(self.context)
         return self.lab
 
-    def _next_language(self) -> None:
-        words = self.context.words
-        words.switch(words.following)
-        self.context.settings.language = words.language
-        self.context.sounds.play("accept")
-        self.focus.set_spots(self._spots())
-
     def _spots(self) -> list[FocusSpot]:
         spots = self.tiles.spots()
         widths = [chip_width(self.context.words(f"title.{name}")) for name in self._menu()]
@@ -209,6 +211,7 @@ class Title:
             spots.append(FocusSpot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
             x += w + MENU_GAP
         words, button = self.context.words, self.context.controls.label(None, Button.Y)
+        self.spoken = words.language
         beside = button_width(button) + 28 if button else 0
         self.language_word = NAMES[words.language]
         if RIGHT - chip_width(self.language_word) - beside < x:  # no room: its code

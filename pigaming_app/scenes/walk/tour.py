@@ -9,6 +9,7 @@ from pigaming_app.scenes.flow.stack import Push
 from pigaming_app.scenes.options.page import OPENING, SECTIONS
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.title.language import SECONDS
 from pigaming_app.scenes.walk.events_tour import events
 from pigaming_app.scenes.walk.steps import TourWalker, choose, home
 from pigaming_app.sim.world import HZ
@@ -22,6 +23,7 @@ def tour(walker: TourWalker) -> None:
     """The whole tour, in both languages; every arena of each game, and drawing, only in the first."""
     for language in LANGUAGES:
         if language in WALKED:
+            walker.wait(SECONDS + 0.5)  # the name of the language is gone
             screens(walker, everything=language == WALKED[0])
         walker.press("tab")
     attract(walker)

@@ -22,6 +22,7 @@ from pigaming_app.storage.plugins.consent import is_on
 from pigaming_app.storage.plugins.endless import overseer
 from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.plugins.time_limit import TookTooLong, time_limit
+from pigaming_app.storage.safe_mode import is_safe
 
 T = TypeVar("T")
 RULES, SCREENS, EDITOR = "", "screens", "editor"  # parts; the rules are in `__init__`
@@ -35,12 +36,12 @@ _stopped: set[str] = set()  # names of games that failed while they played: thei
 
 @cache
 def plugins() -> tuple[Plugin, ...]:
-    """The plug-ins that may run, as they were when this was first called."""
+    """The plug-ins that may run, as they were when this was first called; in safe mode only those of this program."""
     if trial.is_trial():
         return ()
     usable: list[Plugin] = []
     for plugin in found():
-        if is_on(plugin):
+        if plugin.own if is_safe() else is_on(plugin):
             if reason := plugin.fault or ("" if plugin.own else trial.fault(plugin, (RULES, *ABOVE), LOADING)):
                 _leave_out(plugin, reason)
             else:

@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Sequence
 from functools import cache
+from io import BytesIO
 
 import pygame
 
@@ -81,7 +82,13 @@ def font(face: str, size: int) -> pygame.font.Font:
 @cache
 def _loaded(face: str, size: int) -> pygame.font.Font:
     pygame.register_quit(_loaded.cache_clear)  # fonts become invalid in pygame.quit
-    return pygame.font.Font(ASSETS / "fonts" / _FACES[face], size)
+    return pygame.font.Font(BytesIO(_file(face)), size)
+
+
+@cache
+def _file(face: str) -> bytes:
+    """The file of a face, which all its sizes share: from a path, each would keep it open."""
+    return (ASSETS / "fonts" / _FACES[face]).read_bytes()
 
 
 def text_width(text: str, size: int, face: str = "head") -> float:

@@ -45,6 +45,7 @@ RING_R, RING_STEPS = 150, 24  # px, and images of the ring round it
 
 APART = 8  # px between rows that have a line between them
 TOP, PITCH, HIGH = 246, 88, 64  # px: the middle of the first row, from row to row, height of a row
+AT_MOST = 8  # rows at that pitch; more are closer
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,8 @@ class SettingValue:
 def spots(names: Sequence[str]) -> list[FocusSpot]:
     """The spots of rows with these names."""
     x, w = span(0, 8)
-    return [FocusSpot(name, pygame.Rect(x, TOP - HIGH // 2 + PITCH * i, w, HIGH)) for i, name in enumerate(names)]
+    pitch = PITCH if len(names) <= AT_MOST else PITCH * (AT_MOST - 1) // (len(names) - 1)
+    return [FocusSpot(name, pygame.Rect(x, TOP - HIGH // 2 + pitch * i, w, HIGH)) for i, name in enumerate(names)]
 
 
 def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values: dict[str, SettingValue]) -> None:

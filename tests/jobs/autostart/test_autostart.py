@@ -56,6 +56,42 @@ def test_macos_has_a_launch_agent(tmp_path: Path) -> None:
     assert entry.path.name == f"{agent['Label']}.plist"
 
 
+HOME = "/data/my 100% $HOME `x`"
+
+
+def test_every_system_sets_the_folder_of_the_users_files(tmp_path: Path) -> None:
+    variables = {"PIGAMING_HOME": HOME}
+    linux = entries.start_entry("linux", tmp_path, variables, COMMAND).content.decode()
+    assert exec_words(linux) == ["/usr/bin/env", f"PIGAMING_HOME={HOME}", *COMMAND]
+    agent = plistlib.loads(entries.start_entry("darwin", tmp_path, variables, COMMAND).content)
+    assert agent["EnvironmentVariables"] == variables
+    batch = entries.start_entry("win32", tmp_path, variables, ["py.exe"]).content.decode().split("\r\n")
+    assert batch[2:4] == ['set "PIGAMING_HOME=/data/my 100%% $HOME `x`"', 'start "PiGaming" /min "py.exe"']
+
+
+@pytest.mark.parametrize("platform", ["linux", "darwin", "win32"])
+def test_a_relative_folder_is_made_absolute_and_an_empty_one_is_none(tmp_path: Path, platform: str) -> None:
+    relative = entries.start_entry(platform, tmp_path, {"PIGAMING_HOME": "here"}, COMMAND).content.decode()
+    assert str(Path.cwd() / "here") in relative
+    assert b"PIGAMING_HOME" not in entries.start_entry(platform, tmp_path, {"PIGAMING_HOME": ""}, COMMAND).content
+    with pytest.raises(ValueError, match="PIGAMING_HOME"):
+        entries.start_entry(platform, tmp_path, {"PIGAMING_HOME": "/a\nb"}, COMMAND)
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="starts the entry of Linux")
+def test_the_started_arcade_uses_that_folder(
+    user: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "my 100% $HOME"))
+    assert main(["autostart", "on", "--", "--frames", "3"]) == 0
+    monkeypatch.delenv("PIGAMING_HOME")
+    monkeypatch.setenv("HOME", str(tmp_path / "elsewhere"))
+    assert subprocess.run(exec_words(user.read_text()), timeout=120, check=False).returncode == 0
+    assert (tmp_path / "my 100% $HOME" / "config" / "settings.toml").is_file()
+    assert not (tmp_path / "elsewhere").exists()
+
+
 def test_a_folder_with_a_line_end_in_its_name_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="unprintable"):
         entries.start_entry("linux", tmp_path, {}, ["/a\nb/main.py"])
@@ -82,6 +118,8 @@ def test_the_entry_starts_a_kiosk_with_these_options(user: Path, capsys: pytest.
     assert main(["autostart", "on", "--", "--display", "2"]) == 0
     assert capsys.readouterr().out == f"on, by {user}\n"
     words = exec_words(user.read_text())
+    assert words[0] == "/usr/bin/env", "PIGAMING_HOME of all tests"
+    words = words[2:]
     assert words[-4:] == [str(command.ROOT / "main.py"), "--kiosk", "--display", "2"]
     assert subprocess.run([*words[:-4], "-c", "pass"], check=False).returncode == 0
     assert shlex.join(words).count("-X") == 0  # boot creates .venv again if it has gone

@@ -57,7 +57,7 @@ def supervised(*plan: tuple[object, ...], interrupt_at: float = float("inf")):
         arcades.append(Arcade(clock, *plan[len(arcades)]))
         return arcades[-1]
 
-    code = Supervisor(start, lambda _, ending: endings.append(ending), LIMITS, clock, clock.sleep).run()
+    code = Supervisor(start, lambda _, ending: endings.append(ending), LIMITS, clock=clock, sleep=clock.sleep).run()
     assert all(arcade.calls[-1:] == ["close"] for arcade in arcades)
     return code, clock, arcades, endings
 
@@ -106,7 +106,9 @@ def test_a_suspended_machine_is_no_hang() -> None:
     clock = Clock()
     arcade = Arcade(clock, 0, 902.5, last=2.0)
     naps = iter([*[LIMITS.poll] * 8, 900.0])  # neither of the two ran for 900 s
-    supervisor = Supervisor(lambda: arcade, lambda *_: None, LIMITS, clock, lambda s: clock.sleep(next(naps, s)))
+    supervisor = Supervisor(
+        lambda: arcade, lambda *_: None, LIMITS, clock=clock, sleep=lambda s: clock.sleep(next(naps, s))
+    )
     assert supervisor.run() == 0
     assert arcade.calls == ["close"]
 
@@ -131,7 +133,7 @@ def test_a_report_that_fails_does_not_prevent_the_restart() -> None:
     def full(*_: object) -> None:
         raise OSError("the disk is full")
 
-    assert Supervisor(lambda: next(arcades), full, LIMITS, clock, clock.sleep).run() == 0
+    assert Supervisor(lambda: next(arcades), full, LIMITS, clock=clock, sleep=clock.sleep).run() == 0
 
 
 def test_an_interruption_while_it_is_started_again_is_the_operators_end() -> None:
@@ -144,5 +146,5 @@ def test_an_interruption_while_it_is_started_again_is_the_operators_end() -> Non
             return arcade
         raise KeyboardInterrupt
 
-    assert Supervisor(start, lambda *_: None, LIMITS, clock, clock.sleep).run() == 0
+    assert Supervisor(start, lambda *_: None, LIMITS, clock=clock, sleep=clock.sleep).run() == 0
     assert crashed.calls == ["close"]

@@ -11,7 +11,7 @@ from pigaming_app.ai.registry import AIS
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.flow import match_choice
-from pigaming_app.scenes.flow.match_choice import KIOSK_RULES, last_choice
+from pigaming_app.scenes.flow.match_choice import KIOSK_RULES, choose_kiosk_rules, last_choice
 from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
@@ -299,24 +299,18 @@ def test_in_a_kiosk_one_button_ends_on_the_title(arcade: Arcade) -> None:
         assert (device in driving.chosen) == (not kiosk)
 
 
-def test_a_kiosk_offers_party_rules_until_visitors_choose_others_and_again_after_the_title(
+def test_a_kiosk_offers_party_rules_unless_the_operator_has_chosen_others(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     rules = games()["pitanks"]
     variants = {**rules.variants, KIOSK_RULES: replace(rules.default, name=KIOSK_RULES)}
     monkeypatch.setattr(match_choice, "games", lambda: {**games(), "pitanks": replace(rules, variants=variants)})
     settings = arcade.context.settings
-    settings.choice("pitanks").variant = "plain"
-    Title(arcade.context).on_enter()
-    assert last_choice(arcade.context, "pitanks").variant == "plain", "elsewhere the last choice stays"
-    arcade.context.kiosk = True
-    title = Title(arcade.context)
-    title.on_enter()
+    choose_kiosk_rules(settings)
     assert last_choice(arcade.context, "pitanks").variant == KIOSK_RULES
     settings.choice("pitanks").variant = "plain"
+    choose_kiosk_rules(settings)
     assert last_choice(arcade.context, "pitanks").variant == "plain"
-    title.on_enter()
-    assert last_choice(arcade.context, "pitanks").variant == KIOSK_RULES
 
 
 def test_levels_have_stars_and_the_other_ais_none() -> None:

@@ -50,7 +50,8 @@ def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
     assert page(arcade).chosen.arena == seen[0]
 
 
-def test_the_selection_is_played_and_remembered(arcade: Arcade, tmp_path: Path) -> None:
+def test_the_selection_is_played_and_remembered_if_choices_are_kept(arcade: Arcade, tmp_path: Path) -> None:
+    arcade.context.settings.keep_choices = True
     for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.DOWN, Button.RIGHT):
         arcade.press(button)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant

@@ -1,5 +1,6 @@
 """The operator's page: by pad, keyboard and mouse; changes apply at once and last."""
 
+import json
 from pathlib import Path
 
 import pygame
@@ -10,13 +11,18 @@ from pigaming_app.scenes.flow.settings_page import IDLE
 from pigaming_app.scenes.operator.chart import OTHERS, bars_of, games_of, step_of
 from pigaming_app.scenes.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
 from pigaming_app.scenes.operator.figures_page import FOLDER, FiguresPage, _short
-from pigaming_app.scenes.operator.page import END_SECONDS, LIMITS, ROWS, OperatorPage
+from pigaming_app.scenes.operator.page import END_SECONDS, LIMITS, ROWS, SAFE_START, OperatorPage
 from pigaming_app.scenes.options.page import FOR_CHILDREN, OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage import safe_start
+from pigaming_app.storage.safe_mode import DEFAULTS, VARIABLE
 from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.draw.text import fit_lines
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade, setup
@@ -246,3 +252,53 @@ def test_a_chart_of_many_games_has_the_most_played_ones_and_a_removed_one_by_nam
 @pytest.mark.parametrize(("most", "step"), [(1, 1), (5, 1), (6, 2), (11, 5), (26, 10), (1000, 200)])
 def test_a_chart_has_at_most_five_lines(most: int, step: int) -> None:
     assert step_of(most) == step
+
+
+# ---- after failed starts
+
+
+def after_failed_starts(*names: str) -> None:
+    folder = folders().config / safe_start.TRIED
+    folder.mkdir(parents=True)
+    (folder / safe_start.NOTE).write_text(json.dumps(names))
+
+
+def test_it_names_what_was_taken_back_until_the_operator_agrees(arcade: Arcade) -> None:
+    after_failed_starts("scoreboard", "display", "games.race.arena", "plugins", "camera_mm")
+    arcade.open(OperatorPage(arcade.context))
+    page = arcade.shown(OperatorPage)
+    assert page.focus.name == SAFE_START
+    assert page.line(SAFE_START).endswith("Second screen, Display, Robot Race, …")
+    arcade.press(Button.FIRE)
+    assert arcade.shown(OperatorPage).rows == ROWS
+    assert OperatorPage(arcade.context).rows == ROWS
+
+
+def test_in_safe_mode_it_keeps_the_defaults_if_the_operator_wants_them(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    arcade.context.settings.choose("scoreboard", 2)
+    arcade.context.settings.choose("display", 1)
+    arcade.context.settings.choose("music", 3)
+    arcade.context.settings.save(folders().config)
+    monkeypatch.setenv(VARIABLE, "1")
+    settings = arcade.context.settings = saved()
+    settings.use_defaults(DEFAULTS)
+    settings.choose("sounds", 1)
+    settings.save(folders().config)
+    assert (settings.scoreboard, saved().scoreboard, saved().display, saved().sounds) == (0, 2, 1, 1)
+    arcade.open(OperatorPage(arcade.context))
+    assert arcade.shown(OperatorPage).line(SAFE_START) == arcade.context.words("operator.defaults_line")
+    arcade.press(Button.FIRE)
+    assert (saved().scoreboard, saved().display, saved().music) == (0, 0, 3)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_it_tells_fits_the_panel(arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str) -> None:
+    arcade.context.words.switch(language)
+    after_failed_starts("scoreboard", "display", "phones")
+    lines = [OperatorPage(arcade.context).line(SAFE_START), arcade.context.words("operator.keep_choices_line")]
+    monkeypatch.setenv(VARIABLE, "1")
+    lines.append(OperatorPage(arcade.context).line(SAFE_START))
+    for line in lines:
+        assert len(fit_lines(line, dials.PANEL.w - 80, 3)[1]) <= 3, line

@@ -1,4 +1,7 @@
-"""The second screen follows the displays: those that are there, and those that come and go. All of them are fake."""
+"""The second screen follows the displays: those that are there, and those that come and go.
+
+Their sizes are made up, as SDL's dummy driver has one display; the windows are SDL's, opened as the arcade asks.
+"""
 
 from pathlib import Path
 
@@ -13,6 +16,8 @@ from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
+DUMMY = (1024, 768)  # px, the display of SDL's dummy driver
+
 
 @pytest.fixture
 def arcade(controls: Controls, home: Path) -> Arcade:
@@ -22,19 +27,23 @@ def arcade(controls: Controls, home: Path) -> Arcade:
 
 
 class Displays:
-    """Fake displays: sizes of those connected; windows are opened by the dummy driver, and noted."""
+    """Sizes of the connected displays, and those asked for the windows that were opened. The arcade is on another one
+    than the dummy driver's, where all windows of the second screen open.
+    """
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, count: int) -> None:
         self.sizes = [(1920, 1080), (1366, 768), (1280, 800)][:count]
         self.opened: list[tuple[int, int]] = []
-        self.real = pygame.Window
         monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: list(self.sizes))
-        monkeypatch.setattr(pygame, "Window", self.window)
-        monkeypatch.setattr("pigaming_app.scenes.scoreboard.window._focus_arcade", lambda: None)
+        opened = self.opened
 
-    def window(self, title: str, size: tuple[int, int], *, position: object, **options: bool) -> pygame.Window:
-        self.opened.append(size)
-        return self.real(title, size, **options)
+        class Noted(pygame.Window):
+            def __init__(self, title: str, size: tuple[int, int], *rest: object, **options: object) -> None:
+                opened.append(size)
+                super().__init__(title, size, *rest, **options)
+
+        monkeypatch.setattr(pygame, "Window", Noted)
+        pygame.display.set_window_position((-4000, 0))
 
 
 def a_desk(arcade: Arcade, number: int | None, arena: int = 0) -> OperatorDesk:
@@ -134,22 +143,21 @@ def test_a_window_that_breaks_during_play_is_given_up_with_a_notice(
 def test_it_fills_a_display_of_its_own_and_is_small_elsewhere(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, arena_display: int, own: bool
 ) -> None:
-    opened: list[tuple[tuple[int, int], object]] = []
-    real = pygame.Window
-
-    def window(title: str, size: tuple[int, int], *, position: object, **options: bool) -> pygame.Window:
-        opened.append((size, position))
-        return real(title, size, **options)
-
-    monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [(1280, 800), (1366, 768)])
-    monkeypatch.setattr(pygame, "Window", window)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("pigaming_app.scenes.scoreboard.window._focus_arcade", lambda: None)
-        shown = ScoreboardWindow(number, arena_display, [])
+    displays = Displays(monkeypatch, 2)
+    shown = ScoreboardWindow(number, arena_display, [])
+    assert shown.window
+    assert shown.fills == own
+    assert displays.opened == [displays.sizes[number - 1] if own else WINDOWED]
+    assert (shown.window.position, shown.window.size) == (((0, 0), DUMMY) if own else ((24, 24), WINDOWED))
     shown.close()
-    ((size, position),) = opened
-    if own:
-        assert size == [(1280, 800), (1366, 768)][number - 1]
-        assert position == pygame.WINDOWPOS_CENTERED | (number - 1)
-    else:
-        assert size == WINDOWED
+
+
+def test_on_a_mirrored_display_it_would_cover_the_arcade_and_is_small(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Displays(monkeypatch, 2)
+    pygame.display.set_window_position((0, 0))
+    shown = ScoreboardWindow(2, 0, [])
+    assert shown.window
+    assert (shown.fills, shown.window.size) == (False, WINDOWED)
+    shown.close()

@@ -3,6 +3,7 @@
 from itertools import combinations
 from pathlib import Path
 
+import numpy as np
 import pygame
 import pytest
 
@@ -12,6 +13,7 @@ from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.kiosk_unlock import HOLD
+from pigaming_app.scenes.title.language import BOX as LANGUAGE_BOX
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.game_tile import TileStrip
 from pigaming_app.storage.settings import Settings
@@ -68,6 +70,51 @@ def test_one_press_changes_the_language(arcade: Arcade) -> None:
     assert sorted(seen) == sorted(LANGUAGES)
     arcade.click(*title(arcade).focus.rect("language").center)
     assert arcade.context.words.language == seen[0] != "en"
+
+
+def test_the_name_of_the_new_language_is_shown_for_two_seconds(arcade: Arcade) -> None:
+    page = title(arcade)
+    before = drawn(arcade)
+    arcade.press(Button.Y)
+    assert arcade.stack.top is page
+    shown = drawn(arcade)
+    assert (shown == before).mean() < 0.8
+    for seconds, alike, other in ((1.8, shown, before), (0.3, before, shown)):
+        arcade.wait(seconds)
+        now = drawn(arcade)
+        assert (now == alike).mean() > 0.85 > (now == other).mean()
+
+
+def drawn(arcade: Arcade) -> np.ndarray:
+    """The red of the middle of the title: the tiles, but not what is said in them and runs above them."""
+    title(arcade).draw(arcade.screen)
+    return pygame.surfarray.array_red(arcade.screen)[LANGUAGE_BOX.left : LANGUAGE_BOX.right, 500:690].copy()
+
+
+@pytest.mark.parametrize("button", [Button.UP, Button.DOWN, Button.LEFT, Button.RIGHT, Button.FIRE])
+def test_a_direction_or_fire_only_takes_the_name_of_the_language_away(arcade: Arcade, button: Button) -> None:
+    page = title(arcade)
+    focused = page.focus.name
+    arcade.press(Button.Y)
+    language = arcade.context.words.language
+    arcade.press(button)
+    assert (arcade.stack.top, page.focus.name, page.language.left) == (page, focused, 0.0)
+    assert arcade.context.words.language == language
+    arcade.press(button)
+    assert (arcade.stack.top, page.focus.name) != (page, focused) or button in (Button.UP, Button.LEFT)
+
+
+def test_fire_on_the_language_changes_it_and_the_next_one_leaves_it(arcade: Arcade) -> None:
+    page, words = title(arcade), arcade.context.words
+    page.focus.index = [spot.name for spot in page.focus.spots].index("language")
+    arcade.press(Button.FIRE)
+    second = words.language
+    arcade.press(Button.FIRE)
+    assert (words.language, page.language.left) == (second, 0.0)
+    at = page.focus.rect("language").center
+    arcade.click(*at)
+    arcade.click(*page.focus.rect("language").center)
+    assert words.language == LANGUAGES[3]
 
 
 SAFE = pygame.Rect(96, 54, 1728, 972)

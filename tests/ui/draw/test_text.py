@@ -1,8 +1,11 @@
 """Text layout: what does not fit is set smaller, then cut off or broken, but never too small to read."""
 
+import os
+import sys
+
 import pytest
 
-from pigaming_app.ui.draw import BODY, LABEL, text_width
+from pigaming_app.ui.draw import BODY, LABEL, font, text_width
 from pigaming_app.ui.draw.text import LINE_PITCH, SMALLEST, fit_lines, fit_paragraphs, fit_text
 
 NAME = "WWWWWWWWWWWW"
@@ -44,3 +47,11 @@ def test_sentences_share_one_size_that_fits_or_are_refused() -> None:
         assert len(found) == 2
         assert LINE_PITCH * size * sum(map(len, found)) + 8 <= height
     assert fit_paragraphs(said, 800, 60, 8, sizes) is None
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts the files of /proc")
+def test_fonts_of_many_sizes_keep_no_file_open() -> None:
+    before = len(os.listdir("/proc/self/fd"))
+    fonts = [font(face, size) for face in ("head", "hero", "body") for size in range(301, 331)]
+    assert len({letters.render("Ag", True, "white").get_size() for letters in fonts}) > 30
+    assert len(os.listdir("/proc/self/fd")) == before
