@@ -120,6 +120,10 @@ class Mat:
     def predict(self, now, ahead):
         return self.sense(now), [self.sense(now + more)[i] for i, more in enumerate(ahead)]
 
+    @property
+    def old_markers(self):
+        return {}
+
     def duplicates(self):
         return {i for i, robot in enumerate(self.robots) if robot.duplicate}
 

@@ -17,7 +17,7 @@ from pigaming_app.hardware.calibration.quality import CameraQuality, assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKept, ExposureState, Image
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, OpenCVMissing, opencv
+from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, OpenCVMissing, opencv
 from pigaming_app.hardware.vision.sharpness import blur_of, overexposed
 from pigaming_app.hardware.worker import BackgroundWorker, log
 
@@ -139,6 +139,7 @@ class DriftCheck(CameraTask):
         self.drift: DriftMonitor | None = None
         self.mm: float | None = None  # None: not yet measured
         self.marker_mm: float | None = None
+        self.worn: int | None = None  # number of that marker
         self.quality: CameraQuality | None = None  # of the present picture
         self._load = load
         with suppress(CalibrationError):
@@ -164,12 +165,12 @@ class DriftCheck(CameraTask):
 
     def _measure(self, frame: CameraFrame, ground: GroundPlane) -> None:
         """Measure the apparent marker size of a robot on the spot."""
-        self._robots = self._robots or MarkerDetector(ROBOT_IDS)
-        self.marker_mm = None
+        self._robots = self._robots or MarkerDetector(WEARERS)
+        self.marker_mm = self.worn = None
         for mark in self._robots.detect(frame.image):
             away = ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT)
             if float(away @ away) < NEAR * NEAR:
-                self.marker_mm = ground.edge_mm(mark)
+                self.marker_mm, self.worn = ground.edge_mm(mark), mark.number
 
     def _assess(self, frame: CameraFrame, drift: DriftMonitor) -> None:
         """Assess exposure and blur of the picture, by the corner markers."""

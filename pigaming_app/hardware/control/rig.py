@@ -49,6 +49,9 @@ class TrackerPort(Protocol):
     @property
     def rejections(self) -> Mapping[int, str]: ...
 
+    @property
+    def old_markers(self) -> Mapping[int, int]: ...
+
     expected: set[int]  # robots worth searching for
 
     def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None: ...

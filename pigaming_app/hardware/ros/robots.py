@@ -83,6 +83,10 @@ class RosPoses(PoseFilters):
     def duplicates(self) -> set[int]:
         return set()
 
+    @property
+    def old_markers(self) -> Mapping[int, int]:
+        return {}
+
     def close(self) -> None:
         """Leave the topics."""
         self.node.close()

@@ -4,7 +4,7 @@ Every frame corrects the robots' filters at its capture time; `sense` then repla
 never moves or stops a robot: `safety` judges ages, `duplicates` and `last_captured`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
@@ -14,7 +14,15 @@ from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
 from pigaming_app.hardware.signals import CameraFrame, Clock, DetectedMarker, Fix
 from pigaming_app.hardware.tracking.ekf import COAST
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, is_known, mean_edge
+from pigaming_app.hardware.vision.markers import (
+    OLD_IDS,
+    ROBOT_IDS,
+    WEARERS,
+    MarkerDetector,
+    SearchWindow,
+    is_known,
+    mean_edge,
+)
 from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.robot import RADIUS
@@ -43,8 +51,9 @@ class Tracker(PoseFilters):
         self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
         self.last_captured = -inf  # s, capture time of the newest processed frame
         self.drift = drift  # gets the same frames, for the corner markers
-        self._markers = MarkerDetector(ROBOT_IDS)
+        self._markers = MarkerDetector(WEARERS)
         self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
+        self._worn: dict[int, int] = {}  # marker last seen on each robot
         self._glanced = self._searched = -inf
         self._dim = False  # mode of the last quick search
         self._edge = self._expected_edge()
@@ -69,6 +78,11 @@ class Tracker(PoseFilters):
                 accepted.append(fixes[0])
         return accepted
 
+    @property
+    def old_markers(self) -> Mapping[int, int]:
+        """Markers of older sheets, by the robots on which they were seen last."""
+        return {robot: number for robot, number in self._worn.items() if number in OLD_IDS}
+
     def duplicates(self) -> set[int]:
         """Robots whose marker was seen twice in one frame within the last REMEMBERED s."""
         return {robot for robot, reason in self._lately() if reason == "duplicate"}
@@ -89,10 +103,10 @@ class Tracker(PoseFilters):
         """Search near predictions, and the whole image periodically, more often while a robot is missing."""
         marks = []
         for robot, spot in self._spots(frame.captured).items():
-            mark = self._markers.detect_in(frame.image, spot, ROBOT_IDS[robot])
+            mark = self._markers.detect_in(frame.image, spot, ROBOT_IDS[robot], OLD_IDS[robot])
             if mark is not None:
                 marks.append(mark)
-        seen = {ROBOT_IDS.index(mark.number) for mark in marks}
+        seen = {WEARERS[mark.number] for mark in marks}
         missing = not self.expected <= seen
         if frame.captured - self._glanced > (SEARCH if missing else GLANCE):
             self._glanced = frame.captured
@@ -131,13 +145,14 @@ class Tracker(PoseFilters):
         """Plausible fixes by robot; rejections are recorded with their reason."""
         fixes: list[list[Fix]] = [[] for _ in range(ROBOTS)]
         for mark, fix in zip(marks, self.ground.fixes(marks, captured), strict=True):
-            robot = ROBOT_IDS.index(mark.number)
+            robot = WEARERS[mark.number]
             if isinstance(fix, str):
                 self._rejections[robot, fix] = captured
             elif not (-OUTSIDE < fix.x < WIDTH + OUTSIDE and -OUTSIDE < fix.y < HEIGHT + OUTSIDE):
                 self._rejections[robot, "outside"] = captured
             else:
                 fixes[robot].append(fix)
+                self._worn[robot] = mark.number
         return fixes
 
 
