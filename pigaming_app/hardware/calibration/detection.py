@@ -10,6 +10,7 @@ from math import ceil, cos, hypot, pi, sin
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pigaming_app.hardware.signals import Image
 from pigaming_app.hardware.vision.exposure import LONGEST
@@ -20,10 +21,12 @@ JPEG = 80  # quality of the compression
 READOUT, ROWS = 1 / 40, 1080  # s from the first to the last row of a picture; rows
 MARKER_MM, LID_MM, CELLS = 50.0, 47.5, 6  # edge of a marker; radius of a lid; cells across a marker
 WHITE, BLACK, MAT, NOISE = 110.0, 7.0, 102.0, 2.5  # grey levels of paper, print, mat, and standard deviation
+LARGEST = 200.0  # px, edge of a marker in these pictures
 CELL, FINE = 24, 2  # texels per cell of a lid as it is drawn, and per px as it is sampled
 ASTRAY = 0.1  # error of the tracker's prediction in edges, standard deviation
 NEAR = 0.15  # edges from the truth within which a marker counts as found
-FEW, MANY = 80, 320  # pictures that settle a clear case, and any other
+FEW, MANY = 60, 240  # pictures that settle a clear case, and any other
+GRAIN = 1024  # px, width of the noise of which a picture shows a part
 BLOCK = 8  # px, of the compression
 
 
@@ -42,7 +45,9 @@ def found_share(number: int, edge: float, blur: float, exposure: float) -> float
     `edge`: of the marker, px; `blur`: standard deviation, px; `exposure`: s; 0, unknown, counts as LONGEST. Standard
     error at most 0.03. Takes up to 0.3 s, once for each set of rounded arguments. Raises OpenCVMissing.
     """
-    return _tried(Look(number, round(2.0 * edge) / 2.0, round(20.0 * blur) / 20.0, round(exposure or LONGEST, 4)))
+    return _tried(
+        Look(number, min(round(2.0 * edge) / 2.0, LARGEST), round(20.0 * blur) / 20.0, round(exposure or LONGEST, 4))
+    )
 
 
 @lru_cache(maxsize=1024)
@@ -75,9 +80,16 @@ def _picture(
     flags = cv.INTER_LINEAR | cv.WARP_INVERSE_MAP
     light = cv.warpAffine(lid, matrix, (size, size), flags=flags, borderMode=cv.BORDER_REPLICATE)
     light = cv.GaussianBlur(light, (0, 0), max(look.blur, 0.1))
-    light += random.normal(0.0, NOISE, light.shape)
+    left, top = random.integers(0, GRAIN - size, 2)
+    light += _grain()[top : top + size, left : left + size]
     packed = cv.imencode(".jpg", cv.convertScaleAbs(light), [cv.IMWRITE_JPEG_QUALITY, JPEG])[1]
     return np.asarray(cv.imdecode(packed, cv.IMREAD_GRAYSCALE))
+
+
+@lru_cache(maxsize=1)
+def _grain() -> NDArray[np.float32]:
+    """Noise of a sensor."""
+    return np.random.default_rng(1).normal(0.0, NOISE, (GRAIN, GRAIN)).astype(np.float32)
 
 
 def _lid(cv: Any, look: Look) -> Image:

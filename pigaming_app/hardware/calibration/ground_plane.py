@@ -82,9 +82,8 @@ class GroundPlane:
             return []
         seen = np.concatenate([mark.corners for mark in marks])
         corners = self.at_height(seen, self.lid).reshape(-1, 4, 2)
-        return [
-            self._fix(WEARERS[m.number], corner, captured) for m, corner in zip(marks, corners.tolist(), strict=True)
-        ]
+        robots = [WEARERS[mark.number] for mark in marks]
+        return [self._fix(robot, corner, captured) for robot, corner in zip(robots, corners.tolist(), strict=True)]
 
     def edge_mm(self, mark: DetectedMarker) -> float:
         """The apparent edge of a marker on a lid, mm; wrong if the mat was measured wrongly."""

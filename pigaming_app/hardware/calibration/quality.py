@@ -32,11 +32,9 @@ class CameraQuality:
     def with_edge(self, marker_px: float) -> "CameraQuality":
         """The same picture with markers of another size, px."""
         look = marker_px, self.blur_px, self.exposure
-        detection = weakest(*look)
+        detection, old_detection = (weakest(*look, ids) for ids in (ROBOT_IDS, OLD_IDS))
         cause = "" if detection >= NEEDED else _cause(*look)
-        return replace(
-            self, marker_px=marker_px, detection=detection, cause=cause, old_detection=weakest(*look, OLD_IDS)
-        )
+        return replace(self, marker_px=marker_px, detection=detection, old_detection=old_detection, cause=cause)
 
     @property
     def measured(self) -> bool:
@@ -88,10 +86,11 @@ def weakest(marker_px: float, blur_px: float, exposure: float, numbers: Iterable
 
 
 def _cause(marker_px: float, blur_px: float, exposure: float) -> str:
-    """Of blur, exposure and size the one whose repair raises the prediction most."""
+    """Of blur, exposure and size the one whose repair raises the prediction of the weakest marker most."""
+    number = min(ROBOT_IDS, key=lambda number: found_share(number, marker_px, blur_px, exposure))
     repairs = {
-        "finds_blurred": weakest(marker_px, min(blur_px, 0.8), exposure),
-        "finds_smeared": weakest(marker_px, blur_px, min(exposure or LONGEST, 1 / 120)),
-        "finds_small": weakest(max(marker_px, 1.5 * SMALL_EDGE), blur_px, exposure),
+        "finds_blurred": found_share(number, marker_px, min(blur_px, 0.8), exposure),
+        "finds_smeared": found_share(number, marker_px, blur_px, min(exposure or LONGEST, 1 / 120)),
+        "finds_small": found_share(number, max(marker_px, 1.5 * SMALL_EDGE), blur_px, exposure),
     }
     return max(repairs, key=lambda cause: repairs[cause])

@@ -177,11 +177,6 @@ class FaultInjector:
         if robot in self._robots["marker_twice"]:
             _, (x, y, heading) = self._robots["marker_twice"][robot]
             away = hypot(x, y) or 1.0
-            seen.append(
-                FlatObject(
-                    card(self._arena.lids[robot]),
-                    0.0,
-                    ((x * (1 - 300.0 / away), y * (1 - 300.0 / away), heading + 1.0),),
-                )
-            )
+            near = x * (1 - 300.0 / away), y * (1 - 300.0 / away), heading + 1.0
+            seen.append(FlatObject(card(self._arena.lids[robot]), 0.0, (near,)))
         return seen

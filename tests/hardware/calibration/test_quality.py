@@ -20,7 +20,7 @@ GOOD = ExposureState(1 / 100, 1 / 30, 0.0, False, True)
     [
         (36.0, 0.8, 1 / 60, None),  # 1080p, focused
         (28.0, 2.3, 1 / 167, "finds_blurred"),
-        (18.0, 1.2, 1 / 60, "finds_small"),  # 720p at 25 degrees
+        (13.0, 1.0, 1 / 60, "finds_small"),
         (36.0, 0.8, 1 / 30, "finds_smeared"),
         (18.0, 0.5, 1 / 60, "marker_small"),  # sufficient, but a warning
     ],
