@@ -87,6 +87,16 @@ class RosPoses(PoseFilters):
     def old_markers(self) -> Mapping[int, int]:
         return {}
 
+    @property
+    def camera_delay(self) -> float:
+        return 0.0
+
+    def learn_delay(self, networks: Sequence[float]) -> None:
+        """No effect: the network's nodes stamp their poses."""
+
+    def lengthen_delay(self, seconds: float) -> None:
+        """No effect, as above."""
+
     def close(self) -> None:
         """Leave the topics."""
         self.node.close()

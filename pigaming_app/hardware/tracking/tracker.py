@@ -12,6 +12,7 @@ import numpy as np
 from pigaming_app.hardware.calibration.drift import DriftMonitor
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
 from pigaming_app.hardware.signals import CameraFrame, Clock, DetectedMarker, Fix
+from pigaming_app.hardware.tracking.camera_delay import CameraDelay
 from pigaming_app.hardware.tracking.ekf import COAST
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
 from pigaming_app.hardware.vision.markers import (
@@ -50,6 +51,7 @@ class Tracker(PoseFilters):
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
         self.last_captured = -inf  # s, capture time of the newest processed frame
+        self.delay = CameraDelay()
         self.drift = drift  # gets the same frames, for the corner markers
         self._markers = MarkerDetector(WEARERS)
         self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
@@ -65,7 +67,8 @@ class Tracker(PoseFilters):
         return self.correct(self._markers.refine(frame.image, self._find(frame)), frame.captured)
 
     def correct(self, marks: Sequence[DetectedMarker], captured: float) -> list[Fix]:
-        """Correct the filters with the markers of one frame; returns the accepted fixes."""
+        """Correct the filters with the markers of a frame with this stamp; returns the accepted fixes."""
+        captured -= self.delay.seconds
         if captured <= self.last_captured:
             return []
         self.last_captured = captured
@@ -95,6 +98,19 @@ class Tracker(PoseFilters):
         """
         return dict(self._lately())
 
+    def learn_delay(self, networks: Sequence[float]) -> None:
+        """Learn the delay of the camera; `networks`: s by which commands reach each robot later than usual."""
+        self.delay.learn(self.filters, networks, self.clock())
+
+    @property
+    def camera_delay(self) -> float:
+        """Time by which stamps are later than the exposure, s."""
+        return self.delay.seconds
+
+    def lengthen_delay(self, seconds: float) -> None:
+        """Correct the delay of the camera by a measurement."""
+        self.delay.measured(seconds, self.filters)
+
     def _lately(self) -> list[tuple[int, str]]:
         now = self.clock()
         return [key for key, time in self._rejections.items() if now - time < REMEMBERED]
@@ -102,7 +118,7 @@ class Tracker(PoseFilters):
     def _find(self, frame: CameraFrame) -> list[DetectedMarker]:
         """Search near predictions, and the whole image periodically, more often while a robot is missing."""
         marks = []
-        for robot, spot in self._spots(frame.captured).items():
+        for robot, spot in self._spots(frame.captured - self.delay.seconds).items():
             mark = self._markers.detect_in(frame.image, spot, ROBOT_IDS[robot], OLD_IDS[robot])
             if mark is not None:
                 marks.append(mark)
