@@ -1,7 +1,8 @@
 """Pairing of radios and markers: each radio's robot spins in turn, and the marker that turns belongs to it.
 
-Pairing also detects swapped, duplicate and invisible markers and miswired motors, and measures the camera's delay. Call `tick` every 1/50 s until it
-returns True; then `channels` is the mapping for a rig and `findings` the report for the operator.
+Pairing also detects swapped, duplicate and invisible markers and miswired motors, and measures the camera's delay. Call
+`tick` every 1/50 s until it returns True; then `channels` is the mapping for a rig and `findings` the report for the
+operator.
 """
 
 from collections.abc import Sequence

@@ -2,8 +2,8 @@
 
 Only the sum is seen: a robot's own dead time, the network's, and the lateness of the stamps. What exceeds the dead time
 of a drivetrain and the measured echo of the radio belongs to the camera as far as robots have it in common, and to the
-robot beyond that. Pairing measures it by correlation, to 5 ms. While robots drive, their filters estimate it: to 15 ms,
-because they take motors that are quicker or slower than usual for early or late. Once it was measured, only what changes
+robot beyond that. Pairing measures it by correlation, to 5 ms. While robots drive, their filters estimate it, to 15 ms
+only: they take motors that are quicker or slower than usual for early or late. Once it was measured, only what changes
 from then on counts.
 """
 
@@ -14,7 +14,8 @@ from pigaming_app.hardware.tracking.ekf import PoseFilter
 LONGEST = 0.12  # s
 MOTORS = 0.020  # s by which the motors of a robot may be quicker or slower than usual
 SURE = 0.006  # s, standard deviation of an estimate that counts
-NOTABLE = 0.003  # s, of which nothing is made
+NEGLIGIBLE = 0.010  # s, a delay that counts as none: robots' own delays differ as much
+NOTABLE = 0.003  # s, least correction of a delay
 PERIOD, SHARE = 0.5, 0.4  # s between two corrections, and the share of the difference in each
 USUAL_ECHO = 0.050  # s, of a radio within the dead time of an unmeasured robot
 
@@ -49,14 +50,14 @@ class CameraDelay:
             self._usual = {i: max(-MOTORS, min(MOTORS, seconds)) for i, seconds in late.items()} | self._usual
             late = {i: seconds - self._usual[i] for i, seconds in late.items()}
         common = common_delay(late.values(), MOTORS)
-        if abs(common) > NOTABLE:
+        if abs(common) > (NOTABLE if self.seconds else NEGLIGIBLE):
             change = self.add(SHARE * common, filters)
             for one in filters:
                 one.add_lateness(-change)
 
     def measured(self, seconds: float, filters: Sequence[PoseFilter]) -> None:
         """Correct the delay by a measurement."""
-        self.add(seconds, filters)
+        self.add(seconds if self.seconds + seconds > NEGLIGIBLE else -self.seconds, filters)
         self._usual = {}
 
     def add(self, seconds: float, filters: Sequence[PoseFilter]) -> float:
