@@ -125,7 +125,7 @@ class Mat:
     def old_markers(self):
         return {}
 
-    camera_delay = 0.0
+    camera_delay, wrong_size = 0.0, None
 
     def learn_delay(self, networks):
         pass

@@ -24,6 +24,7 @@ from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 VERSION = 1
 LID = 70.0  # mm from the mat to the marker on a robot
 MARKER = 50.0  # mm, the edge of a robot's marker
+MAX_SIZE_ERROR = 0.04  # relative deviation of the markers' size beyond which the arena's width is in doubt
 SIZE_TOLERANCE = 0.12  # relative deviation beyond which a marker is not on a lid
 SKEW_TOLERANCE = 1.18  # longest edge by shortest, beyond which a marker is tilted
 

@@ -54,6 +54,9 @@ class TrackerPort(Protocol):
     def old_markers(self) -> Mapping[int, int]: ...
 
     @property
+    def wrong_size(self) -> float | None: ...
+
+    @property
     def camera_delay(self) -> float: ...
 
     expected: set[int]  # robots worth searching for

@@ -88,6 +88,10 @@ class RosPoses(PoseFilters):
         return {}
 
     @property
+    def wrong_size(self) -> float | None:
+        return None
+
+    @property
     def camera_delay(self) -> float:
         return 0.0
 

@@ -4,13 +4,14 @@ Every frame corrects the robots' filters at its capture time; `sense` then repla
 never moves or stops a robot: `safety` judges ages, `duplicates` and `last_captured`.
 """
 
+from collections import deque
 from collections.abc import Mapping, Sequence
 from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
 
 from pigaming_app.hardware.calibration.drift import DriftMonitor
-from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
+from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR, GroundPlane, Points
 from pigaming_app.hardware.signals import CameraFrame, Clock, DetectedMarker, Fix
 from pigaming_app.hardware.tracking.camera_delay import CameraDelay
 from pigaming_app.hardware.tracking.ekf import COAST
@@ -33,6 +34,7 @@ OUTSIDE = 3.0 * RADIUS  # px outside the arena within which a fix is accepted
 GLANCE = 0.1  # s between quick searches of the whole image, for new robots and duplicate markers
 SEARCH = 0.05  # the same while a robot is missing, s
 THOROUGH = 1.0  # s between thorough searches while a robot is missing
+SIZES = 30  # of markers, for their median
 REMEMBERED = 0.5  # s for which a rejection is reported
 MARGIN, ASTRAY = 6.0, 200.0  # search radius around a prediction: px, plus px/s of its age
 
@@ -56,7 +58,8 @@ class Tracker(PoseFilters):
         self._markers = MarkerDetector(WEARERS)
         self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
         self._worn: dict[int, int] = {}  # marker last seen on each robot
-        self._glanced = self._searched = -inf
+        self._sizes: deque[float] = deque(maxlen=SIZES)  # mm
+        self._glanced = self._searched = self._sized = -inf
         self._dim = False  # mode of the last quick search
         self._edge = self._expected_edge()
 
@@ -85,6 +88,12 @@ class Tracker(PoseFilters):
     def old_markers(self) -> Mapping[int, int]:
         """Markers of older sheets, by the robots on which they were seen last."""
         return {robot: number for robot, number in self._worn.items() if number in OLD_IDS}
+
+    @property
+    def wrong_size(self) -> float | None:
+        """Size of the robots' markers, mm, if it is so far from the true one that the arena's width is in doubt."""
+        size = float(np.median(self._sizes)) if len(self._sizes) == SIZES else self.ground.marker
+        return size if abs(size / self.ground.marker - 1.0) > MAX_SIZE_ERROR else None
 
     def duplicates(self) -> set[int]:
         """Robots whose marker was seen twice in one frame within the last REMEMBERED s."""
@@ -168,6 +177,9 @@ class Tracker(PoseFilters):
                 self._rejections[robot, "outside"] = captured
             else:
                 fixes[robot].append(fix)
+                if captured - self._sized > GLANCE:
+                    self._sized = captured
+                    self._sizes.append(self.ground.edge_mm(mark))
                 self._worn[robot] = mark.number
         return fixes
 

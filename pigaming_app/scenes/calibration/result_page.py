@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import pygame
 
-from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR, GroundPlane
 from pigaming_app.hardware.calibration.quality import NEEDED, SMALL_EDGE, CameraQuality, used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
@@ -35,7 +35,6 @@ from pigaming_app.ui.widgets.labels import black_out, chip, heading
 HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
 GAUGE = 146  # px, pitch of the gauges
-MAX_SIZE_ERROR = 0.04  # tolerated relative error of a marker's size
 SENTENCE_SECONDS = 6.0  # seconds for which a sentence is shown
 IDLE = 600.0  # seconds without input until the title
 

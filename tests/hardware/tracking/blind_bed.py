@@ -15,6 +15,7 @@ from pigaming_app.sim.world import HZ, ROBOTS
 from tests.hardware.grounds import nominal
 from tests.hardware.pictures import square
 
+TRUTH = nominal()
 NOISE = 0.4  # px of the arena
 
 
@@ -42,18 +43,18 @@ class BlindTracker(Tracker):
         random = np.random.default_rng(frame.number)
         marks = []
         for robot, (x, y, heading, _) in enumerate(frame.image):
-            corners = square((x, y, heading), self.ground.marker / self.ground.mm) + random.normal(0.0, NOISE, (4, 2))
-            marks.append(DetectedMarker(ROBOT_IDS[robot], self.ground.to_camera(corners, self.ground.lid)))
+            corners = square((x, y, heading), TRUTH.marker / TRUTH.mm) + random.normal(0.0, NOISE, (4, 2))
+            marks.append(DetectedMarker(ROBOT_IDS[robot], TRUTH.to_camera(corners, TRUTH.lid)))
         return self.correct(marks, frame.captured)
 
 
 class BlindBed:
     """Four robots that drive eights. `late`: s by which the camera's stamps are late; `dead`: s more a robot needs."""
 
-    def __init__(self, late=0.0, seed=3, dead=(0.0,) * ROBOTS):
+    def __init__(self, late=0.0, seed=3, dead=(0.0,) * ROBOTS, ground=TRUTH):
         self.late = late
         timing = FrameTiming(30.0, 0.060)
-        self.session = EmulatedSession(seed, False, timing=timing, ground=nominal(), tracker=BlindTracker)
+        self.session = EmulatedSession(seed, False, timing=timing, ground=ground, tracker=BlindTracker)
         self.arena = self.session.arena
         self.arena.camera.painter = Poses(self.arena)
         self.rig = self.session.open()
