@@ -27,7 +27,10 @@ FAINT = 1.2  # grey levels, amplitude of the fringes below which a px counts as 
 MISFIT = 3.0  # px between camera ray and projector ray; beyond it a px mixes two surfaces
 STEEP = 4.0, 0.05  # mm, and share of the height, by which neighbours of a px may differ
 EDGE = 2.3  # px that tall things lose at each edge
-CONTRAST = 0.72  # share of the mat's brightness below which (or above whose inverse) something flat lies on it
+CONTRAST = 0.24  # share by which something flat differs from the mat's brightness; 28 % with noise and blotches
+BLACK = 0.022, 0.5  # shares of the mat's brightness of something black: above shadow, below the middle of its edge
+MEASURED = 0.75  # share of the px of something black whose heights suffice
+SOLID = 0.85  # share of its hull that something black fills in spite of reflections
 NARROW_TALL, NARROW_FLAT = 18.0, 11.0  # mm, least width
 SMALL = 900.0  # mm^2, least area
 ROBOT = 47.5, 75.0  # mm, radius and height of a robot
@@ -43,13 +46,21 @@ def find_things(
 ) -> Iterator[list[Thing]]:
     """Yields the things found so far after each slice of the work, of about 30 ms; the last list is complete."""
     things: list[Thing] = []
-    ground = pictures.ground
+    cv, ground = opencv(), pictures.ground
     height, lit, flat = surface.height, *_sorted_out(surface)
     yield things
     height = height - own_height(height, flat)
     yield things
+    brightness = surface.contrast / own_brightness(surface.contrast, flat)
     margin = (UNSURE[0] + UNSURE[1] * _camera_mm(ground)) / ground.mm
-    footprint, heights = _footprints(_tall(height, lit), height, ground)
+    yield things
+    black = np.zeros(CANVAS[::-1], np.uint8)
+    for at, part in _components(_black(brightness, robot_shadows(robots, ground, projector)), 3.0, ground):
+        if (thing := _black_thing(at, part, height, lit, ground, margin)) is not None:
+            things.append(thing)
+            cv.fillConvexPoly(black, _on_canvas(_convex(at, part)), 1)
+    yield things
+    footprint, heights = _footprints(_tall(height, lit) & (_grown(black, ground) == 0), height, ground)
     yield things
     for robot in robots:
         opencv().fillConvexPoly(footprint, _on_canvas(_disc(robot, ROBOT[0] + AROUND, ground)), 0)
@@ -63,9 +74,7 @@ def find_things(
     hidden = robot_shadows(robots, ground, projector)
     hidden |= _hidden([(thing.points, thing.height_mm) for thing in things], ground, projector)
     yield things
-    brightness = surface.contrast / own_brightness(surface.contrast, flat)
-    yield things
-    stain = flat & (np.abs(height) < LOWEST) & ((brightness < CONTRAST) | (brightness > 1.0 / CONTRAST)) & (hidden == 0)
+    stain = flat & (np.abs(height) < LOWEST) & (np.abs(brightness - 1.0) > CONTRAST) & (hidden == 0)
     for at, mask in _components(stain.astype(np.uint8), 0.35 * NARROW_FLAT / ground.mm, ground):
         for corners in convex_parts(mask, at):
             if _counts(corners, NARROW_FLAT, ground):
@@ -83,6 +92,43 @@ def _sorted_out(surface: Surface) -> tuple[Mask, Mask]:
     """Where heights can be trusted, and where the mat itself, or something flat, is seen."""
     lit = (surface.strength > FAINT) & (surface.misfit < MISFIT)
     return lit, lit & (np.abs(surface.height) < LOWEST)
+
+
+def _black(brightness: Map, robots: Pixels) -> Pixels:
+    """Mask of what is black, but neither shadow nor robot."""
+    smooth = opencv().blur(brightness, (5, 5))
+    return np.asarray((smooth > BLACK[0]) & (smooth < BLACK[1]) & (robots == 0)).astype(np.uint8)
+
+
+def _black_thing(
+    at: tuple[int, int], part: Pixels, height: Map, lit: Mask, ground: GroundPlane, margin: float
+) -> Thing | None:
+    """A convex black thing in one piece if its heights are not measured well, as of a glossy one; else None."""
+    hull = _convex(at, part)
+    inside = part.astype(np.bool_)[1:-1, 1:-1]
+    window = tuple(slice(begin + 1, begin + 1 + size) for begin, size in zip(at[::-1], inside.shape, strict=True))
+    values = height[window][inside & lit[window]]
+    known = values[np.abs(values) < HIGHEST]
+    top = max(0.0, float(np.median(known))) if len(known) else 0.0
+    even = np.count_nonzero(np.abs(known - top) < STEEP[0]) > MEASURED * inside.sum()
+    if (even and abs(top - LOWEST) > STEEP[0]) or inside.sum() < SOLID * abs(signed_area(hull.tolist())):
+        return None
+    outline = np.array(ground.foot) + (hull - np.array(ground.foot)) * (1.0 - top / ground.height)
+    kind = ThingKind.TALL if top > LOWEST else ThingKind.FLAT
+    return _thing(kind, outline, top if top > LOWEST else 0.0, margin) if _counts(outline, NARROW_TALL, ground) else None
+
+
+def _convex(at: tuple[int, int], part: Pixels) -> Outline:
+    """The hull of a part of the canvas, with few corners; arena px."""
+    cv = opencv()
+    points = np.argwhere(part)[:, ::-1].astype(np.int32)
+    corners = cv.approxPolyDP(cv.convexHull(points), 1.5, True).reshape(-1, 2)
+    return np.asarray(corners + np.array(at) - ARENA_AT, dtype=np.float64)
+
+
+def _grown(mask: Pixels, ground: GroundPlane) -> Pixels:
+    """A mask with the surroundings of all that it covers."""
+    return np.asarray(opencv().dilate(mask, np.ones((2 * round(AROUND / ground.mm) + 1,) * 2, np.uint8)))
 
 
 def _tall(height: Map, lit: Mask) -> Mask:
@@ -146,7 +192,7 @@ def _hidden(bodies: Sequence[tuple[Outline, float]], ground: GroundPlane, projec
         for foot, above in ((ground.foot, ground.height), (projector.foot, projector.height)):
             cast = np.array(foot) + (outline - np.array(foot)) * (above / (above - height))
             cv.fillConvexPoly(mask, _on_canvas(np.concatenate([outline, cast])), 1)
-    return np.asarray(cv.dilate(mask, np.ones((2 * round(AROUND / ground.mm) + 1,) * 2, np.uint8)))
+    return _grown(mask, ground)
 
 
 def _disc(at: Place, radius: float, ground: GroundPlane) -> Outline:
