@@ -28,7 +28,7 @@ MISFIT = 3.0  # px between camera ray and projector ray; beyond it a px mixes tw
 STEEP = 4.0, 0.05  # mm, and share of the height, by which neighbours of a px may differ
 EDGE = 2.3  # px that tall things lose at each edge
 CONTRAST = 0.24  # share by which something flat differs from the mat's brightness; 28 % with noise and blotches
-BLACK = 0.022, 0.5  # shares of the mat's brightness of something black: above shadow, below the middle of its edge
+SHADOW, DARK, BLACK = 0.022, 0.5, 0.2  # of the mat's brightness: shadow, the middle of a dark edge, something black
 MEASURED = 0.75  # share of the px of something black whose heights suffice
 SOLID = 0.85  # share of its hull that something black fills in spite of reflections
 NARROW_TALL, NARROW_FLAT = 18.0, 11.0  # mm, least width
@@ -55,10 +55,14 @@ def find_things(
     margin = (UNSURE[0] + UNSURE[1] * _camera_mm(ground)) / ground.mm
     yield things
     black = np.zeros(CANVAS[::-1], np.uint8)
-    for at, part in _components(_black(brightness, robot_shadows(robots, ground, projector)), 3.0, ground):
-        if (thing := _black_thing(at, part, height, lit, ground, margin)) is not None:
-            things.append(thing)
-            cv.fillConvexPoly(black, _on_canvas(_convex(at, part)), 1)
+    clear = np.where(lit, height, np.float32(np.nan))
+    for at, part in _components(_dark(brightness, robot_shadows(robots, ground, projector)), 3.0, ground):
+        inside = _within(at, part)
+        if part.any() and float(np.median(brightness[inside])) < BLACK:
+            hull = _convex(at, part)
+            if (thing := _black_thing(hull, clear[inside], ground, margin)) is not None:
+                things.append(thing)
+                cv.fillConvexPoly(black, _on_canvas(hull), 1)
     yield things
     footprint, heights = _footprints(_tall(height, lit) & (_grown(black, ground) == 0), height, ground)
     yield things
@@ -94,28 +98,32 @@ def _sorted_out(surface: Surface) -> tuple[Mask, Mask]:
     return lit, lit & (np.abs(surface.height) < LOWEST)
 
 
-def _black(brightness: Map, robots: Pixels) -> Pixels:
-    """Mask of what is black, but neither shadow nor robot."""
+def _dark(brightness: Map, robots: Pixels) -> Pixels:
+    """Mask of what is dark, but neither shadow nor robot."""
     smooth = opencv().blur(brightness, (5, 5))
-    return np.asarray((smooth > BLACK[0]) & (smooth < BLACK[1]) & (robots == 0)).astype(np.uint8)
+    return np.asarray((smooth > SHADOW) & (smooth < DARK) & (robots == 0)).astype(np.uint8)
 
 
-def _black_thing(
-    at: tuple[int, int], part: Pixels, height: Map, lit: Mask, ground: GroundPlane, margin: float
-) -> Thing | None:
-    """A convex black thing in one piece if its heights are not measured well, as of a glossy one; else None."""
-    hull = _convex(at, part)
-    inside = part.astype(np.bool_)[1:-1, 1:-1]
-    window = tuple(slice(begin + 1, begin + 1 + size) for begin, size in zip(at[::-1], inside.shape, strict=True))
-    values = height[window][inside & lit[window]]
-    known = values[np.abs(values) < HIGHEST]
+def _within(at: tuple[int, int], part: Pixels) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Rows and columns of a part of the canvas."""
+    rows, columns = np.nonzero(part)
+    return np.asarray(rows + at[1]), np.asarray(columns + at[0])
+
+
+def _black_thing(hull: Outline, heights: Map, ground: GroundPlane, margin: float) -> Thing | None:
+    """A convex black thing in one piece if its heights are not measured well, as of a glossy one; else None.
+
+    `heights`: of its px, mm; NaN: unknown.
+    """
+    known = heights[np.abs(heights) < HIGHEST]
     top = max(0.0, float(np.median(known))) if len(known) else 0.0
-    even = np.count_nonzero(np.abs(known - top) < STEEP[0]) > MEASURED * inside.sum()
-    if (even and abs(top - LOWEST) > STEEP[0]) or inside.sum() < SOLID * abs(signed_area(hull.tolist())):
+    even = np.count_nonzero(np.abs(known - top) < STEEP[0]) > MEASURED * len(heights)
+    if (even and abs(top - LOWEST) > STEEP[0]) or len(heights) < SOLID * abs(signed_area(hull.tolist())):
         return None
+    top = top if top > LOWEST else 0.0
     outline = np.array(ground.foot) + (hull - np.array(ground.foot)) * (1.0 - top / ground.height)
-    kind = ThingKind.TALL if top > LOWEST else ThingKind.FLAT
-    return _thing(kind, outline, top if top > LOWEST else 0.0, margin) if _counts(outline, NARROW_TALL, ground) else None
+    kind = ThingKind.TALL if top else ThingKind.FLAT
+    return _thing(kind, outline, top, margin) if _counts(outline, NARROW_TALL, ground) else None
 
 
 def _convex(at: tuple[int, int], part: Pixels) -> Outline:

@@ -118,7 +118,7 @@ def texture(look: str, grey: float, seed: int) -> Map:
     elif look == "glossy":
         for at, size in (((250, 240), (14, 9)), ((268, 275), (22, 6))):
             cv2.ellipse(light, at, size, 30.0, 0.0, 360.0, 0.8, -1)
-        light = cv2.GaussianBlur(light, (0, 0), 2.0)
+        light = np.asarray(cv2.GaussianBlur(light, (0, 0), 2.0), dtype=np.float64)
     elif look == "striped":
         wide = int(random.integers(8, 20))
         light[:, (np.arange(TEXELS) // wide) % 2 == 0] *= 0.55
