@@ -30,6 +30,7 @@ EDGE = 2.3  # px that tall things lose at each edge
 CONTRAST = 0.24  # share by which something flat differs from the mat's brightness; 28 % with noise and blotches
 SHADOW, DARK, BLACK = 0.022, 0.5, 0.2  # of the mat's brightness: shadow, the middle of a dark edge, something black
 MEASURED = 0.75  # share of the px of something black whose heights suffice
+LEVEL = 20.0  # mm, spread of half of the heights; beyond it is the side of something tall
 SOLID = 0.85  # share of its hull that something black fills in spite of reflections
 NARROW_TALL, NARROW_FLAT = 18.0, 11.0  # mm, least width
 SMALL = 900.0  # mm^2, least area
@@ -116,9 +117,12 @@ def _black_thing(hull: Outline, heights: Map, ground: GroundPlane, margin: float
     `heights`: of its px, mm; NaN: unknown.
     """
     known = heights[np.abs(heights) < HIGHEST]
-    top = max(0.0, float(np.median(known))) if len(known) else 0.0
+    if not len(known):
+        return None
+    low, top, high = np.percentile(known, (25.0, 50.0, 75.0)).tolist()
     even = np.count_nonzero(np.abs(known - top) < STEEP[0]) > MEASURED * len(heights)
-    if (even and abs(top - LOWEST) > STEEP[0]) or len(heights) < SOLID * abs(signed_area(hull.tolist())):
+    well = even and abs(top - LOWEST) > STEEP[0]
+    if well or high - low > LEVEL or len(heights) < SOLID * abs(signed_area(hull.tolist())):
         return None
     top = top if top > LOWEST else 0.0
     outline = np.array(ground.foot) + (hull - np.array(ground.foot)) * (1.0 - top / ground.height)
