@@ -227,6 +227,7 @@ class Settings:
     radios: list[int] = field(
         default_factory=lambda: [1, 2, 3, 4], metadata={"validator": SeatNumbers(True)}
     )  # of each marker
+    camera_delay: int = _setting(-1, Range(-1, 120))  # ms by which the camera's stamps are late; -1: never measured
     kinds: list[str] = field(
         default_factory=lambda: [""] * 4, metadata={"validator": RobotKinds()}
     )  # of the robot on each radio; empty: as it announces

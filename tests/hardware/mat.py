@@ -10,6 +10,7 @@ import numpy as np
 
 from pigaming_app.hardware.control.kinematics import IDEAL
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.signals import CameraFrame, Fix, Telemetry
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel, twist
 from pigaming_app.sim.plant import Sighting
@@ -119,6 +120,21 @@ class Mat:
 
     def predict(self, now, ahead):
         return self.sense(now), [self.sense(now + more)[i] for i, more in enumerate(ahead)]
+
+    @property
+    def old_markers(self):
+        return {}
+
+    camera_delay, wrong_size = 0.0, None
+
+    def learn_delay(self, networks):
+        pass
+
+    def lengthen_delay(self, seconds):
+        self.camera_delay += seconds
+
+    def quality(self, robot):
+        return LinkQuality(1.0, None, None)
 
     def duplicates(self):
         return {i for i, robot in enumerate(self.robots) if robot.duplicate}

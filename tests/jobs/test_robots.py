@@ -14,7 +14,7 @@ from pigaming_app.hardware.emulator.xbee import Module
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.radio.xbee_setup import Carrier
-from pigaming_app.hardware.session.store import save_radios
+from pigaming_app.hardware.session.store import save_pairing
 from pigaming_app.hardware.signals import ExposureState
 from pigaming_app.jobs import fidelity, robots
 from pigaming_app.jobs.robots import radio_setup
@@ -117,7 +117,7 @@ def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
 
 
 def test_the_pairing_is_remembered(home):
-    save_radios([0, 2, 1, 3])
+    save_pairing([0, 2, 1, 3], 0.05)
     settings, text = Settings.load(folders().config)
     assert settings.radios == [1, 3, 2, 4]
     assert text == []

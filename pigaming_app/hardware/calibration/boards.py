@@ -13,13 +13,12 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Points
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, Image
-from pigaming_app.hardware.vision.markers import MarkerDetector, opencv
+from pigaming_app.hardware.vision.markers import CORNER_IDS, WEARERS, MarkerDetector, dictionary, opencv
 from pigaming_app.hardware.vision.sharpness import blur_of
 
 CANVAS = (1920, 1080)
 ARENA_AT = (160.0, 140.0)  # px, the arena's top left corner on the canvas
 COLUMNS, ROWS = 7, 5
-FIRST_ID = 14  # 0..3 are robots, 10..13 corners
 FRAMES = 10  # pictures to average
 BLUR_EVERY = 4  # pictures between two measurements of the blur
 MIN_MARKERS = 26  # of 35
@@ -48,18 +47,17 @@ class CalibrationBoard:
     def picture(self) -> Image:
         """The picture to project: (1080, 1920), grey."""
         cv = opencv()
-        dictionary = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
         page = np.full((CANVAS[1], CANVAS[0]), LIGHT, np.uint8)
         for number, (x, y) in self._centres().items():
             left, top = round(x - self.edge / 2), round(y - self.edge / 2)
-            marker = cv.aruco.generateImageMarker(dictionary, number, self.edge)
+            marker = cv.aruco.generateImageMarker(dictionary(cv), number, self.edge)
             page[top : top + self.edge, left : left + self.edge] = np.minimum(marker, LIGHT)
         return page
 
     def _centres(self) -> dict[int, NDArray[np.float64]]:
         (x, y), (wide, high) = self.middle, self.pitch
         return {
-            FIRST_ID + row * COLUMNS + column: np.array(
+            BOARD_IDS[row * COLUMNS + column]: np.array(
                 (x + (column - (COLUMNS - 1) / 2) * wide, y + (row - (ROWS - 1) / 2) * high)
             )
             for row in range(ROWS)
@@ -67,9 +65,9 @@ class CalibrationBoard:
         }
 
 
+BOARD_IDS = tuple(number for number in range(50) if number not in {*WEARERS, *CORNER_IDS})[-COLUMNS * ROWS :]
 BOARD = CalibrationBoard((960.0, 540.0), (270.0, 208.0))
 HELD_OUT = CalibrationBoard((976.0, 553.0), (238.0, 182.0))  # every marker at least 16 px off its position on the first
-BOARD_IDS = tuple(range(FIRST_ID, FIRST_ID + COLUMNS * ROWS))
 
 
 class BoardSamples:
@@ -120,7 +118,7 @@ class BoardSamples:
 def _empty_corner(seen: Mapping[int, object]) -> str:
     """The message key of the first corner block (2 x 2 markers) without a visible marker; "" if each has one."""
     for name, top, left in (("top_left", 0, 0), ("top_right", 0, 5), ("bottom_left", 3, 0), ("bottom_right", 3, 5)):
-        block = [FIRST_ID + (top + i) * COLUMNS + left + j for i in (0, 1) for j in (0, 1)]
+        block = [BOARD_IDS[(top + i) * COLUMNS + left + j] for i in (0, 1) for j in (0, 1)]
         if not any(number in seen for number in block):
             return name
     return ""

@@ -15,9 +15,10 @@ from pigaming_app.hardware.calibration.drift import DriftMonitor
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.quality import CameraQuality, assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite
+from pigaming_app.hardware.calibration.two_heights import TwoHeights
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKept, ExposureState, Image
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, OpenCVMissing, opencv
+from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, OpenCVMissing, opencv
 from pigaming_app.hardware.vision.sharpness import blur_of, overexposed
 from pigaming_app.hardware.worker import BackgroundWorker, log
 
@@ -130,6 +131,7 @@ class DriftCheck(CameraTask):
 
     `load` reads the calibration for pictures of a size in px (None: any), or raises CalibrationError. `marker_mm` is
     the apparent size of the marker of a robot at SPOT: far from the true size, the mat's width was measured wrongly.
+    `heights` finds a wrong height of the camera, once the lid was laid there, too.
     """
 
     def __init__(
@@ -139,6 +141,8 @@ class DriftCheck(CameraTask):
         self.drift: DriftMonitor | None = None
         self.mm: float | None = None  # None: not yet measured
         self.marker_mm: float | None = None
+        self.worn: int | None = None  # number of that marker
+        self.heights: TwoHeights | None = None  # of that marker
         self.quality: CameraQuality | None = None  # of the present picture
         self._load = load
         with suppress(CalibrationError):
@@ -164,12 +168,13 @@ class DriftCheck(CameraTask):
 
     def _measure(self, frame: CameraFrame, ground: GroundPlane) -> None:
         """Measure the apparent marker size of a robot on the spot."""
-        self._robots = self._robots or MarkerDetector(ROBOT_IDS)
-        self.marker_mm = None
-        for mark in self._robots.detect(frame.image):
-            away = ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT)
-            if float(away @ away) < NEAR * NEAR:
-                self.marker_mm = ground.edge_mm(mark)
+        self._robots = self._robots or MarkerDetector(WEARERS)
+        self.heights = self.heights or TwoHeights(ground)
+        marks = self._robots.refine(frame.image, self._robots.detect(frame.image))
+        away = [ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT) for mark in marks]
+        mark = next((mark for mark, way in zip(marks, away, strict=True) if float(way @ way) < NEAR * NEAR), None)
+        self.marker_mm, self.worn = (ground.edge_mm(mark), mark.number) if mark else (None, None)
+        self.heights.add(mark)
 
     def _assess(self, frame: CameraFrame, drift: DriftMonitor) -> None:
         """Assess exposure and blur of the picture, by the corner markers."""

@@ -12,7 +12,7 @@ import numpy as np
 from pigaming_app.hardware.calibration.boards import ARENA_AT, LIGHT
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker, Image
-from pigaming_app.hardware.vision.markers import CORNER_IDS, MarkerDetector, SearchWindow, mean_edge, opencv
+from pigaming_app.hardware.vision.markers import CORNER_IDS, MarkerDetector, SearchWindow, dictionary, mean_edge, opencv
 
 WARN, PAUSE = 5.0, 15.0  # mm
 PICTURES = 10  # of the median
@@ -96,11 +96,10 @@ def _spot(mark: DetectedMarker) -> SearchWindow:
 def corner_markers() -> list[tuple[int, int, Image]]:
     """The tiles to project: (left, top) on the canvas, and a grey picture with its quiet zone."""
     cv = opencv()
-    dictionary = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
     tiles = []
     for number, (x, y) in zip(CORNER_IDS, PLACES, strict=True):
         tile = np.full((EDGE + 2 * QUIET, EDGE + 2 * QUIET), LIGHT, np.uint8)
-        tile[QUIET:-QUIET, QUIET:-QUIET] = np.minimum(cv.aruco.generateImageMarker(dictionary, number, EDGE), LIGHT)
+        tile[QUIET:-QUIET, QUIET:-QUIET] = np.minimum(cv.aruco.generateImageMarker(dictionary(cv), number, EDGE), LIGHT)
         tiles.append((x - EDGE // 2 - QUIET, y - EDGE // 2 - QUIET, tile))
     return tiles
 

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.lens import Lens
-from pigaming_app.hardware.calibration.quality import CameraQuality
+from pigaming_app.hardware.calibration.quality import CAUSES, CameraQuality
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import DetectedMarker, Fix
+from pigaming_app.hardware.vision.markers import WEARERS
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
@@ -23,6 +24,7 @@ from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 VERSION = 1
 LID = 70.0  # mm from the mat to the marker on a robot
 MARKER = 50.0  # mm, the edge of a robot's marker
+MAX_SIZE_ERROR = 0.04  # relative deviation of the markers' size beyond which the arena's width is in doubt
 SIZE_TOLERANCE = 0.12  # relative deviation beyond which a marker is not on a lid
 SKEW_TOLERANCE = 1.18  # longest edge by shortest, beyond which a marker is tilted
 
@@ -76,12 +78,13 @@ class GroundPlane:
         return self.lens.distort(project(self._back, apparent))  # type: ignore[attr-defined]
 
     def fixes(self, marks: Sequence[DetectedMarker], captured: float) -> list[Fix | str]:
-        """A fix for each marker, or the reason why it cannot be on a robot: `size` or `tilted`."""
+        """A fix for each marker of a robot, or the reason why it cannot be on a robot: `size` or `tilted`."""
         if not marks:
             return []
         seen = np.concatenate([mark.corners for mark in marks])
         corners = self.at_height(seen, self.lid).reshape(-1, 4, 2)
-        return [self._fix(m.number, corner, captured) for m, corner in zip(marks, corners.tolist(), strict=True)]
+        robots = [WEARERS[mark.number] for mark in marks]
+        return [self._fix(robot, corner, captured) for robot, corner in zip(robots, corners.tolist(), strict=True)]
 
     def edge_mm(self, mark: DetectedMarker) -> float:
         """The apparent edge of a marker on a lid, mm; wrong if the mat was measured wrongly."""
@@ -102,7 +105,7 @@ class GroundPlane:
         scales = np.linalg.svd(np.stack([right - here, down - here], axis=2), compute_uv=False)
         return self.marker * float(scales.min())
 
-    def _fix(self, number: int, corners: list[list[float]], captured: float) -> Fix | str:
+    def _fix(self, robot: int, corners: list[list[float]], captured: float) -> Fix | str:
         edges = _edges(corners)
         if not max(edges) <= SKEW_TOLERANCE * min(edges):
             return "tilted"
@@ -110,7 +113,7 @@ class GroundPlane:
             return "size"
         (ax, ay), (bx, by), (cx, cy), (dx, dy) = corners
         heading = atan2(ay + by - cy - dy, ax + bx - cx - dx)
-        return Fix(number, (ax + bx + cx + dx) / 4.0, (ay + by + cy + dy) / 4.0, heading, captured)
+        return Fix(robot, (ax + bx + cx + dx) / 4.0, (ay + by + cy + dy) / 4.0, heading, captured)
 
 
 def _edges(corners: list[list[float]]) -> list[float]:
@@ -200,9 +203,11 @@ def _ground(table: TomlTable) -> GroundPlane:
 
 
 def _quality(table: TomlTable) -> CameraQuality:
-    anyway = table.entries.get("anyway")
+    anyway, cause = table.entries.get("anyway"), table.entries.get("cause", "")
     if not isinstance(anyway, bool):
         raise table.error("anyway", "true or false is missing")
+    if not isinstance(cause, str) or cause not in ("", *CAUSES):
+        raise table.error("cause", f"{quote(cause)} is unknown")
     return CameraQuality(
         table.number("exposure", None, 0.0, 10.0, " s"),
         table.number("gain", None, 0.0, 1e6),
@@ -210,4 +215,6 @@ def _quality(table: TomlTable) -> CameraQuality:
         table.number("blur_px", None, 0.0, 1e4, " px"),
         table.number("detection", None, 0.0, 1.0),
         anyway,
+        table.number("old_detection", 0.0, 0.0, 1.0),
+        cause,
     )

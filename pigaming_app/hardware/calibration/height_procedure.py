@@ -16,7 +16,7 @@ from pigaming_app.hardware.calibration.procedure import LIT
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector
+from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector
 
 PLACES = ((320.0, 220.0), (1280.0, 220.0), (1280.0, 680.0), (320.0, 680.0))  # arena px of the outlines
 NEAR = 90.0  # arena px, radius of an outline within which a robot counts as on it
@@ -64,7 +64,7 @@ class HeightProcedure(CameraTask):
         if frame.captured > self._begun + TIMEOUT:
             self.give_up(OperatorMessage("nobody"))
             return
-        self._markers = self._markers or MarkerDetector(ROBOT_IDS)
+        self._markers = self._markers or MarkerDetector(WEARERS)
         here = [mark for mark in self._markers.detect(frame.image) if self._is_near(mark, self.place)]
         if len(here) != 1 or (self._recent and here[0].number != self._recent[0].number):
             self._recent = []

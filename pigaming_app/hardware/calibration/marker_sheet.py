@@ -10,7 +10,7 @@ import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import MARKER
 from pigaming_app.hardware.messages import OperatorError, OperatorMessage
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, opencv
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, dictionary, opencv
 
 PAGE = (210.0, 297.0)  # mm, A4
 POINT = 72.0 / 25.4  # PDF points per mm
@@ -39,8 +39,7 @@ def sheet(edge: float = MARKER, notes: Sequence[str] = (), block_notes: Sequence
 def cells(number: int) -> "np.ndarray[tuple[int, int], np.dtype[np.bool_]]":
     """The black cells of a marker, (6, 6) bool. Raises OpenCVMissing."""
     cv = opencv()
-    dictionary = cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
-    return np.asarray(cv.aruco.generateImageMarker(dictionary, number, CELLS) < 128)
+    return np.asarray(cv.aruco.generateImageMarker(dictionary(cv), number, CELLS) < 128)
 
 
 def _markers(edge: float) -> Iterator[str]:

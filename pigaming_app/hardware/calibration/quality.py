@@ -1,24 +1,19 @@
-"""Quality of the camera's picture at a calibration: exposure, size and blur of the robots' markers, and the prediction
-of the share of pictures in which a driving robot's marker is found.
-
-A marker is found if it is not smeared and if it is clear enough; the two shares multiply. Both are fits to the emulated
-arena, with robots at 0.35 m/s: `tests/bench/detection.py` prints the table that they were fitted to, and the fit.
+"""Quality of the camera's picture at a calibration: exposure, size and blur of the robots' markers, and the predicted
+share of the pictures in which a driving robot's marker is found, by `detection`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from math import exp, log
 
+from pigaming_app.hardware.calibration.detection import found_share
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import ExposureKept, ExposureState
 from pigaming_app.hardware.vision.exposure import LONGEST
+from pigaming_app.hardware.vision.markers import OLD_IDS, ROBOT_IDS, WEARERS
 
 NEEDED = 0.95  # share of the pictures in which a marker must be found
+CAUSES = ("finds_blurred", "finds_smeared", "finds_small")  # of a weak prediction
 SMALL_EDGE = 20.0  # camera px, edge of a marker below which the wizard warns
-SPEED = 350.0  # mm/s, of a robot
-MOTION = (17.63, -13.23)  # weights of `motion_terms`
-CLARITY = (-9.22, 5.84, -2.64, -14.5, -1.95)  # weights of `clarity_terms`; mean error of the predicted share 2 %
-CELLS, MARKER_MM = 6.0, 50.0  # cells across a marker; its edge
 
 
 @dataclass(frozen=True)
@@ -29,12 +24,17 @@ class CameraQuality:
     gain: float = 0.0  # units of the driver
     marker_px: float = 0.0  # edge of a robot's marker at the weakest place of the arena, camera px
     blur_px: float = 0.0  # standard deviation, camera px
-    detection: float = 0.0  # predicted share of the pictures in which a driving robot's marker is found
+    detection: float = 0.0  # predicted share of the pictures in which the weakest marker of a driving robot is found
     anyway: bool = False  # the operator saved it despite a prediction below NEEDED
+    old_detection: float = 0.0  # the same for the markers of older sheets; 0: not predicted
+    cause: str = ""  # key of the main cause of a weak prediction
 
     def with_edge(self, marker_px: float) -> "CameraQuality":
         """The same picture with markers of another size, px."""
-        return replace(self, marker_px=marker_px, detection=predicted(marker_px, self.blur_px, self.exposure))
+        look = marker_px, self.blur_px, self.exposure
+        detection, old_detection = (weakest(*look, ids) for ids in (ROBOT_IDS, OLD_IDS))
+        cause = "" if detection >= NEEDED else _cause(*look)
+        return replace(self, marker_px=marker_px, detection=detection, old_detection=old_detection, cause=cause)
 
     @property
     def measured(self) -> bool:
@@ -53,24 +53,15 @@ class CameraQuality:
 
     @property
     def advice(self) -> OperatorMessage | None:
-        """The main cause of a weak prediction with its remedy, or a warning; None if all is well.
-
-        Of blur, exposure and size the one is named whose repair raises the prediction most.
-        """
+        """The main cause of a weak prediction with its remedy, or a warning; None if all is well."""
         if not self.measured:
             return None
         if self.sufficient:
             return (
                 OperatorMessage("marker_small", edge=f"{self.marker_px:.0f}") if self.marker_px < SMALL_EDGE else None
             )
-        share, edge = round(100 * self.detection), f"{self.marker_px:.0f}"
-        repairs = {
-            "finds_blurred": predicted(self.marker_px, min(self.blur_px, 0.8), self.exposure),
-            "finds_smeared": predicted(self.marker_px, self.blur_px, min(self.exposure or LONGEST, 1 / 120)),
-            "finds_small": predicted(max(self.marker_px, 1.5 * SMALL_EDGE), self.blur_px, self.exposure),
-        }
-        cause = max(repairs, key=lambda name: repairs[name])
-        return OperatorMessage(cause, share=share, edge=edge, blur=f"{self.blur_px:.1f}")
+        figures = {"edge": f"{self.marker_px:.0f}", "blur": f"{self.blur_px:.1f}"}
+        return OperatorMessage(self.cause, share=round(100 * self.detection), **figures) if self.cause else None
 
 
 def used_anyway(quality: CameraQuality) -> OperatorMessage:
@@ -78,32 +69,28 @@ def used_anyway(quality: CameraQuality) -> OperatorMessage:
     return OperatorMessage("used_anyway", share=round(100 * quality.detection))
 
 
+def old_marker(number: int) -> OperatorMessage:
+    """The message about a marker of an older sheet."""
+    return OperatorMessage("old_marker", robot=WEARERS[number] + 1, number=number)
+
+
 def assessed(marker_px: float, blur_px: float, state: ExposureState) -> CameraQuality:
     """The quality of a picture. Without a figure of the driver the exposure is taken to be LONGEST."""
     seconds = state.seconds or 0.0
-    return CameraQuality(seconds, state.gain, marker_px, blur_px, predicted(marker_px, blur_px, seconds))
+    return CameraQuality(seconds, state.gain, blur_px=blur_px).with_edge(marker_px)
 
 
-def predicted(marker_px: float, blur_px: float, exposure: float) -> float:
-    """Predicted share of the pictures, 0..1, in which the marker of a driving robot is found.
-
-    `exposure`: s; 0, unknown, counts as LONGEST.
-    """
-    return logistic(MOTION, motion_terms(exposure)) * logistic(CLARITY, clarity_terms(marker_px, blur_px, exposure))
+def weakest(marker_px: float, blur_px: float, exposure: float, numbers: Iterable[int] = ROBOT_IDS) -> float:
+    """The predicted share, 0..1, of the marker that is found least of these."""
+    return min(found_share(number, marker_px, blur_px, exposure) for number in numbers)
 
 
-def motion_terms(exposure: float) -> tuple[float, float]:
-    """Terms of the share of markers that are not smeared: 1, motion in an exposure (s) in cells of a marker."""
-    return 1.0, SPEED * (exposure or LONGEST) / (MARKER_MM / CELLS)
-
-
-def clarity_terms(marker_px: float, blur_px: float, exposure: float) -> tuple[float, float, float, float, float]:
-    """Terms of the share of markers that are clear enough: 1, size (px); blur in px, and squared in cells; motion."""
-    blur, motion = blur_px / (marker_px / CELLS), motion_terms(exposure)[1]
-    return 1.0, log(marker_px), blur_px, blur**2, motion**2
-
-
-def logistic(weights: Sequence[float], values: Sequence[float]) -> float:
-    """A share, 0..1, by the weighted sum of terms."""
-    logit = sum(weight * value for weight, value in zip(weights, values, strict=True))
-    return 1.0 / (1.0 + exp(-max(-30.0, min(30.0, logit))))
+def _cause(marker_px: float, blur_px: float, exposure: float) -> str:
+    """Of blur, exposure and size the one whose repair raises the prediction of the weakest marker most."""
+    number = min(ROBOT_IDS, key=lambda number: found_share(number, marker_px, blur_px, exposure))
+    repairs = {
+        "finds_blurred": found_share(number, marker_px, min(blur_px, 0.8), exposure),
+        "finds_smeared": found_share(number, marker_px, blur_px, min(exposure or LONGEST, 1 / 120)),
+        "finds_small": found_share(number, max(marker_px, 1.5 * SMALL_EDGE), blur_px, exposure),
+    }
+    return max(repairs, key=lambda cause: repairs[cause])

@@ -1,7 +1,8 @@
 """Pairing of radios and markers: each radio's robot spins in turn, and the marker that turns belongs to it.
 
-Pairing also detects swapped, duplicate and invisible markers and miswired motors. Call `tick` every 1/50 s until it
-returns True; then `channels` is the mapping for a rig and `findings` the report for the operator.
+Pairing also detects swapped, duplicate and invisible markers and miswired motors, and measures the camera's delay. Call
+`tick` every 1/50 s until it returns True; then `channels` is the mapping for a rig and `findings` the report for the
+operator.
 """
 
 from collections.abc import Sequence
@@ -10,8 +11,11 @@ from math import hypot
 from typing import NamedTuple
 
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.signals import WheelCommand
+from pigaming_app.hardware.signals import Fix, WheelCommand
+from pigaming_app.hardware.tracking.camera_delay import common_delay, network_delay
+from pigaming_app.hardware.tracking.motion_delay import USUAL_LAGS, motion_delay
 from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import DT, ROBOTS
 
 REST, SPIN, BRAKE = 0.6, 1.3, 0.5  # s
@@ -20,6 +24,7 @@ TURNED = 1.2  # rad; a spinning robot's marker turns more than this
 STILL = 0.4  # rad; every other marker turns less than this
 ASTRAY = 25.0  # px; a robot that moves farther is driving off
 SEEN = 0.3  # s, largest age of a usable fix
+FEWEST = 20  # fixes of a spin that measure its delay
 
 
 class PairingCase(StrEnum):
@@ -58,6 +63,10 @@ class Pairing:
         self._before: list[float | None] = [None] * ROBOTS
         self._began: dict[int, tuple[float, float]] = {}  # px, positions at the start of this spin
         self._astray: int | None = None  # a robot that drives off instead of spinning
+        self._sent: list[tuple[float, float, float]] = []  # s, shares of both wheels, of this spin
+        self._seen: list[Fix] = []
+        self._delays: list[float] = []  # s by which robots moved later than expected
+        rig.recorder = self
 
     @property
     def spinning(self) -> int | None:
@@ -78,20 +87,43 @@ class Pairing:
         """Run 1/50 s; True once done, with all robots stopped."""
         self.rig.pump()
         if not self._todo:
+            self.rig.recorder = None
             return True
         self._ticks += 1
         time = self._ticks * DT
         self._watch(counts=time > REST)
         if self._astray is not None and time < REST + SPIN:
             self._ticks, time = round((REST + SPIN) / DT), REST + SPIN + DT
-        self.rig.send_to_channel(
-            self._todo[0], WheelCommand(SHARE, -SHARE) if REST < time <= REST + SPIN else WheelCommand(0.0, 0.0)
-        )
+        wheels = WheelCommand(SHARE, -SHARE) if REST < time <= REST + SPIN else WheelCommand(0.0, 0.0)
+        self._sent.append((self.rig.clock(), *wheels))
+        self.rig.send_to_channel(self._todo[0], wheels)
         if time >= REST + SPIN + BRAKE:
             self.findings.append(self._classify(self._todo.pop(0)))
             self._ticks, self._turned, self._duplicates = 0, [0.0] * ROBOTS, set()
-            self._began, self._astray = {}, None
+            self._began, self._astray, self._sent, self._seen = {}, None, [], []
+            if not self._todo:
+                self.rig.recorder = None
+                if self._delays:
+                    self.rig.lengthen_camera_delay(common_delay(self._delays))
         return not self._todo
+
+    def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
+        """Recorder: a spin is commanded by radio."""
+
+    def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
+        """Recorder: a frame was processed."""
+        self._seen += fixes
+
+    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
+        """Recorder: predictions are not used."""
+
+    def _measure(self, channel: int, robot: int) -> None:
+        """Note how much later than expected a robot moved."""
+        seen = [(fix.captured, fix.heading) for fix in self._seen if fix.robot == robot]
+        if len(seen) >= FEWEST:
+            fit = motion_delay(self._sent, seen, USUAL_LAGS)
+            expected = self.rig.kinematics[robot].drivetrain.dead_time
+            self._delays.append(fit.seconds - expected - network_delay(self.rig.link.quality(channel).echo))
 
     def _watch(self, counts: bool) -> None:
         """Accumulate the turn of every marker."""
@@ -119,4 +151,5 @@ class Pairing:
             return PairingFinding(channel, None, PairingCase.NONE)
         if turned[0] in [finding.marker for finding in self.findings]:
             return PairingFinding(channel, None, PairingCase.TWICE)
+        self._measure(channel, turned[0])
         return PairingFinding(channel, turned[0], PairingCase.FITS if turned[0] == channel else PairingCase.SWAPPED)

@@ -18,9 +18,10 @@ from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
-from pigaming_app.hardware.radio.protocol import Misfit
+from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Fix, Image, Telemetry, WheelCommand
+from pigaming_app.hardware.tracking.camera_delay import network_delay
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
@@ -49,6 +50,15 @@ class TrackerPort(Protocol):
     @property
     def rejections(self) -> Mapping[int, str]: ...
 
+    @property
+    def old_markers(self) -> Mapping[int, int]: ...
+
+    @property
+    def wrong_size(self) -> float | None: ...
+
+    @property
+    def camera_delay(self) -> float: ...
+
     expected: set[int]  # robots worth searching for
 
     def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None: ...
@@ -62,6 +72,10 @@ class TrackerPort(Protocol):
     def duplicates(self) -> set[int]: ...
 
     def wheel_correction(self, robot: int) -> WheelCorrection: ...
+
+    def learn_delay(self, networks: Sequence[float]) -> None: ...
+
+    def lengthen_delay(self, seconds: float) -> None: ...
 
 
 class LinkPort(Protocol):
@@ -77,6 +91,8 @@ class LinkPort(Protocol):
     def boards(self) -> Mapping[int, int]: ...
 
     def misfit(self, robot: int) -> Misfit | None: ...
+
+    def quality(self, robot: int) -> LinkQuality: ...
 
     def send(self, wheels: Sequence[WheelCommand | None]) -> None: ...
 
@@ -218,6 +234,20 @@ class Rig:
         """The latest report of a robot, or None."""
         return self.link.telemetry.get(self.channels[robot])
 
+    def lengthen_camera_delay(self, seconds: float) -> None:
+        """Correct the camera's delay by a measurement: so much more, s."""
+        with self._lock:
+            self.tracker.lengthen_delay(seconds)
+
+    @property
+    def camera_delay(self) -> float:
+        """Time by which the camera's stamps are later than the exposure, s."""
+        return self.tracker.camera_delay
+
+    def network_delay(self, robot: int) -> float:
+        """Time by which commands reach a robot later than by a usual radio, s."""
+        return network_delay(self.link.quality(self.channels[robot]).echo)
+
     def health(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:
         """Health of the robots in `outside` (s outside the arena, by robot).
 
@@ -315,6 +345,7 @@ class Rig:
             return  # a driver that repeats a picture: real ones differ by noise
         with self._lock:
             fixes = self.tracker.process(frame)
+            self.tracker.learn_delay([self.network_delay(robot) for robot in range(ROBOTS)])
             self.motion_check.record_fixes(fixes)
             for robot, kinematics in enumerate(self.kinematics):
                 kinematics.correction = self.tracker.wheel_correction(robot)

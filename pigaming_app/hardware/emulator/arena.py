@@ -15,8 +15,8 @@ import numpy as np
 from pigaming_app.hardware.emulator.camera import CameraTraits, EmulatedCamera, FrameTiming
 from pigaming_app.hardware.emulator.faults import FaultInjector
 from pigaming_app.hardware.emulator.firmware import Firmware
-from pigaming_app.hardware.emulator.objects import Placing
-from pigaming_app.hardware.emulator.optics import CANVAS, Floats, Optics
+from pigaming_app.hardware.emulator.objects import LID_HEIGHT, SHEET, FlatObject, Placing
+from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Floats, Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.renderer import CameraScene, SceneRenderer
 from pigaming_app.hardware.emulator.robots import STEP, EmulatedRobot, push_apart, random_parameters
@@ -27,7 +27,7 @@ from pigaming_app.sim.plant import Pose
 
 ARENA_AT = (160.0, 140.0)  # px, the arena's top left corner on the canvas
 STARTS: tuple[Pose, ...] = ((200, 200, 0.8), (1400, 200, 2.4), (1400, 700, 3.9), (200, 700, 5.5))
-LONGEST = 0.07  # s of the past that an exposure may cover
+LONGEST = 0.1  # s of the past that a picture may cover
 MOMENTS = 9  # poses in an exposure, at most
 SHOWS_AFTER = 0.025  # s, latency of the projector
 REFRESH = 0.01  # s, least interval of two projected pictures; of two closer ones only the second is shown
@@ -65,8 +65,9 @@ class EmulatedArena:
         ]
         self.firmwares = [Firmware(robot, i + 1, arena_id) for i, robot in enumerate(self.robots)]
         self.radio = EmulatedRadio(self.firmwares, channel or RadioChannel(), self.clock, seed)
-        painter = SceneRenderer(self.optics, seed, refresh, size=traits.size, defocus=traits.defocus)
+        painter = SceneRenderer(self.optics, seed, refresh, size=traits.size, defocus=traits.defocus, jpeg=traits.jpeg)
         self.camera = EmulatedCamera(painter, timing or FrameTiming(), self.clock, seed, traits)
+        self.lids = list(SHEET)  # marker on each robot's lid
         self.faults = FaultInjector(self)
         self.things: tuple[Prism, ...] = ()  # on the mat
         self._obstacles: list[Obstacle] = []  # those that stop robots
@@ -126,6 +127,20 @@ class EmulatedArena:
         """True outline of a thing on the mat, arena px, (n, 2)."""
         return self.optics.canvas(np.array(thing.outline)) - ARENA_AT
 
+    def _seen(self, robot: int) -> list[FlatObject]:
+        """The objects of a robot, with its poses while its row of the sensor is exposed."""
+        readout, open_for = self.camera.traits.readout, max(1, round(self.camera.shutter / STEP))
+        path = [moment[robot] for moment in self._past]
+        if not readout:
+            return self.faults.things(robot, tuple(path[-open_for :: ceil(open_for / MOMENTS)]))
+        row = float(self.optics.sensor(np.array([path[-1][:2]]), LID_HEIGHT)[0, 1]) / SENSOR[1]
+        last = max(0, len(path) - 1 - round(readout * (1.0 - min(max(row, 0.0), 1.0)) / STEP))
+        poses = tuple(path[max(0, last - open_for + 1) : last + 1 : ceil(open_for / MOMENTS)])
+        (x, y, _), (to_x, to_y, _) = path[max(0, last - 1)], path[last]
+        pace = readout / SENSOR[1] / STEP
+        slant = (to_x - x) * pace, (to_y - y) * pace
+        return [thing._replace(slant=slant) for thing in self.faults.things(robot, poses)]
+
     def _on_mat(self, pose: Pose) -> tuple[float, float, float]:
         x, y, heading = pose
         on_canvas = np.array([(x, y), (x + cos(heading), y + sin(heading))]) + ARENA_AT
@@ -148,16 +163,14 @@ class EmulatedArena:
                 self._shown = self._pending.popleft()[1]
         self._past.append([(robot.x, robot.y, robot.heading) for robot in self.robots])
         if now >= self.camera.due:
-            self.camera.expose(self._scene(now), now - 0.5 * (self.camera.shutter - STEP))
+            self.camera.expose(self._scene(now), now - 0.5 * (self.camera.shutter + self.camera.traits.readout - STEP))
 
     def _scene(self, now: float) -> CameraScene:
         if now >= self._next_gain:
             self._next_gain += EXPOSURE_PERIOD
             self._drift_gain = 1.0 + self._exposure_jitter * self._exposure_random.uniform(-1.0, 1.0)
         things = []
-        open_for = max(1, round(self.camera.shutter / STEP))
-        moments = list(self._past)[-open_for :: ceil(open_for / MOMENTS)]
         for i in range(0 if self.cleared else len(self.robots)):
-            things += self.faults.things(i, tuple(moment[i] for moment in moments))
+            things += self._seen(i)
         gain, light = self.gain * self._drift_gain * self.camera.brightness, (now - self.begin) / LIGHT_TURN
         return CameraScene(self._shown, tuple(things), light, gain, self.camera.exposed, self.camera.boost)

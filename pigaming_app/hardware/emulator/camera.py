@@ -43,6 +43,8 @@ class CameraTraits:
     defocus: float = 0.0  # px of the delivered picture, standard deviation
     size: tuple[int, int] = SENSOR  # px, of the delivered picture
     lens: TrueLens | None = None  # None: that of the arena
+    jpeg: int = 0  # quality of the compression, 0: none
+    readout: float = 0.0  # s from the first to the last row of a rolling shutter
 
 
 TRAITS = {
@@ -53,6 +55,7 @@ TRAITS = {
     "silent": CameraTraits(units="", metered=1 / 30),
     "dim": CameraTraits(metered=1 / 8),
     "dark": CameraTraits(metered=1 / 8, gains=0.0),
+    "compressed": CameraTraits(metered=1 / 60, size=(1280, 720), defocus=1.2, jpeg=80, readout=1 / 40),
     "tilted": CameraTraits(
         defocus=1.0, size=(1280, 720), lens=TrueLens((60.0, 1190.0, 2480.0), (5.0, 36.0), 0.021, 1900.0)
     ),

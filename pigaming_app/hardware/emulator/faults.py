@@ -74,6 +74,7 @@ class FaultyArena(Protocol):
     optics: Optics
     gain: float  # of the exposure
     arena_id: int
+    lids: list[int]  # marker on each robot's lid
 
     def clock(self) -> float: ...
 
@@ -156,8 +157,8 @@ class FaultInjector:
         for first in self._robots["lids_swapped"]:
             pair = first, (first + 1) % len(self._arena.robots)
             if robot in pair:
-                return sum(pair) - robot
-        return robot
+                return self._arena.lids[sum(pair) - robot]
+        return self._arena.lids[robot]
 
     def things(self, robot: int, poses: tuple[Placing, ...]) -> list[FlatObject]:
         """The visible objects of a robot with these poses, faults included."""
@@ -176,7 +177,6 @@ class FaultInjector:
         if robot in self._robots["marker_twice"]:
             _, (x, y, heading) = self._robots["marker_twice"][robot]
             away = hypot(x, y) or 1.0
-            seen.append(
-                FlatObject(card(robot), 0.0, ((x * (1 - 300.0 / away), y * (1 - 300.0 / away), heading + 1.0),))
-            )
+            near = x * (1 - 300.0 / away), y * (1 - 300.0 / away), heading + 1.0
+            seen.append(FlatObject(card(self._arena.lids[robot]), 0.0, (near,)))
         return seen

@@ -15,6 +15,7 @@ LID_HEIGHT = 70.0  # mm
 BODY_HEIGHT = 35.0
 LID_RADIUS = 47.5
 MARKER = 50.0  # mm, edge
+SHEET = (16, 17, 43, 45)  # markers of the robots
 QUIET = 50.0 / 6.0  # mm, quiet zone: one cell
 WHITE, BLACK, DARK, SKIN = 0.92, 0.05, 0.10, 0.55  # reflectance
 SOFT = 1.1  # mm, standard deviation of the footprint of one px, with the blur of the lens
@@ -32,6 +33,7 @@ class FlatObject(NamedTuple):
     poses: tuple[Placing, ...]
     reach: float = 50.0  # mm, radius
     dark: bool = False  # so dark that the light projected onto it may be taken from the mat beside it
+    slant: tuple[float, float] = (0.0, 0.0)  # mm of its motion from one row of the sensor to the next
 
 
 @lru_cache(maxsize=8)

@@ -80,12 +80,14 @@ class SceneRenderer:
         noise: float = NOISE,
         size: tuple[int, int] = SENSOR,
         defocus: float = 0.0,
+        jpeg: int = 0,
     ) -> None:
         """`refresh`: interval of complete pictures; `noise`: grey levels, standard deviation.
 
-        `size`: px of the delivered pictures, scaled from the sensor's; `defocus`: px of them, standard deviation.
+        `size`: px of the delivered pictures, scaled from the sensor's; `defocus`: px of them, standard deviation;
+        `jpeg`: quality of their compression, 0: none.
         """
-        self.refresh, self.size = refresh, size
+        self.refresh, self.size, self.jpeg = refresh, size, jpeg
         self._blur, noise = defocus * SENSOR[0] / size[0], noise * SENSOR[0] / size[0]  # scaling averages noise
         self.ambient = 1.0  # share of the room light
         self._seed = seed
@@ -119,9 +121,12 @@ class SceneRenderer:
         import cv2
 
         picture = self._painted(scene)
-        if self.size == SENSOR:
-            return picture
-        return np.asarray(cv2.resize(picture, self.size, interpolation=cv2.INTER_AREA))
+        if self.size != SENSOR:
+            picture = np.asarray(cv2.resize(picture, self.size, interpolation=cv2.INTER_AREA))
+        if self.jpeg:
+            packed = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, self.jpeg])[1]
+            picture = np.asarray(cv2.imdecode(packed, cv2.IMREAD_GRAYSCALE))
+        return picture
 
     def _painted(self, scene: CameraScene) -> Image:
         """Render a picture of the whole sensor, (1080, 1920) grey."""
@@ -197,6 +202,9 @@ class SceneRenderer:
             min(place.right, window.right),
         )
         x, y = self.optics.plane(thing.height, *part.cut())
+        if thing.slant != (0.0, 0.0):
+            later = np.arange(part.top, part.bottom, dtype=np.float32)[:, None] - 0.5 * (place.top + place.bottom)
+            x, y = x - np.float32(thing.slant[0]) * later, y - np.float32(thing.slant[1]) * later
         texture = _look(thing.texture, x, y, thing.poses if thing.poses[0] != thing.poses[-1] else thing.poses[:1])
         rows = slice(part.top - window.top, part.bottom - window.top)
         columns = slice(part.left - window.left, part.right - window.left)

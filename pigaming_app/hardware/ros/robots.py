@@ -89,6 +89,24 @@ class RosPoses(PoseFilters):
     def duplicates(self) -> set[int]:
         return set()
 
+    @property
+    def old_markers(self) -> Mapping[int, int]:
+        return {}
+
+    @property
+    def wrong_size(self) -> float | None:
+        return None
+
+    @property
+    def camera_delay(self) -> float:
+        return 0.0
+
+    def learn_delay(self, networks: Sequence[float]) -> None:
+        """No effect: the network's nodes stamp their poses."""
+
+    def lengthen_delay(self, seconds: float) -> None:
+        """No effect, as above."""
+
     def close(self) -> None:
         """Leave the topics."""
         self.node.close()

@@ -27,7 +27,11 @@ FAINT = 1.2  # grey levels, amplitude of the fringes below which a px counts as 
 MISFIT = 3.0  # px between camera ray and projector ray; beyond it a px mixes two surfaces
 STEEP = 4.0, 0.05  # mm, and share of the height, by which neighbours of a px may differ
 EDGE = 2.3  # px that tall things lose at each edge
-CONTRAST = 0.72  # share of the mat's brightness below which (or above whose inverse) something flat lies on it
+CONTRAST = 0.24  # share by which something flat differs from the mat's brightness; 28 % with noise and blotches
+SHADOW, DARK, BLACK = 0.022, 0.5, 0.2  # of the mat's brightness: shadow, the middle of a dark edge, something black
+MEASURED = 0.75  # share of the px of something black whose heights suffice
+LEVEL = 20.0  # mm, spread of half of the heights; beyond it is the side of something tall
+SOLID = 0.85  # share of its hull that something black fills in spite of reflections
 NARROW_TALL, NARROW_FLAT = 18.0, 11.0  # mm, least width
 SMALL = 900.0  # mm^2, least area
 ROBOT = 47.5, 75.0  # mm, radius and height of a robot
@@ -43,13 +47,25 @@ def find_things(
 ) -> Iterator[list[Thing]]:
     """Yields the things found so far after each slice of the work, of about 30 ms; the last list is complete."""
     things: list[Thing] = []
-    ground = pictures.ground
+    cv, ground = opencv(), pictures.ground
     height, lit, flat = surface.height, *_sorted_out(surface)
     yield things
     height = height - own_height(height, flat)
     yield things
+    brightness = surface.contrast / own_brightness(surface.contrast, flat)
     margin = (UNSURE[0] + UNSURE[1] * _camera_mm(ground)) / ground.mm
-    footprint, heights = _footprints(_tall(height, lit), height, ground)
+    yield things
+    black = np.zeros(CANVAS[::-1], np.uint8)
+    clear = np.where(lit, height, np.float32(np.nan))
+    for at, part in _components(_dark(brightness, robot_shadows(robots, ground, projector)), 3.0, ground):
+        inside = _within(at, part)
+        if part.any() and float(np.median(brightness[inside])) < BLACK:
+            hull = _convex(at, part)
+            if (thing := _black_thing(hull, clear[inside], ground, margin)) is not None:
+                things.append(thing)
+                cv.fillConvexPoly(black, _on_canvas(hull), 1)
+    yield things
+    footprint, heights = _footprints(_tall(height, lit) & (_grown(black, ground) == 0), height, ground)
     yield things
     for robot in robots:
         opencv().fillConvexPoly(footprint, _on_canvas(_disc(robot, ROBOT[0] + AROUND, ground)), 0)
@@ -63,9 +79,7 @@ def find_things(
     hidden = robot_shadows(robots, ground, projector)
     hidden |= _hidden([(thing.points, thing.height_mm) for thing in things], ground, projector)
     yield things
-    brightness = surface.contrast / own_brightness(surface.contrast, flat)
-    yield things
-    stain = flat & (np.abs(height) < LOWEST) & ((brightness < CONTRAST) | (brightness > 1.0 / CONTRAST)) & (hidden == 0)
+    stain = flat & (np.abs(height) < LOWEST) & (np.abs(brightness - 1.0) > CONTRAST) & (hidden == 0)
     for at, mask in _components(stain.astype(np.uint8), 0.35 * NARROW_FLAT / ground.mm, ground):
         for corners in convex_parts(mask, at):
             if _counts(corners, NARROW_FLAT, ground):
@@ -83,6 +97,50 @@ def _sorted_out(surface: Surface) -> tuple[Mask, Mask]:
     """Where heights can be trusted, and where the mat itself, or something flat, is seen."""
     lit = (surface.strength > FAINT) & (surface.misfit < MISFIT)
     return lit, lit & (np.abs(surface.height) < LOWEST)
+
+
+def _dark(brightness: Map, robots: Pixels) -> Pixels:
+    """Mask of what is dark, but neither shadow nor robot."""
+    smooth = opencv().blur(brightness, (5, 5))
+    return np.asarray((smooth > SHADOW) & (smooth < DARK) & (robots == 0)).astype(np.uint8)
+
+
+def _within(at: tuple[int, int], part: Pixels) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Rows and columns of a part of the canvas."""
+    rows, columns = np.nonzero(part)
+    return np.asarray(rows + at[1]), np.asarray(columns + at[0])
+
+
+def _black_thing(hull: Outline, heights: Map, ground: GroundPlane, margin: float) -> Thing | None:
+    """A convex black thing in one piece if its heights are not measured well, as of a glossy one; else None.
+
+    `heights`: of its px, mm; NaN: unknown.
+    """
+    known = heights[np.abs(heights) < HIGHEST]
+    if not len(known):
+        return None
+    low, top, high = np.percentile(known, (25.0, 50.0, 75.0)).tolist()
+    even = np.count_nonzero(np.abs(known - top) < STEEP[0]) > MEASURED * len(heights)
+    well = even and abs(top - LOWEST) > STEEP[0]
+    if well or high - low > LEVEL or len(heights) < SOLID * abs(signed_area(hull.tolist())):
+        return None
+    top = top if top > LOWEST else 0.0
+    outline = np.array(ground.foot) + (hull - np.array(ground.foot)) * (1.0 - top / ground.height)
+    kind = ThingKind.TALL if top else ThingKind.FLAT
+    return _thing(kind, outline, top, margin) if _counts(outline, NARROW_TALL, ground) else None
+
+
+def _convex(at: tuple[int, int], part: Pixels) -> Outline:
+    """The hull of a part of the canvas, with few corners; arena px."""
+    cv = opencv()
+    points = np.argwhere(part)[:, ::-1].astype(np.int32)
+    corners = cv.approxPolyDP(cv.convexHull(points), 1.5, True).reshape(-1, 2)
+    return np.asarray(corners + np.array(at) - ARENA_AT, dtype=np.float64)
+
+
+def _grown(mask: Pixels, ground: GroundPlane) -> Pixels:
+    """A mask with the surroundings of all that it covers."""
+    return np.asarray(opencv().dilate(mask, np.ones((2 * round(AROUND / ground.mm) + 1,) * 2, np.uint8)))
 
 
 def _tall(height: Map, lit: Mask) -> Mask:
@@ -146,7 +204,7 @@ def _hidden(bodies: Sequence[tuple[Outline, float]], ground: GroundPlane, projec
         for foot, above in ((ground.foot, ground.height), (projector.foot, projector.height)):
             cast = np.array(foot) + (outline - np.array(foot)) * (above / (above - height))
             cv.fillConvexPoly(mask, _on_canvas(np.concatenate([outline, cast])), 1)
-    return np.asarray(cv.dilate(mask, np.ones((2 * round(AROUND / ground.mm) + 1,) * 2, np.uint8)))
+    return _grown(mask, ground)
 
 
 def _disc(at: Place, radius: float, ground: GroundPlane) -> Outline:

@@ -24,7 +24,7 @@ from pigaming_app.hardware.scan.patterns import PATTERNS, SETS, STEPS, Pattern
 from pigaming_app.hardware.scan.projector_place import Place, projector_place
 from pigaming_app.hardware.scan.things import Layout, ProjectorPlace, Thing, largest
 from pigaming_app.hardware.signals import CameraFrame, Clock
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, opencv
+from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, opencv
 from pigaming_app.sim.robot import RADIUS
 
 FRAMES = 3  # camera frames averaged for each picture
@@ -252,6 +252,6 @@ def _differs_at_a_place(one: Map, other: Map, black: Map) -> bool:
 def _robots(white: Map, ground: GroundPlane) -> list[Place]:
     """Places of the robots whose markers the white picture shows, arena px."""
     image = np.asarray(np.rint(white).clip(0, 255), dtype=np.uint8)
-    markers = MarkerDetector(ROBOT_IDS)
+    markers = MarkerDetector(WEARERS)
     marks = markers.refine(image, markers.detect(image))
     return [(fix.x, fix.y) for fix in ground.fixes(marks, 0.0) if not isinstance(fix, str)]

@@ -123,13 +123,18 @@ def fault_of(rig: "Rig") -> OperatorMessage | None:
 
 
 def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:
-    """Warning about exposure or sharpness of an open session's camera, or None."""
-    from pigaming_app.hardware.calibration.quality import used_anyway
+    """Warning about a session's camera: exposure, sharpness, the arena's width, markers of older sheets; or None."""
+    from pigaming_app.hardware.calibration.ground_plane import MARKER
+    from pigaming_app.hardware.calibration.quality import old_marker, used_anyway
     from pigaming_app.hardware.vision.exposure import warning_of
 
     quality = session.quality
     warning = warning_of(rig.camera.exposure)
-    return warning or (used_anyway(quality) if quality is not None and quality.anyway else None)
+    if warning is None and quality is not None and quality.anyway:
+        return used_anyway(quality)
+    if warning is None and rig.tracker.wrong_size is not None:
+        return OperatorMessage("marker_off", mm=f"{rig.tracker.wrong_size:.1f}", true=f"{MARKER:.0f}")
+    return warning or next((old_marker(number) for number in rig.tracker.old_markers.values()), None)
 
 
 def cause_of(rig: "Rig", fault: str) -> OperatorMessage | None:

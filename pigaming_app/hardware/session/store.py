@@ -84,11 +84,12 @@ def load_robots(path: Path) -> tuple[Drivetrain, ...]:
     return (*measured, *(UNMEASURED,) * (ROBOTS - len(measured)))
 
 
-def save_radios(channels: Sequence[int]) -> None:
-    """Save the radio of each robot, counted from 0, in the settings. Raises NotSaved."""
+def save_pairing(channels: Sequence[int], camera_delay: float) -> None:
+    """Save the radio of each robot, counted from 0, and the camera's delay, s, in the settings. Raises NotSaved."""
     config = folders().config
     settings, _ = Settings.load(config)
     settings.radios = [channel + 1 for channel in channels]
+    settings.camera_delay = round(1000.0 * camera_delay)
     settings.save(config)
 
 

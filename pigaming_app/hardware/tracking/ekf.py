@@ -6,7 +6,7 @@ filter keeps the pose at the newest correction and the commands sent since.
 
 from collections import deque
 from collections.abc import Iterator, Sequence
-from math import cos, hypot, inf, pi, sin, tau
+from math import cos, hypot, inf, pi, sin, sqrt, tau
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,6 +101,21 @@ class PoseFilter:
         self._seen, self._motion = fix.captured, motion
         self._update(fix, flow @ self._covariance @ flow.T + WALK * dt)
         return True
+
+    @property
+    def lateness_error(self) -> float:
+        """Standard deviation of the estimated lateness, s."""
+        return sqrt(float(self._covariance[6, 6]))
+
+    def shift(self, seconds: float) -> None:
+        """Take all fixes so far for `seconds` later."""
+        self._seen, self._surprised = self._seen + seconds, self._surprised + seconds
+        self._implausible = [fix._replace(captured=fix.captured + seconds) for fix in self._implausible]
+
+    def add_lateness(self, seconds: float) -> None:
+        """Take the robot for `seconds` later to act."""
+        late = min(HIGH.late, max(LOW.late, self.correction.late + seconds))
+        self.correction = self.correction._replace(late=late)
 
     def _acting(self, since: float, until: float) -> Iterator[tuple[float, float, float]]:
         """Commands in effect during this time, as (left px/s, right px/s, duration s) of at most STEP s each."""

@@ -4,17 +4,27 @@ Every frame corrects the robots' filters at its capture time; `sense` then repla
 never moves or stops a robot: `safety` judges ages, `duplicates` and `last_captured`.
 """
 
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Mapping, Sequence
 from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
 
 from pigaming_app.hardware.calibration.drift import DriftMonitor
-from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
+from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR, GroundPlane, Points
 from pigaming_app.hardware.signals import CameraFrame, Clock, DetectedMarker, Fix
+from pigaming_app.hardware.tracking.camera_delay import CameraDelay
 from pigaming_app.hardware.tracking.ekf import COAST
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, is_known, mean_edge
+from pigaming_app.hardware.vision.markers import (
+    OLD_IDS,
+    ROBOT_IDS,
+    WEARERS,
+    MarkerDetector,
+    SearchWindow,
+    is_known,
+    mean_edge,
+)
 from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.robot import RADIUS
@@ -24,6 +34,7 @@ OUTSIDE = 3.0 * RADIUS  # px outside the arena within which a fix is accepted
 GLANCE = 0.1  # s between quick searches of the whole image, for new robots and duplicate markers
 SEARCH = 0.05  # the same while a robot is missing, s
 THOROUGH = 1.0  # s between thorough searches while a robot is missing
+SIZES = 30  # of markers, for their median
 REMEMBERED = 0.5  # s for which a rejection is reported
 MARGIN, ASTRAY = 6.0, 200.0  # search radius around a prediction: px, plus px/s of its age
 
@@ -42,10 +53,13 @@ class Tracker(PoseFilters):
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
         self.last_captured = -inf  # s, capture time of the newest processed frame
+        self.delay = CameraDelay()
         self.drift = drift  # gets the same frames, for the corner markers
-        self._markers = MarkerDetector(ROBOT_IDS)
+        self._markers = MarkerDetector(WEARERS)
         self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
-        self._glanced = self._searched = -inf
+        self._worn: dict[int, int] = {}  # marker last seen on each robot
+        self._sizes: deque[float] = deque(maxlen=SIZES)  # mm
+        self._glanced = self._searched = self._sized = -inf
         self._dim = False  # mode of the last quick search
         self._edge = self._expected_edge()
 
@@ -56,7 +70,8 @@ class Tracker(PoseFilters):
         return self.correct(self._markers.refine(frame.image, self._find(frame)), frame.captured)
 
     def correct(self, marks: Sequence[DetectedMarker], captured: float) -> list[Fix]:
-        """Correct the filters with the markers of one frame; returns the accepted fixes."""
+        """Correct the filters with the markers of a frame with this stamp; returns the accepted fixes."""
+        captured -= self.delay.seconds
         if captured <= self.last_captured:
             return []
         self.last_captured = captured
@@ -68,6 +83,17 @@ class Tracker(PoseFilters):
             elif fixes and pose_filter.correct(fixes[0]):
                 accepted.append(fixes[0])
         return accepted
+
+    @property
+    def old_markers(self) -> Mapping[int, int]:
+        """Markers of older sheets, by the robots on which they were seen last."""
+        return {robot: number for robot, number in self._worn.items() if number in OLD_IDS}
+
+    @property
+    def wrong_size(self) -> float | None:
+        """Size of the robots' markers, mm, if it is so far from the true one that the arena's width is in doubt."""
+        size = float(np.median(self._sizes)) if len(self._sizes) == SIZES else self.ground.marker
+        return size if abs(size / self.ground.marker - 1.0) > MAX_SIZE_ERROR else None
 
     def duplicates(self) -> set[int]:
         """Robots whose marker was seen twice in one frame within the last REMEMBERED s."""
@@ -81,6 +107,19 @@ class Tracker(PoseFilters):
         """
         return dict(self._lately())
 
+    def learn_delay(self, networks: Sequence[float]) -> None:
+        """Learn the delay of the camera; `networks`: s by which commands reach each robot later than usual."""
+        self.delay.learn(self.filters, networks, self.clock())
+
+    @property
+    def camera_delay(self) -> float:
+        """Time by which stamps are later than the exposure, s."""
+        return self.delay.seconds
+
+    def lengthen_delay(self, seconds: float) -> None:
+        """Correct the delay of the camera by a measurement."""
+        self.delay.measured(seconds, self.filters)
+
     def _lately(self) -> list[tuple[int, str]]:
         now = self.clock()
         return [key for key, time in self._rejections.items() if now - time < REMEMBERED]
@@ -88,11 +127,11 @@ class Tracker(PoseFilters):
     def _find(self, frame: CameraFrame) -> list[DetectedMarker]:
         """Search near predictions, and the whole image periodically, more often while a robot is missing."""
         marks = []
-        for robot, spot in self._spots(frame.captured).items():
-            mark = self._markers.detect_in(frame.image, spot, ROBOT_IDS[robot])
+        for robot, spot in self._spots(frame.captured - self.delay.seconds).items():
+            mark = self._markers.detect_in(frame.image, spot, ROBOT_IDS[robot], OLD_IDS[robot])
             if mark is not None:
                 marks.append(mark)
-        seen = {ROBOT_IDS.index(mark.number) for mark in marks}
+        seen = {WEARERS[mark.number] for mark in marks}
         missing = not self.expected <= seen
         if frame.captured - self._glanced > (SEARCH if missing else GLANCE):
             self._glanced = frame.captured
@@ -131,13 +170,17 @@ class Tracker(PoseFilters):
         """Plausible fixes by robot; rejections are recorded with their reason."""
         fixes: list[list[Fix]] = [[] for _ in range(ROBOTS)]
         for mark, fix in zip(marks, self.ground.fixes(marks, captured), strict=True):
-            robot = ROBOT_IDS.index(mark.number)
+            robot = WEARERS[mark.number]
             if isinstance(fix, str):
                 self._rejections[robot, fix] = captured
             elif not (-OUTSIDE < fix.x < WIDTH + OUTSIDE and -OUTSIDE < fix.y < HEIGHT + OUTSIDE):
                 self._rejections[robot, "outside"] = captured
             else:
                 fixes[robot].append(fix)
+                if captured - self._sized > GLANCE:
+                    self._sized = captured
+                    self._sizes.append(self.ground.edge_mm(mark))
+                self._worn[robot] = mark.number
         return fixes
 
 

@@ -15,7 +15,9 @@ from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import DetectedMarker, Image
 from pigaming_app.hardware.vision.subpixel import refined
 
-ROBOT_IDS = (0, 1, 2, 3)
+ROBOT_IDS = (16, 17, 43, 45)  # of the robots 0 to 3: those missed least of all that blocks and corners leave free
+OLD_IDS = (0, 1, 2, 3)  # of the same robots with older sheets
+WEARERS = {number: robot for ids in (ROBOT_IDS, OLD_IDS) for robot, number in enumerate(ids)}
 CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
 READABLE = 23.0  # px of a marker's edge in a downscaled image: 96 % are detected from 22 px, 52 % at 14 px
 SMALLEST = 0.5  # lowest scale of a downscaled image; below, noise is no longer averaged
@@ -84,8 +86,8 @@ class MarkerDetector:
                 marks.append(self.detect_in(image, SearchWindow(x, y, 1.5 * edge, edge), mark.number))
         return [mark for mark in marks if mark is not None]
 
-    def detect_in(self, image: Image, spot: SearchWindow, number: int) -> DetectedMarker | None:
-        """The marker with this id in the search window, or None; large markers are downscaled first."""
+    def detect_in(self, image: Image, spot: SearchWindow, *numbers: int) -> DetectedMarker | None:
+        """The marker with one of these ids in the search window, or None; large markers are downscaled first."""
         left, top = max(0, round(spot.x - spot.half)), max(0, round(spot.y - spot.half))
         part = image[top : max(0, round(spot.y + spot.half)), left : max(0, round(spot.x + spot.half))]
         if min(part.shape) < 2.0 * spot.edge * NARROW:
@@ -98,8 +100,8 @@ class MarkerDetector:
         for i, windows in enumerate(((window, window), (window, window), (3, 3 * window))):
             picture = part if i == 2 else self._dimmed(part if i == 0 else self._sharp(part, edge), NEAR)
             for mark in self._look(self._detector(windows, NARROW * rate, WIDE * rate), picture):
-                if mark.number == number:
-                    return DetectedMarker(number, (mark.corners + 0.5) * fold - 0.5 + np.array((left, top)))
+                if mark.number in numbers:
+                    return DetectedMarker(mark.number, (mark.corners + 0.5) * fold - 0.5 + np.array((left, top)))
         return None
 
     def refine(self, image: Image, marks: Sequence[DetectedMarker]) -> list[DetectedMarker]:
@@ -145,7 +147,7 @@ class MarkerDetector:
             parameters.adaptiveThreshWinSizeMin, parameters.adaptiveThreshWinSizeMax = windows
             parameters.adaptiveThreshWinSizeStep = max(1, (windows[1] - windows[0]) // 2)
             parameters.minMarkerPerimeterRate, parameters.maxMarkerPerimeterRate = smallest, largest
-            self._detectors[key] = aruco.ArucoDetector(aruco.getPredefinedDictionary(aruco.DICT_4X4_50), parameters)
+            self._detectors[key] = aruco.ArucoDetector(dictionary(self._cv), parameters)
         return self._detectors[key]
 
 
@@ -178,6 +180,11 @@ def opencv() -> Any:
     except ImportError as error:
         raise OpenCVMissing(OperatorMessage("no_opencv")) from error
     return cv2
+
+
+def dictionary(cv: Any) -> Any:
+    """The ArUco dictionary of all markers."""
+    return cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
 
 
 def detections(corners: Any, ids: Any) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -8,12 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from pigaming_app.hardware.calibration.detection import found_share
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane
 from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.emulator.arena import ARENA_AT
 from pigaming_app.hardware.emulator.camera import TRAITS
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.session import store
+from pigaming_app.hardware.vision.markers import WEARERS
 from pigaming_app.scenes.calibration.result_page import ResultPage
 from pigaming_app.scenes.calibration.setup_page import CalibrationPage
 from pigaming_app.scenes.flow.context import Context
@@ -123,8 +125,15 @@ def _picture(quality: CameraQuality) -> dict[str, Any]:
         "exposure_ms": 1e3 * quality.exposure or None,
         "gain": quality.gain,
         "predicted_detection": quality.detection if quality.measured else None,
+        "predicted_by_marker": _by_marker(quality) if quality.measured else None,
         "sufficient": quality.sufficient,
     }
+
+
+def _by_marker(quality: CameraQuality) -> dict[str, float]:
+    """The predicted share of each marker that a robot may wear, by its number."""
+    look = quality.marker_px, quality.blur_px, quality.exposure
+    return {str(number): found_share(number, *look) for number in WEARERS}
 
 
 def _compared(ground: GroundPlane, site: EmulatedCalibrationSite) -> dict[str, float]:

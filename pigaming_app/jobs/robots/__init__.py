@@ -170,7 +170,7 @@ def _robot(link: Any, robot: int, channel: int, seen: Any) -> dict[str, Any]:
 def _pair(session: RobotSession, rig: "Rig", save: bool) -> list[dict[str, Any]]:
     """Spin each robot in turn; the pairing is saved if it is unambiguous. Raises Refusal."""
     from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
-    from pigaming_app.hardware.session.store import save_radios
+    from pigaming_app.hardware.session.store import save_pairing
 
     pairing = Pairing(rig)
     while not pairing.tick():
@@ -178,7 +178,7 @@ def _pair(session: RobotSession, rig: "Rig", save: bool) -> list[dict[str, Any]]
     rig.channels = pairing.channels
     unambiguous = {PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT}
     if save and {finding.case for finding in pairing.findings} <= unambiguous:
-        save_radios(pairing.channels)
+        save_pairing(pairing.channels, rig.camera_delay)
     return [
         {
             "radio": finding.channel + 1,

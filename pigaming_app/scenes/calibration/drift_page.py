@@ -6,15 +6,15 @@ import pygame
 
 from pigaming_app.hardware.calibration.camera_task import SPOT, DriftCheck
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
-from pigaming_app.hardware.calibration.quality import used_anyway
+from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR
+from pigaming_app.hardware.calibration.quality import old_marker, used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.exposure import warning_of
-from pigaming_app.hardware.vision.markers import OpenCVMissing
+from pigaming_app.hardware.vision.markers import OLD_IDS, OpenCVMissing
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.calibration.height_page import DISC, GREY
 from pigaming_app.scenes.calibration.picture_quality import exposure_text
-from pigaming_app.scenes.calibration.result_page import MAX_SIZE_ERROR
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
@@ -97,6 +97,11 @@ class DriftPage:
             wrong = abs(work.marker_mm / marker_size - 1.0) > MAX_SIZE_ERROR
             key, color = ("marker_off", ALARM) if wrong else ("marker", ICE)
             sentence = words(f"calibrate.{key}", mm=f"{work.marker_mm:.1f}", true=f"{marker_size:.0f}")
+        if color != ALARM and work.heights is not None and work.heights.seen:
+            found, color = work.heights.height, ALARM if work.heights.wrong else ICE
+            key = "lid_flat" if found is None else "height_off" if work.heights.wrong else "above"
+            given = f"{work.heights.ground.height / 1000.0:.1f}"
+            sentence = words(f"calibrate.{key}", height=f"{(found or 0.0) / 1000.0:.1f}", given=given)
         for i, line in enumerate(paragraph(sentence, 330, 4, color, "c")):
             line.draw(screen, x, y + 120 + 48 * i)
 
@@ -111,6 +116,8 @@ class DriftPage:
         message = quality.advice if not quality.sufficient else warning_of(state) or quality.advice
         if message is None and quality.anyway:
             message = used_anyway(quality)
+        if message is None and self.work.worn in OLD_IDS:
+            message = old_marker(self.work.worn)
         if message is not None:
             color = FOCUS if quality.sufficient else ALARM
             for i, row in enumerate(paragraph(words.sentence(message), ROOM, 2, color, "c")):

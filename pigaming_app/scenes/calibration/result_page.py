@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import pygame
 
-from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR, GroundPlane
 from pigaming_app.hardware.calibration.quality import NEEDED, SMALL_EDGE, CameraQuality, used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
@@ -35,7 +35,6 @@ from pigaming_app.ui.widgets.labels import black_out, chip, heading
 HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
 GAUGE = 146  # px, pitch of the gauges
-MAX_SIZE_ERROR = 0.04  # tolerated relative error of a marker's size
 SENTENCE_SECONDS = 6.0  # seconds for which a sentence is shown
 IDLE = 600.0  # seconds without input until the title
 
@@ -159,11 +158,13 @@ class ResultPage:
     def _facts(self, ground: GroundPlane, quality: CameraQuality) -> list[tuple[str, str, bool]]:
         """Name, value and warning of the quantities without a limit of their own."""
         words, state, robot = self.context.words, self.finding.exposure, self.finding.marker_mm
+        old_missed = 100.0 * (1.0 - quality.old_detection)
         facts = [
             ("height", words("calibrate.metres", m=f"{ground.height / 1000.0:.2f}"), False),
             ("edge", words("calibrate.px", px=f"{quality.marker_px:.0f}"), quality.marker_px < SMALL_EDGE),
             ("blur", words("calibrate.px", px=f"{quality.blur_px:.1f}"), _cause(quality) == "finds_blurred"),
             ("exposure", exposure_text(words, state), warning_of(state) is not None),
+            ("old_missed", words("calibrate.percent", share=f"{old_missed:.0f}"), False),
         ]
         if robot:
             wrong = abs(robot / ground.marker - 1.0) > MAX_SIZE_ERROR

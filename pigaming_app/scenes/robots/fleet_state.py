@@ -197,6 +197,7 @@ class FleetState:
         self.findings = sorted(pairing.findings)
         rig.channels = pairing.channels
         self.settings.radios = [channel + 1 for channel in pairing.channels]
+        self.settings.camera_delay = round(1000.0 * rig.camera_delay)
         self.pairing = None
         return True
 

@@ -19,7 +19,8 @@ from pigaming_app.hardware.emulator.robots import (
 cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena  # noqa: E402
-from pigaming_app.hardware.emulator.camera import FrameTiming  # noqa: E402
+from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming  # noqa: E402
+from pigaming_app.hardware.emulator.objects import SHEET  # noqa: E402
 
 IDEAL = RobotParameters(left_gain=1, right_gain=1, deadband=0.05, lag=0.08, base=82, slip=0, battery=5.2, drain=0)
 
@@ -33,13 +34,15 @@ def driven(left, right, seconds, body=IDEAL):
 
 
 def found(image):
-    """Markers by number, (4, 2) px, by OpenCV's detector."""
+    """Markers by robot, (4, 2) px, by OpenCV's detector."""
     settings = cv2.aruco.DetectorParameters()
     settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
     corners, numbers, _ = cv2.aruco.ArucoDetector(words, settings).detectMarkers(image)
     numbers = [] if numbers is None else np.asarray(numbers).reshape(-1)
-    return [(int(number), np.asarray(four).reshape(4, 2)) for number, four in zip(numbers, corners, strict=True)]
+    return [
+        (SHEET.index(number), np.asarray(four).reshape(4, 2)) for number, four in zip(numbers, corners, strict=True)
+    ]
 
 
 def newest(arena, seconds=0.2):
@@ -210,3 +213,20 @@ def test_after_a_long_time_closed_the_camera_gives_out_its_newest_picture():
     frame = arena.camera.newest()
     assert frame is not None
     assert 0.05 < arena.clock() - frame.captured < 0.1 + 1 / 30
+
+
+def test_a_rolling_shutter_exposes_lower_rows_later():
+    """Of two robots that drive right, the lower one has got farther by its way while the rows between are read."""
+    gaps = []
+    for readout in (0.0, 1 / 20):
+        arena = EmulatedArena(1, FrameTiming(30.0, jitter=0.0), traits=CameraTraits(readout=readout))
+        for robot, y in ((0, 150.0), (1, 750.0)):
+            arena.place(robot, (300.0, y, 0.0))
+            body = arena.robots[robot]
+            body.roll = lambda body=body: setattr(body, "x", body.x + 0.5 * 1000.0 * 0.002)
+        arena.project(np.full((1080, 1920), 150, np.uint8))
+        seen = dict(found(newest(arena, 0.6).image))
+        gaps.append(seen[1].mean(axis=0) - seen[0].mean(axis=0))
+    px = arena.optics.sensor(np.array([(0.0, 0.0), (1.0, 0.0)]), 70.0)
+    way = 500.0 * gaps[1][1] / 1080 / 20 * float(px[1, 0] - px[0, 0])
+    assert gaps[1][0] - gaps[0][0] == pytest.approx(way, rel=0.15)

@@ -1,11 +1,14 @@
 """Things on the emulated mat are found where they are, and nothing else is found."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.hardware.proof.things import ThingsBed, distances, trial
+from pigaming_app.hardware.emulator.things.prism import TAPE, box
+from pigaming_app.hardware.proof.things import ThingsBed, compare, distances, trial
 from pigaming_app.hardware.proof.things_watch import BETWEEN, WatchedMatch
 from pigaming_app.hardware.scan.things import ThingKind
 from pigaming_app.jobs.bench.robots import TARGETS
@@ -37,6 +40,22 @@ def test_a_tilted_camera_of_720p_finds_them_too(first):
     assert (run.missed, run.false) == (0, 0)
     assert max(run.means) <= TARGETS["things_tilted_mean_mm"]
     assert max(run.worsts) <= TARGETS["things_tilted_worst_mm"]
+
+
+@pytest.mark.long
+def test_a_dark_glossy_phone_is_one_thing_and_what_differs_by_28_percent_is_found():
+    """Reflectance of the mat: 0.85. Phones of 8 mm may count as flat."""
+    bed, pale = ThingsBed(2), 0.72 * 0.85
+    looks = ((-500, -250, 8.0, 0.04), (-150, 200, 8.0, 0.03), (300, -250, 14.0, 0.05), (-450, 220, 8.0, 0.1))
+    true = [box(x, y, 150, 75, high, 0.3 + 0.01 * x, grey, "glossy", 2) for x, y, high, grey in looks]
+    true += [box(500, 200, 200, 140, TAPE, 0.2, pale), box(100, 0, 150, 100, TAPE, 0.7, pale, seed=7)]
+    bed.furnish(true, [(200.0, 150.0, 0.0), (1400.0, 750.0, 1.0), (1400.0, 150.0, 2.0), (200.0, 750.0, 3.0)])
+    found = bed.scan().layout.things
+    assert len(found) == len(true)
+    for thing in true:
+        kinds = [replace(thing, height=20.0 if tall else TAPE) for tall in (True, False)]
+        worst = min(min(compare(found, [kind], bed).worsts, default=99.0) for kind in kinds)
+        assert worst < 6.0, thing
 
 
 @pytest.mark.long

@@ -99,7 +99,8 @@ def cut(prism: Prism, x: Map, y: Map, vx: Map, vy: Map) -> tuple[Map, Map, NDArr
 def texture(look: str, grey: float, seed: int) -> Map:
     """Reflectance of a surface, (TEXELS, TEXELS), one texel a mm.
 
-    `plain`: almost uniform; `cloudy`: blotches; `printed`: a label with lines of text; `striped`: stripes.
+    `plain`: almost uniform; `cloudy`: blotches; `printed`: a label with lines of text; `striped`: stripes; `glossy`:
+    reflections of a lamp and a window.
     """
     import cv2
 
@@ -114,6 +115,10 @@ def texture(look: str, grey: float, seed: int) -> Map:
         light[top : top + 45, left : left + 60] = other
         for row in range(int(top) + 4, int(top) + 40, 9):
             light[row : row + 4, left + 5 : left + int(random.integers(25, 55))] = grey
+    elif look == "glossy":
+        for at, size in (((250, 240), (14, 9)), ((268, 275), (22, 6))):
+            cv2.ellipse(light, at, size, 30.0, 0.0, 360.0, 0.8, -1)
+        light = np.asarray(cv2.GaussianBlur(light, (0, 0), 2.0), dtype=np.float64)
     elif look == "striped":
         wide = int(random.integers(8, 20))
         light[:, (np.arange(TEXELS) // wide) % 2 == 0] *= 0.55
