@@ -21,6 +21,7 @@ from pigaming_app.boot.interpreter import (
     site_packages,
 )
 
+COMMAND = (sys.executable, "-m", "pigaming_app.boot.fetch", "train")
 DONE, RESTART = "done", "restart"  # RESTART: packages that the arcade has loaded were replaced
 OFFLINE, FULL, FOREIGN, FAILED = "offline", "full", "foreign", "failed"
 UNITS = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9}

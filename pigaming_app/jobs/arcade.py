@@ -29,6 +29,7 @@ def run(arguments: Namespace) -> int:
     """Open the arcade on its title. Raises Refusal."""
     if needs_supervisor(arguments):
         return supervised(arguments)
+    from pigaming_app.boot.fetch import COMMAND
     from pigaming_app.scenes.app import Options
 
     if arguments.emulate is not None:
@@ -44,6 +45,7 @@ def run(arguments: Namespace) -> int:
             emulator_seed=arguments.emulate,
             ros_width=ros_width(arguments),
             emulated_things=arguments.things,
+            fetch_networks=COMMAND,
             changed_settings=mat_settings(arguments) | ({"phones": True} if arguments.phones else {}),
         )
     )

@@ -74,6 +74,7 @@ class Options:
     ros_width: float | None = None  # mm, width of the arena of robots in a ROS network
     emulator_seed: int | None = None  # seed of an emulated arena instead of the real one
     emulated_things: int = 0  # real things on its mat
+    fetch_networks: tuple[str, ...] = ()  # command that fetches what networks need in the Lab
     changed_settings: Mapping[str, object] = field(default_factory=dict)  # settings to store
 
 

@@ -14,6 +14,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import pygame
 
+from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
 from pigaming_app.events.day_log import DayLog
 from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
@@ -82,6 +83,7 @@ def opened(options: Options) -> "Iterator[App]":
     context.day_log = DayLog(data_folders.data)
     context.day_log.delete_old(date.today())
     context.day_log.note("start")
+    context.network_fetch = ExtraFetch(options.fetch_networks)
     context.controls.remap(settings.controls)
     context.controls.has_keypad = settings.keypad
     context.session = session = _session(options, settings, canvas)

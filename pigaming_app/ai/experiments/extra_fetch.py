@@ -13,7 +13,6 @@ from pigaming_app.ai.experiments.compiler import launch
 
 NONE, FETCHING, DONE, BUILT, FAILED = "none", "fetching", "done", "built", "failed"
 FOREIGN, RESTART = "foreign", "restart"  # of the process, see boot/fetch.py
-COMMAND = (sys.executable, "-m", "pigaming_app.boot.fetch")
 
 log = logging.getLogger("pigaming")
 
@@ -23,8 +22,9 @@ class ExtraFetch:
     reason of the process; `share`: fetched, 0 to 1.
     """
 
-    def __init__(self, extra: str, command: tuple[str, ...] = COMMAND) -> None:
-        self._command = (*command, extra)
+    def __init__(self, command: tuple[str, ...] = ()) -> None:
+        """`command`: of the process; empty: nothing can be fetched."""
+        self._command = command
         self.state, self.share = NONE, 0.0
 
     def start(self) -> None:
@@ -34,6 +34,9 @@ class ExtraFetch:
         self.state, self.share = FETCHING, 0.0
         if getattr(sys, "frozen", False):
             self.state = BUILT
+            return
+        if not self._command:
+            self.state = FOREIGN
             return
         try:
             process = launch(self._command, answers=True)

@@ -76,11 +76,14 @@ def _in_window(arguments: Namespace, event: Event) -> int:
     if arcade.needs_supervisor(arguments):
         resume.mark(folders().data, arguments.file)
         return arcade.supervised(arguments)
+    from pigaming_app.boot.fetch import COMMAND
     from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.events.choice import page_of
     from pigaming_app.scenes.events.running import RunningEvent
 
-    options = Options(display=display(arguments), scoreboard=arguments.scoreboard, kiosk=arguments.kiosk)
+    options = Options(
+        display=display(arguments), scoreboard=arguments.scoreboard, kiosk=arguments.kiosk, fetch_networks=COMMAND
+    )
     if arguments.kiosk:  # which opens the event that is marked, until somebody leaves it
         return arcade.show(options)
     return arcade.show(

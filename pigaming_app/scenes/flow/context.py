@@ -46,7 +46,7 @@ class Context:
     idle: float = 0.0  # seconds since the last input
     session: "RobotSession | None" = None  # of real robots
     compiler: Compiler = field(default_factory=Compiler)  # for tables in the Lab
-    network_fetch: ExtraFetch = field(default_factory=lambda: ExtraFetch("train"))  # what networks need in the Lab
+    network_fetch: ExtraFetch = field(default_factory=ExtraFetch)  # of what networks need in the Lab
     network_compiler: Compiler = field(default_factory=lambda: Compiler(COMPILE_NETWORKS))  # for networks in the Lab
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)

@@ -228,7 +228,7 @@ def test_without_numba_the_switch_fetches_it_and_tells_what_to_do(
 
 def fetching(program: str) -> ExtraFetch:
     """A fetch whose process runs this program instead."""
-    return ExtraFetch("train", (sys.executable, "-c", program))
+    return ExtraFetch((sys.executable, "-c", program))
 
 
 def test_after_a_failure_another_try_fetches_it_and_the_network_half_opens(
