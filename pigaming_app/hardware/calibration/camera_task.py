@@ -11,11 +11,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from pigaming_app.hardware.calibration.camera_position import TwoHeights
 from pigaming_app.hardware.calibration.drift import DriftMonitor
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.quality import CameraQuality, assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite
-from pigaming_app.hardware.calibration.two_heights import TwoHeights
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKept, ExposureState, Image
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, OpenCVMissing, opencv

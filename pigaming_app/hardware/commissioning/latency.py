@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pigaming_app.hardware.control.motion_delay import motion_delay
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.signals import Fix, WheelCommand
-from pigaming_app.hardware.tracking.motion_delay import motion_delay
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import DT, ROBOTS
 

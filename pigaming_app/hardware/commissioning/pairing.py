@@ -10,10 +10,9 @@ from enum import StrEnum
 from math import hypot
 from typing import NamedTuple
 
+from pigaming_app.hardware.control.motion_delay import USUAL_LAGS, common_delay, motion_delay, network_delay
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.signals import Fix, WheelCommand
-from pigaming_app.hardware.tracking.camera_delay import common_delay, network_delay
-from pigaming_app.hardware.tracking.motion_delay import USUAL_LAGS, motion_delay
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import DT, ROBOTS

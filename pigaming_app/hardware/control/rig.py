@@ -14,6 +14,7 @@ import numpy as np
 
 from pigaming_app.hardware.control.kinematics import Kinematics
 from pigaming_app.hardware.control.motion_check import MotionCheck
+from pigaming_app.hardware.control.motion_delay import network_delay
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.messages import OperatorMessage
@@ -21,7 +22,6 @@ from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
 from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Fix, Image, Telemetry, WheelCommand
-from pigaming_app.hardware.tracking.camera_delay import network_delay
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS

@@ -7,8 +7,9 @@ only: they take motors that are quicker or slower than usual for early or late. 
 from then on counts.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
+from pigaming_app.hardware.control.motion_delay import common_delay
 from pigaming_app.hardware.tracking.ekf import PoseFilter
 
 LONGEST = 0.12  # s
@@ -17,19 +18,6 @@ SURE = 0.006  # s, standard deviation of an estimate that counts
 NEGLIGIBLE = 0.010  # s, a delay that counts as none: robots' own delays differ as much
 NOTABLE = 0.003  # s, least correction of a delay
 PERIOD, SHARE = 0.5, 0.4  # s between two corrections, and the share of the difference in each
-USUAL_ECHO = 0.050  # s, of a radio within the dead time of an unmeasured robot
-
-
-def common_delay(delays: Iterable[float], spread: float = 0.010) -> float:
-    """Delay that these robots have in common, s: the mean of those within `spread` of the least; 0 without any."""
-    found = sorted(delays)
-    alike = [delay for delay in found if delay <= found[0] + spread]
-    return sum(alike) / len(alike) if alike else 0.0
-
-
-def network_delay(echo: float | None) -> float:
-    """Delay of a command in a slow network beyond the usual one, s, by the echo of the radio."""
-    return max(0.0, 0.5 * ((echo or 0.0) - USUAL_ECHO))
 
 
 class CameraDelay:

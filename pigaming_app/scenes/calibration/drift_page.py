@@ -100,8 +100,8 @@ class DriftPage:
         if color != ALARM and work.heights is not None and work.heights.seen:
             found, color = work.heights.height, ALARM if work.heights.wrong else ICE
             key = "lid_flat" if found is None else "height_off" if work.heights.wrong else "above"
-            given = f"{work.heights.ground.height / 1000.0:.1f}"
-            sentence = words(f"calibrate.{key}", height=f"{(found or 0.0) / 1000.0:.1f}", given=given)
+            metres, given = (found or 0.0) / 1000.0, work.heights.ground.height / 1000.0
+            sentence = words(f"calibrate.{key}", height=f"{metres:.1f}", given=f"{given:.1f}")
         for i, line in enumerate(paragraph(sentence, 330, 4, color, "c")):
             line.draw(screen, x, y + 120 + 48 * i)
 

@@ -7,9 +7,9 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
+from pigaming_app.hardware.calibration.camera_position import TwoHeights  # noqa: E402
 from pigaming_app.hardware.calibration.camera_task import SPOT  # noqa: E402
 from pigaming_app.hardware.calibration.ground_plane import MARKER  # noqa: E402
-from pigaming_app.hardware.calibration.two_heights import TwoHeights  # noqa: E402
 from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena  # noqa: E402
 from pigaming_app.hardware.emulator.objects import LID_HEIGHT, FlatObject, lid  # noqa: E402
 from pigaming_app.hardware.emulator.renderer import CameraScene  # noqa: E402

@@ -5,7 +5,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.commissioning.pairing import Pairing
-from pigaming_app.hardware.tracking.camera_delay import common_delay, network_delay
+from pigaming_app.hardware.control.motion_delay import common_delay, network_delay
 from tests.hardware.tracking.blind_bed import BlindBed, rms
 
 UNEQUAL = (0.0, 0.02, 0.04, 0.01)  # s

@@ -3,7 +3,7 @@
 The lag of the motors is fitted as well, so that it is not mistaken for dead time.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import exp
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ STEP = 0.005  # s, resolution of the model
 DELAYS = np.arange(0.0, 0.30, 0.005)  # s, search grid; between its values by a parabola
 TINY = 1e-9  # against division by zero: of wheels that turn alike
 LAGS = np.arange(0.02, 0.20, 0.01)  # s, search grid
+USUAL_ECHO = 0.050  # s, of a radio within the dead time of an unmeasured robot
 USUAL_LAGS = np.arange(0.05, 0.115, 0.01)  # s
 
 Floats = NDArray[np.float64]
@@ -43,6 +44,18 @@ def motion_delay(
         costs = _unexplained(headings, *(way - way.mean(axis=0) for way in ways))
         best = min(best, (*_lowest(costs), float(lag)))
     return MotionDelay(best[1], best[2], float(np.sqrt(max(0.0, best[0]) / len(headings))))
+
+
+def common_delay(delays: Iterable[float], spread: float = 0.010) -> float:
+    """Delay that these robots have in common, s: the mean of those within `spread` of the least; 0 without any."""
+    found = sorted(delays)
+    alike = [delay for delay in found if delay <= found[0] + spread]
+    return sum(alike) / len(alike) if alike else 0.0
+
+
+def network_delay(echo: float | None) -> float:
+    """Delay of a command in a slow network beyond the usual one, s, by the echo of the radio."""
+    return max(0.0, 0.5 * ((echo or 0.0) - USUAL_ECHO))
 
 
 def _unexplained(headings: Floats, left: Floats, right: Floats) -> Floats:
