@@ -112,7 +112,7 @@ class Sandbox:
                 raise Accepted
             if parser.prog.endswith(EMULATED) and not any(getattr(found, name, None) for name in WITHOUT_ROBOTS):
                 found.emulate = found.emulate or 1
-            for name, most in next((row for end, row in LIMITS.items() if parser.prog.endswith(end)), {}).items():
+            for name, most in next((row for end, row in LIMITS.items() if parser.prog.endswith(f" {end}")), {}).items():
                 setattr(found, name, least(getattr(found, name), most))
             return found, rest
 
