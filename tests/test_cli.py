@@ -204,7 +204,7 @@ def test_a_missing_extra_is_one_line_with_the_way_to_install_it(words, extra, in
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert f"extra `{extra}`" in said
-    assert (f"pip install 'pigaming-app[{extra}]'" in said) is installed
+    assert (f"pip install '.[{extra}]'" in said) is installed
     assert ("main.py" in said) is not installed
 
 

@@ -167,13 +167,13 @@ def test_the_doctor_finds_packages_and_assets_and_names_the_extras(run, environm
         "ok"
     }
     assert lines["numba"]["state"] == "note"
-    assert "pip install 'pigaming-app[train]'" in lines["numba"]["advice"]
-    assert "pip install 'pigaming-app[hardware]'" in lines["opencv-python-headless"]["advice"]
+    assert "pip install '.[train]'" in lines["numba"]["advice"]
+    assert "pip install '.[hardware]'" in lines["opencv-python-headless"]["advice"]
     assert "main.py" not in ended.stdout
 
 
 def test_a_missing_extra_is_one_line_and_with_it_the_job_works(run, tmp_path):
-    assert "pip install 'pigaming-app[hardware]'" in refused(run("pigaming", *SHEET))
+    assert "pip install '.[hardware]'" in refused(run("pigaming", *SHEET))
     everything = os.pathsep.join(folder for folder in sys.path if folder.endswith("-packages"))
     assert run("pigaming", *SHEET, PYTHONPATH=everything).returncode == 0
     assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")

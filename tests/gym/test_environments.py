@@ -185,7 +185,7 @@ def test_without_the_extra_one_line_says_how_to_install_it():
     done = subprocess.run([sys.executable, "-c", code], cwd=os.getcwd(), capture_output=True, text=True)
     assert (
         done.stderr.splitlines()[-1]
-        == "ImportError: pigaming_app.gym needs pettingzoo: pip install 'pigaming-app[gym]'"
+        == "ImportError: pigaming_app.gym needs pettingzoo: pip install '.[gym]' in the project's folder"
     )
 
 

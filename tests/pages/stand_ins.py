@@ -32,6 +32,7 @@ PLACEHOLDERS = (
     Placeholder(r"\bNAME hand2|\bLEFT RIGHT", "hand1 hand2", NAME),
     Placeholder(r"\bnew-game NAME", "new-game hide", NAME),
     Placeholder(r"\bGAME\b", "pitanks", NAME),
+    Placeholder(r"\bJOB\b", "duel", NAME),
     Placeholder(r"\bBRAIN\b", "net", NAME),
     Placeholder(r"path/to/file\.toml", "mine.toml", NAME),
     Placeholder(r"--variant V\b", "--variant party", NAME),
@@ -54,7 +55,7 @@ PLACEHOLDERS = (
 
 MINUTES = 0.05  # of every match
 LIMITS = {  # of parsed arguments, by the end of the program's name: the same work, less of it
-    "play": {"minutes": MINUTES, "speed": "max"},
+    "play": {"minutes": MINUTES, "speed": "max", "at": 1.0},
     "duel": {"minutes": MINUTES, "matches": 2},
     "league": {"minutes": MINUTES, "matches": 2},
     "train qlearning": {"minutes": MINUTES, "matches": 1},
