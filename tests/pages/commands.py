@@ -73,11 +73,8 @@ def _in_sentences(text: str) -> Iterator[tuple[int, str]]:
     for code in CODE.finditer(prose):
         words = " ".join(code[1].split())
         first, *others = words.split(" ")
-        if (
-            first in PROGRAMS
-            and others
-            or first in JOBS
-            and any(_is_option(word) or first == "bench" for word in others)
+        if (first in PROGRAMS and others) or (
+            first in JOBS and any(_is_option(word) or first == "bench" for word in others)
         ):
             yield prose.count("\n", 0, code.start()) + 1, words
 

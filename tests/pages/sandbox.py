@@ -18,6 +18,7 @@ from pigaming_app import cli
 from pigaming_app.ai.networks.files import encode
 from pigaming_app.ai.ppo import shard, win_rates
 from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.registry import games
 from pigaming_app.jobs import arcade, play
 from pigaming_app.jobs.bench import phones
@@ -40,7 +41,7 @@ FILES: dict[str, Callable[[Path], object]] = {  # that a page takes for granted,
     "robots.toml": lambda file: file.write_text(to_toml([NOMINAL] * 4), encoding="utf-8"),
     "mine.toml": lambda file: shutil.copy(ROOT / "assets/arenas/pitanks/islands.toml", file),
     "cup.json": lambda file: cli.main(["event", "new", str(file), *EVENT]),
-    "match.replay": lambda file: cli.main(["play", *"--seats idle,idle --headless --record".split(), str(file)]),
+    "match.replay": lambda file: cli.main(["play", *["--seats", "idle,idle", "--headless", "--record"], str(file)]),
 }
 EVENT = ("--game", "pitanks", "--format", "roundrobin", "--entrants", ENTRANTS)
 
@@ -61,6 +62,7 @@ class Sandbox:
         (folder / "here").mkdir()
         patch.chdir(folder / "here")
         self._limit_arguments(patch)
+        seat_hunter(patch)
         shorten_matches(patch)
         shorten_trainings(patch)
         close_windows(patch)
@@ -112,6 +114,8 @@ class Sandbox:
                 raise Accepted
             if parser.prog.endswith(EMULATED) and not any(getattr(found, name, None) for name in WITHOUT_ROBOTS):
                 found.emulate = found.emulate or 1
+            if getattr(found, "speed", None) == "1" and found.headless:
+                found.speed = "max"
             for name, most in next((row for end, row in LIMITS.items() if parser.prog.endswith(f" {end}")), {}).items():
                 setattr(found, name, least(getattr(found, name), most))
             return found, rest
@@ -125,6 +129,15 @@ COMPILES = kernel.can_compile
 def least(value: Any, most: Any) -> Any:
     """The smaller of two numbers; `most` if one is none."""
     return min(value, most) if isinstance(value, int | float) and isinstance(most, int | float) else most
+
+
+def seat_hunter(patch: pytest.MonkeyPatch) -> None:
+    """Add the brain that docs/opponents.md prints, as the page asks its reader to."""
+    page = (ROOT / "docs/opponents.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"^```python\n(.*?HUNTER = .*?)^```$", page, re.MULTILINE | re.DOTALL)
+    printed: dict[str, Any] = {"__name__": "hunter"}
+    exec(code, printed)
+    patch.setitem(BRAINS["pitanks"], "hunter", printed["HUNTER"])
 
 
 def shorten_matches(patch: pytest.MonkeyPatch) -> None:

@@ -55,7 +55,7 @@ PLACEHOLDERS = (
 
 MINUTES = 0.05  # of every match
 LIMITS = {  # of parsed arguments, by the end of the program's name: the same work, less of it
-    "play": {"minutes": MINUTES, "speed": "max", "at": 1.0},
+    "play": {"minutes": MINUTES, "at": 1.0},
     "duel": {"minutes": MINUTES, "matches": 2},
     "league": {"minutes": MINUTES, "matches": 2},
     "train qlearning": {"minutes": MINUTES, "matches": 1},
@@ -69,28 +69,31 @@ MAY_MISS = r".*tests\.bench\..*"  # commands that end with 1 if a limit is misse
 EMULATED = ("calibrate", "robots")  # jobs that need robots or a camera: the emulated arena stands in,
 WITHOUT_ROBOTS = ("arena", "microbit", "sheet", "wifi_config")  # but not with these options, which need neither
 
-MINUTES_LONG = "it takes minutes, however small"
+MINUTES_LONG = "it takes minutes"
 ELSEWHERE = (
-    Elsewhere(r"(python3 main\.py )?test\b.*", "the whole of the tests", ".ci/run"),
-    Elsewhere(r"(python3 main\.py )?bundle\b.*", MINUTES_LONG, ".ci/run"),
+    Elsewhere(r"(python3 main\.py )?(test|bundle)\b.*", MINUTES_LONG, ".ci/run"),
     Elsewhere(r"(python3 main\.py )?bench robots\b.*", MINUTES_LONG, "tests/jobs/test_bench_robots.py"),
-    Elsewhere(r"(python3 main\.py )?bench (pitanks|race|factory|football)\b.*", MINUTES_LONG, "tests/jobs/test_bench_yardsticks.py"),
-    Elsewhere(r".*(--plant ros|main\.py ros)\b.*|roscore &|.* ros-core .*", "it needs ROS", "tests/hardware/ros/test_ros.py"),
+    Elsewhere(r"(python3 main\.py )?bench (?!robots|phones).*", MINUTES_LONG, "tests/jobs/test_bench_yardsticks.py"),
+    Elsewhere(r".*(--plant ros|main\.py ros)\b.*|roscore &", "it needs ROS", "tests/hardware/ros/test_ros.py"),
     Elsewhere(r".* --ray .*|ray start .*|.*ray_speedup", "it needs Ray", "tests/ai/ppo/test_ray_workers.py"),
     Elsewhere(r".*--radio udp\b.*", "boards run MicroPython", "tests/hardware/emulator/test_boards.py"),
     Elsewhere(r".*robots --radio-setup .*", "a radio on a cable", "tests/jobs/test_robots.py"),
     Elsewhere(r".*robots\b.*--(pair|latency|wheels).*", "half a minute of driving", "tests/jobs/test_robots.py"),
-    Elsewhere(r".*calibrate --emulate .*--json.*", "half a minute of pictures", "tests/jobs/test_calibrate.py"),
     Elsewhere(r".*fidelity (record|identify|replay)\b.*", "a minute of driving", "tests/jobs/test_robots.py"),
-    Elsewhere(r".*play pitanks --real .*", "robots find their places first", "tests/jobs/test_bench_robots.py"),
+    Elsewhere(r".*calibrate --emulate .*--json.*", "half a minute of pictures", "tests/jobs/test_calibrate.py"),
+    Elsewhere(r".*play pitanks --real .*", "robots take their places first", "tests/jobs/test_bench_robots.py"),
     Elsewhere(r".*tests\.golden( --write)?", "a minute; it may change what tests compare with", "tests/test_golden.py"),
     Elsewhere(r".*tests\.bench\.open_day.*", MINUTES_LONG, "tests/bench/test_open_day.py"),
-    Elsewhere(r".*tests\.bench\.detection", "six minutes", "tests/bench/detection.py"),
-    Elsewhere(r".*tests\.bench\.(makespan|reference_lap|network_races|levels|reproduce_table)\b.*", MINUTES_LONG, "tests/pages/test_figures.py"),
+    Elsewhere(
+        r".*tests\.bench\.(detection|makespan|reference_lap|network_races|levels)\b.*", MINUTES_LONG, "tests/bench"
+    ),
+    Elsewhere(r".*tests\.bench\.reproduce_table.*", MINUTES_LONG, "tests/bench/test_reproduce_table.py"),
+    Elsewhere(r".*tests\.bench\.figures.*", "an hour", "tests/pages/test_figures.py"),
     Elsewhere(r"python3 examples/ppo_torch\.py .*", "it needs PyTorch", "examples/ppo_torch.py"),
     Elsewhere(r"(pip|pipx|uvx|uv) .*", "packages are fetched", "tests/test_package.py"),
-    Elsewhere(r"sudo .*|cd pigaming_app/hardware/firmware|make.*", "a compiler and a robot", "tests/hardware/firmware"),
+    Elsewhere(r"sudo .*", "packages of the system", ".ci/run"),
+    Elsewhere(r"cd pigaming_app/hardware/firmware|make.*", "a compiler and a robot", "tests/hardware/firmware"),
     Elsewhere(r"mpremote .*", "a board on a cable", "tests/hardware/emulator/test_boards.py"),
-)  # fmt: skip
+)
 
 FORMULAS = ("expected = ", "Q(s, a) += ")  # beginnings of lines set off like commands

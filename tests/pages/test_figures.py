@@ -6,7 +6,7 @@ from itertools import pairwise
 import pytest
 
 from pigaming_app import links
-from tests.bench.figures import Measured, as_markdown, on_page, pattern, write
+from tests.bench.figures import as_markdown, on_page, pattern, write
 from tests.bench.figures.derived import bundles, where_to_get_it
 from tests.bench.figures.registry import DERIVED, MEASURED
 from tests.bench.figures.seeds import BINS, counted
@@ -16,7 +16,12 @@ SMALL = 0.01  # share of the work
 BY_HAND = {  # tables that their bench prints in another form, by their page and the beginning of their head
     "football.md": ("| against | `level1`", "| `level5` | `standard`"),
     "hardware.md": ("| | measured | target |", "| after | 1 s", "| | 1080p from above"),
-    "networks.md": ("| fewest wins of 400", "| Race, `network_races", "| | `party` | `classic`", "| trained | rival wins |"),
+    "networks.md": (
+        "| fewest wins of 400",
+        "| Race, `network_races",
+        "| | `party` | `classic`",
+        "| trained | rival wins |",
+    ),
     "opponents.md": ("| | four, `pickups`", "| | seconds |", "| | classic | hairpin", "| four pallets, two robots"),
     "qlearning.md": ("| wins / ties / losses",),
 }
@@ -55,7 +60,9 @@ def test_the_histogram_counts_every_seed_once() -> None:
 
 def outline(text: str) -> tuple[list[str], list[str], set[int]]:
     """Head, first column, and number of cells a row, of the table in a text."""
-    head, _, *body = [[cell.strip() for cell in line.strip("|").split("|")] for line in re.findall(r"^\|.*$", text, re.M)]
+    head, _, *body = [
+        [cell.strip() for cell in line.strip("|").split("|")] for line in re.findall(r"^\|.*$", text, re.M)
+    ]
     return head, [row[0] for row in body if not row[0][:1].isdigit()], {len(row) for row in (head, *body)}
 
 
@@ -71,13 +78,17 @@ def test_every_block_of_a_page_is_registered() -> None:
 
 
 def test_a_table_below_a_command_that_measures_is_a_block() -> None:
-    measures = re.compile(r"tests\.bench\.|main\.py (duel|league|bench)\b|\bVersion \d|version \d")
+    measures = re.compile(r"tests\.bench\.|main\.py (duel|league|bench)\b|figures of version", re.I)
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         for name in re.findall(r"<!-- (?!end)(.*?) -->", text):
             text = pattern(name).sub("", text, count=1)
         for before, table in pairwise(text.split("\n\n")):
-            if table.startswith("|") and not before.startswith("    ") and not table.startswith(BY_HAND.get(page.name, ())):
+            if (
+                table.startswith("|")
+                and not before.startswith("    ")
+                and not table.startswith(BY_HAND.get(page.name, ()))
+            ):
                 assert not measures.search(before), f"{page.name}: {table.splitlines()[0]}"
 
 
@@ -97,8 +108,15 @@ def test_no_place_is_mentioned_that_does_not_exist(monkeypatch: pytest.MonkeyPat
 
 def test_a_place_is_written_in_one_file_only() -> None:
     addresses = re.compile(r"https?://[\w./-]*pigaming", re.I)
-    ours = [*PAGES, *(ROOT / "pigaming_app").rglob("*.py"), *(ROOT / "assets/text").glob("*.toml"), ROOT / "pyproject.toml"]
-    assert [str(file) for file in ours if file.name != "links.py" and addresses.search(file.read_text(encoding="utf-8"))] == []
+    ours = [
+        *PAGES,
+        *(ROOT / "pigaming_app").rglob("*.py"),
+        *(ROOT / "assets/text").glob("*.toml"),
+        ROOT / "pyproject.toml",
+    ]
+    assert [
+        str(file) for file in ours if file.name != "links.py" and addresses.search(file.read_text(encoding="utf-8"))
+    ] == []
 
 
 def test_a_block_is_written_into_its_page_and_nothing_else(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -118,5 +136,3 @@ def test_readme_is_short_and_begins_with_two_commands() -> None:
     assert re.findall(r"^    (\S.*?)(?:  .*)?$", text, re.M) == ["python3 main.py", "python3 main.py test"]
     assert not re.search(r"hand[0-9*]|39th|44th", text)
     assert not re.search(r"\b(cost|about) \d+ (each|a )", text), "prices have a currency"
-
-

@@ -37,7 +37,9 @@ def bundles() -> str:
 def games_in_numbers() -> str:
     """The table of docs/thesis.md: a column for each game."""
     known, words = games(), Words("en")
-    rules = {name: Match(make_setup(name, ["idle"] * 4, None, None, 1, None, None, ["idle"])).state.rules for name in known}
+    rules = {
+        name: Match(make_setup(name, ["idle"] * 4, None, None, 1, None, None, ["idle"])).state.rules for name in known
+    }
     rows = [["", *(words(f"games.{name}") for name in known)]]
     rows.append(["rule sets", *(", ".join(f"`{rule}`" for rule in game.variants) for game in known.values())])
     rows.append(["arenas", *(str(len(arenas(name))) for name in known)])

@@ -23,7 +23,9 @@ def some(matches: int, share: float) -> tuple[int, float | None]:
     return (matches, None) if share == 1.0 else (2, LEAST)
 
 
-def result(left: str, right: str, matches: int, share: float, arena: str | None = None, rules: str | None = None) -> str:
+def result(
+    left: str, right: str, matches: int, share: float, arena: str | None = None, rules: str | None = None
+) -> str:
     """Wins, ties and losses of `left` in PiTanks."""
     count, minutes = some(matches, share)
     met = duel("pitanks", left, right, count, 1, minutes, arena, rules)
@@ -67,7 +69,9 @@ def steps(share: float) -> list[list[str]]:
         rating = {row.brain: row.rating.rating for row in found.standings}
         climb = [f"{rating[up] - rating[low]:.0f}" for low, up in zip(LEVELS, LEVELS[1:], strict=False)]
         level = [d.ties / d.matches for d in found.duels if int(d.right[-1]) - int(d.left[-1]) == 1]
-        rows.append([f"{title}, `{rules}`", f"{matches:,}", *climb, ", ".join(f"{100 * one:.0f}" for one in level) + " %"])
+        rows.append(
+            [f"{title}, `{rules}`", f"{matches:,}", *climb, ", ".join(f"{100 * one:.0f}" for one in level) + " %"]
+        )
     return rows
 
 
