@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.brain import driving
+from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.pitanks.levels import HANDICAPS
@@ -258,6 +259,8 @@ def quoted():
     yield f"looking at the opponent: −1 | −{-one.miss:g}; looking is sector 0"
     yield f"−1, once | −{-one.behind:g};"
     yield f"at every step | −{-two.behind:g};"
+    yield f"{('no', 'one', 'two', 'three', 'four', 'five')[len(games())]} games on one engine"
+    yield f"AIs of {('no', 'one', 'two', 'three', 'four', 'five')[len(LEVELS)]} levels in every game"
     yield f"staying still: −10 | −{-two.still:g};"
 
 

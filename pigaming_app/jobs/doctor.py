@@ -28,7 +28,8 @@ from pigaming_app.storage.settings import Folders, NoHome, folders
 
 MIN_FREE = 100_000_000  # bytes of free disk space, below which the report has a note
 TIMEOUT = 15.0  # s for the drivers to answer
-REINSTALL = "install the package again" if INSTALLED else f"get the whole folder of the program again {DOWNLOAD}".strip()
+WHOLE = f"get the whole folder of the program again {DOWNLOAD}".rstrip()
+REINSTALL = "install the package again" if INSTALLED else WHOLE
 RESTART = REINSTALL if INSTALLED or FROZEN else "start main.py again"
 EXTRAS = {
     "train": "bench, duel, league and train are slow without it; the arcade does not need it",

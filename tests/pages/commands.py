@@ -1,4 +1,4 @@
-"""The commands of README.md, CONTRIBUTING.md and docs/: blocks, and code within sentences that begins like a command."""
+"""The commands of README.md, CONTRIBUTING.md and docs/: blocks, and code in sentences that begins like a command."""
 
 import re
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""A folder in which commands of the pages run within this process: short, without numba, robots, or windows that stay."""
+"""A folder in which commands of the pages run, in this process: short, without numba, robots or windows that stay."""
 
 import argparse
 import re

@@ -40,8 +40,8 @@ class Measured:
 
 def as_markdown(rows: list[list[str]]) -> str:
     """A table as text."""
-    head, *body = rows
-    return "\n".join("| " + " | ".join(row) + " |" for row in [head, ["---"] * len(head), *body]).replace("|  |", "| |")
+    head, *body = ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join([head, "|" + "---|" * len(rows[0]), *body]).replace("|  |", "| |")
 
 
 def pattern(name: str) -> re.Pattern[str]:

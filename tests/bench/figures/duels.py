@@ -1,5 +1,7 @@
 """Tables of duels and leagues."""
 
+from itertools import pairwise
+
 from pigaming_app.ai.experiments.league import duel, league
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.games.arenas import arenas
@@ -67,7 +69,7 @@ def steps(share: float) -> list[list[str]]:
         count, minutes = some(matches, share)
         found = league(game, LEVELS, count, seed, minutes, variant=rules)
         rating = {row.brain: row.rating.rating for row in found.standings}
-        climb = [f"{rating[up] - rating[low]:.0f}" for low, up in zip(LEVELS, LEVELS[1:], strict=False)]
+        climb = [f"{rating[up] - rating[low]:.0f}" for low, up in pairwise(LEVELS)]
         level = [d.ties / d.matches for d in found.duels if int(d.right[-1]) - int(d.left[-1]) == 1]
         rows.append(
             [f"{title}, `{rules}`", f"{matches:,}", *climb, ", ".join(f"{100 * one:.0f}" for one in level) + " %"]
