@@ -170,12 +170,15 @@ def close_windows(patch: pytest.MonkeyPatch) -> None:
 def scripted(module: str, words: list[str]) -> int:
     """The exit code of `python -m module words`."""
     before, sys.argv = sys.argv, [module, *words]
+    known = sys.modules.pop(module, None)
     try:
         runpy.run_module(module, run_name="__main__")
     except SystemExit as end:
         return int(end.code or 0)
     finally:
         sys.argv = before
+        if known:
+            sys.modules[module] = known
     return 0
 
 

@@ -71,7 +71,7 @@ def test_every_block_of_a_page_is_registered() -> None:
     found = set()
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
-        marks = re.findall(r"<!-- (.*?) -->", text)
+        marks = re.findall(r"^<!-- (.*?) -->$", text, re.M)
         assert marks[1::2] == ["end"] * (len(marks) // 2), page
         found |= {(page.relative_to(ROOT).as_posix(), name) for name in marks[::2]}
     assert found == known
@@ -81,7 +81,7 @@ def test_a_table_below_a_command_that_measures_is_a_block() -> None:
     measures = re.compile(r"tests\.bench\.|main\.py (duel|league|bench)\b|figures of version", re.I)
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
-        for name in re.findall(r"<!-- (?!end)(.*?) -->", text):
+        for name in re.findall(r"^<!-- (?!end)(.*?) -->$", text, re.M):
             text = pattern(name).sub("", text, count=1)
         for before, table in pairwise(text.split("\n\n")):
             if (
