@@ -22,6 +22,7 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.registry import games
 from pigaming_app.jobs import arcade, play
 from pigaming_app.jobs.bench import phones
+from pigaming_app.jobs.terminal import refusal
 from pigaming_app.jobs.train import ppo_training
 from pigaming_app.scenes import start
 from pigaming_app.sim import kernel
@@ -54,6 +55,7 @@ class Sandbox:
     """Runs commands; `only_parse`: until their words are accepted."""
 
     only_parse = False
+    asked: set[str]  # extras that the last command asked for
 
     def __init__(self, patch: pytest.MonkeyPatch, folder: Path) -> None:
         home = folder / "home"
@@ -63,6 +65,13 @@ class Sandbox:
         patch.chdir(folder / "here")
         self._limit_arguments(patch)
         seat_hunter(patch)
+        lacks = refusal.missing
+
+        def noted(extra: str) -> str:
+            self.asked.add(extra)
+            return lacks(extra)
+
+        patch.setattr(refusal, "missing", noted)
         shorten_matches(patch)
         shorten_trainings(patch)
         close_windows(patch)
@@ -78,6 +87,7 @@ class Sandbox:
 
     def run(self, words: list[str]) -> int:
         """The exit code of a command."""
+        self.asked = set()
         match [word for word in words if word not in ("-X", "pigaming") or word is words[0]]:
             case ["python3", "main.py", *rest] | ["main.py", *rest] | ["pigaming", *rest]:
                 return cli.main(rest)
@@ -170,7 +180,7 @@ def close_windows(patch: pytest.MonkeyPatch) -> None:
 def scripted(module: str, words: list[str]) -> int:
     """The exit code of `python -m module words`."""
     before, sys.argv = sys.argv, [module, *words]
-    known = sys.modules.pop(module, None)
+    known = None if hasattr(sys.modules.get(module), "__path__") else sys.modules.pop(module, None)
     try:
         runpy.run_module(module, run_name="__main__")
     except SystemExit as end:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.boot.start import extras
 from tests.pages.commands import PAGES, ROOT, Command, commands
 from tests.pages.sandbox import FILES, Sandbox
 from tests.pages.stand_ins import ELSEWHERE, FORMULAS, MAY_MISS, PLACEHOLDERS
@@ -52,6 +53,9 @@ def test_every_command_of_a_page_runs(page: str, sandbox: Sandbox, capfd: pytest
         code = sandbox.run(shlex.split(words))
         printed = capfd.readouterr()
         assert code == 0 or (code == 1 and re.fullmatch(MAY_MISS, command.text)), f"{command}\n{printed.err[-2000:]}"
+        assert sandbox.asked <= extras(re.sub(r"^(python3 )?main\.py ?", "", words).split()), (
+            f"{command}: main.py does not fetch {sandbox.asked}"
+        )
         if redirected:
             Path(redirected).write_text(printed.out, encoding="utf-8")
         assert all(Path(name).stat().st_size for name in WRITTEN.findall(text)), command
