@@ -24,5 +24,5 @@ MEASURED = {
         duels.football,
         6,
     ),
-    "seeds": Measured("docs/qlearning.md", f"{TABLE} --seeds {seeds.FIRST} {seeds.LAST}", seeds.histogram, 2),
+    "seeds": Measured("docs/qlearning.md", f"{TABLE} --seeds {seeds.FIRST} {seeds.LAST}", seeds.histogram, 4),
 }
