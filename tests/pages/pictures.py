@@ -46,7 +46,7 @@ CLIPS = {  # game: arena, seed, second of the picture and of the first frame; in
     "race": ("classic", 1, 6.0),
     "football": ("classic", 3, 8.0),
 }
-LESSONS, TICKS_A_MATCH, LAB_SEED = (0, 4, 8, 12), 6000, 5  # matches after which the robot of the Lab is examined
+LESSONS, TICKS_A_MATCH, LAB_SEED = (0, 4, 8, 12), 6000, 1  # matches after which the robot of the Lab is examined
 
 
 @cache
