@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib import import_module
-from itertools import pairwise
+from itertools import pairwise, product
 from math import atan2, degrees
 from operator import attrgetter
 from pathlib import Path
@@ -28,7 +28,7 @@ from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.ai.race import steering_help
-from pigaming_app.ai.registry import make_brain
+from pigaming_app.ai.registry import AIS, make_brain
 from pigaming_app.games import starts
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
@@ -43,12 +43,14 @@ from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race import state as race_state
 from pigaming_app.games.registry import OURS, games
 from pigaming_app.games.setup import make_setup
+from pigaming_app.jobs.train.qlearning import RIVAL
 from pigaming_app.scenes.results import initials
 from pigaming_app.sim import action, angles, arena, contact, drivetrain, world
 from pigaming_app.sim import robot as robots
 from pigaming_app.sim.record import fields_of
 from pigaming_app.sim.things import mud, spec
 from pigaming_app.storage.scores import table
+from pigaming_app.ui.i18n import LANGUAGES, Words
 
 race = import_module("pigaming_app.games.race.start")  # the package's own name `start` is a function
 
@@ -432,3 +434,14 @@ def anchors(page):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_a_page_names_only_what_the_repository_has(page):
     assert not NEVER_NAMED.search(page.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(("brain", "page"), product(("classic", "fsm"), (OPPONENTS_PAGE, THESIS_PAGE)))
+def test_an_old_machine_has_one_name_on_screens_and_pages(brain, page):
+    for language in LANGUAGES:
+        words = Words(language)
+        assert words(f"lobby.{brain}") == words(f"match.{brain}")
+    name = Words("en")(f"lobby.{brain}")
+    assert name.lower() in page.read_text(encoding="utf-8").lower()
+    assert brain in AIS["pitanks"].rivals
+    assert Words("en")("lobby.classic").lower() == RIVAL
