@@ -436,7 +436,7 @@ def test_a_page_names_only_what_the_repository_has(page):
     assert not NEVER_NAMED.search(page.read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize(("brain", "page"), product(("classic", "fsm"), (OPPONENTS_PAGE, THESIS_PAGE)))
+@pytest.mark.parametrize(("brain", "page"), [*product(("classic", "fsm"), (OPPONENTS_PAGE, THESIS_PAGE))])
 def test_an_old_machine_has_one_name_on_screens_and_pages(brain, page):
     for language in LANGUAGES:
         words = Words(language)
