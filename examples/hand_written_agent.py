@@ -1,6 +1,6 @@
 """A tank written by hand, on the PettingZoo environment: two of them against two hand1.
 
-    pip install ".[gym,train]"  # in a clone; train compiles the matches; it also runs without
+    pip install '.[gym,train]'  # train compiles the matches; it also runs without
     python3 examples/hand_written_agent.py
 
 It drives along the way to the nearest opponent, turns its gun to the most pressing one, leads the target and fires.

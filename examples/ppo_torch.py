@@ -1,6 +1,6 @@
 """Proximal policy optimisation in PyTorch, in one file in the style of CleanRL, on thousands of matches at once.
 
-    pip install ".[gym,train]" torch
+    pip install '.[gym,train]' torch
     python3 examples/ppo_torch.py --env PiTanks-v0 --minutes 5 --opponents level3
 
 It prints the share of matches won lately. RobotRace-v0 and RobotFactory-v0 learn likewise. With `pip install onnx`,

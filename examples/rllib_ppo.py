@@ -1,6 +1,6 @@
 """Proximal policy optimisation in RLlib, on the PettingZoo environment: a pair of robots against a pair of level3.
 
-    pip install ".[gym,train]" "ray[rllib]" torch
+    pip install '.[gym,train]' "ray[rllib]" torch
     python3 examples/rllib_ppo.py --game pitanks --minutes 5 --workers 2
 
 Both agents share one policy. The games race and factory learn likewise; those without pairs take --alone.

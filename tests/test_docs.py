@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib import import_module
-from itertools import pairwise
+from itertools import pairwise, product
 from math import atan2, degrees
 from operator import attrgetter
 from pathlib import Path
@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.brain import driving
+from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.classic import Parameters
 from pigaming_app.ai.pitanks.levels import HANDICAPS
@@ -27,7 +28,7 @@ from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import learner as qlearning
 from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.ai.race import steering_help
-from pigaming_app.ai.registry import make_brain
+from pigaming_app.ai.registry import AIS, make_brain
 from pigaming_app.games import starts
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.factory import layout as floor
@@ -42,12 +43,14 @@ from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race import state as race_state
 from pigaming_app.games.registry import OURS, games
 from pigaming_app.games.setup import make_setup
+from pigaming_app.jobs.train.qlearning import RIVAL
 from pigaming_app.scenes.results import initials
 from pigaming_app.sim import action, angles, arena, contact, drivetrain, world
 from pigaming_app.sim import robot as robots
 from pigaming_app.sim.record import fields_of
 from pigaming_app.sim.things import mud, spec
 from pigaming_app.storage.scores import table
+from pigaming_app.ui.i18n import LANGUAGES, Words
 
 race = import_module("pigaming_app.games.race.start")  # the package's own name `start` is a function
 
@@ -259,6 +262,8 @@ def quoted():
     yield f"looking at the opponent: −1 | −{-one.miss:g}; looking is sector 0"
     yield f"−1, once | −{-one.behind:g};"
     yield f"at every step | −{-two.behind:g};"
+    yield f"{('no', 'one', 'two', 'three', 'four', 'five')[len(games())]} games on one engine"
+    yield f"AIs of {('no', 'one', 'two', 'three', 'four', 'five')[len(LEVELS)]} levels in every game"
     yield f"staying still: −10 | −{-two.still:g};"
 
 
@@ -271,7 +276,7 @@ def test_the_page_on_the_thesis_has_the_results_of_the_page_on_qlearning():
     triple = re.compile(r"\d+ / \d+ / \d+")
     thesis, qlearning = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, QLEARNING_PAGE))
     assert thesis == qlearning
-    assert len(thesis) == 10
+    assert len(thesis) == 4
 
 
 def tables(page):
@@ -430,3 +435,14 @@ def anchors(page):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_a_page_names_only_what_the_repository_has(page):
     assert not NEVER_NAMED.search(page.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(("brain", "page"), [*product(("classic", "fsm"), (OPPONENTS_PAGE, THESIS_PAGE))])
+def test_an_old_machine_has_one_name_on_screens_and_pages(brain, page):
+    for language in LANGUAGES:
+        words = Words(language)
+        assert words(f"lobby.{brain}") == words(f"match.{brain}")
+    name = Words("en")(f"lobby.{brain}")
+    assert name.lower() in page.read_text(encoding="utf-8").lower()
+    assert brain in AIS["pitanks"].rivals
+    assert Words("en")("lobby.classic").lower() == RIVAL

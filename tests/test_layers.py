@@ -12,6 +12,7 @@ MAY = {
     "main": {"boot", "cli"},
     "__init__": set(),
     "__main__": {"cli"},
+    "links": set(),
     "boot": set(),
     "storage": set(),
     "sim": set(),
@@ -20,9 +21,9 @@ MAY = {
     "ai": {"sim", "storage", "games"},
     "ui": {"storage"},
     "scenes": {"sim", "storage", "ui", "games", "hardware", "ai", "events"},
-    "gym": {"sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
+    "gym": {"links", "sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
     "events": {"games", "ai", "storage"},
-    "jobs": {"boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
+    "jobs": {"links", "boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
     "cli": {"boot", "jobs"},
 }
 MODULES, FLOORS = 15, 8  # at most: in a folder, between the rooms (gym lies between scenes and jobs)

@@ -30,9 +30,10 @@ OPTIONAL = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # e
 OPTIONAL |= {"test": {"train", "hardware", "plots", "gym", "onnx", "phones"}, "bench": {"train", "gym", "bench"}}
 OPTIONAL |= {"bundle": {"train", "hardware", "phones", "events"}}
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
-    **dict.fromkeys(("robots", "calibrate", "fidelity", "--emulate", "--real"), "hardware"),
+    **dict.fromkeys(("robots", "calibrate", "fidelity", "ros", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
     **dict.fromkeys(("phones", "--phones"), "phones"),
+    "--poster": "events",
     **dict.fromkeys(("--ray", "--long"), "ray"),  # the long proofs train on several machines
 }
 EXTRA_OF_FILE = {".onnx": "onnx"}  # suffixes of files that require an extra, wherever one is named
@@ -44,12 +45,8 @@ def start(args: list[str]) -> int | None:
 
     Returns 2 if it cannot start, 130 if the installation was interrupted.
     """
-    job = "" if not args or {"-h", "--help"} & set(args) else args[0]
     try:
-        words = {arg.partition("=")[0] for arg in args}
-        optional = OPTIONAL.get(job, set()) | {EXTRA_OF_WORD[word] for word in words if word in EXTRA_OF_WORD}
-        optional |= {extra for suffix, extra in EXTRA_OF_FILE.items() if any(suffix in arg.lower() for arg in args)}
-        place = environment({ARCADE} | NEEDED.get(job, set()), optional)
+        place = environment({ARCADE} | NEEDED.get(job_of(args), set()), extras(args))
         return None if place is None else hand_over(place, args)
     except StartError as trouble:
         report(str(trouble))
@@ -57,6 +54,18 @@ def start(args: list[str]) -> int | None:
     except KeyboardInterrupt:
         report("stopped. Start it again, and it goes on from there.")
         return 130
+
+
+def job_of(args: list[str]) -> str:
+    """The job of a command line, or nothing where only its help is asked for."""
+    return "" if not args or {"-h", "--help"} & set(args) else args[0]
+
+
+def extras(args: list[str]) -> set[str]:
+    """The extras that a command line may use."""
+    found = {EXTRA_OF_WORD[word] for word in (arg.partition("=")[0] for arg in args) if word in EXTRA_OF_WORD}
+    found |= {extra for suffix, extra in EXTRA_OF_FILE.items() if any(suffix in arg.lower() for arg in args)}
+    return found | OPTIONAL.get(job_of(args), set())
 
 
 def hand_over(place: Path, args: list[str]) -> int:

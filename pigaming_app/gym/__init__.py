@@ -36,12 +36,14 @@ import os
 from itertools import accumulate
 from typing import Any
 
+from pigaming_app.links import installing
+
 try:
     _sound = os.environ.get("SDL_AUDIODRIVER")
     import gymnasium
     import pettingzoo as pettingzoo
 except ImportError as error:
-    raise ImportError(f"pigaming_app.gym needs {error.name}: pip install '.[gym]'", name=error.name) from None
+    raise ImportError(f"pigaming_app.gym needs {error.name}: {installing('gym')}", name=error.name) from None
 
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.games.registry import OURS

@@ -14,6 +14,7 @@ from pigaming_app.games.game import ALLIES, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.gym.rewards import TALLIES
+from pigaming_app.links import installing
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.rng import SEEDS, training_seed
@@ -21,7 +22,6 @@ from pigaming_app.sim.world import HZ, ROBOTS
 
 OPPONENT = "level3"  # unless others are named
 STARTS = 128  # different matches that an environment plays, unless another number is named
-INSTALL = "pip install '.[train]'"
 LEARNER = "human"  # in a setup: a seat without a brain
 
 
@@ -106,7 +106,7 @@ def task_of(
     weights = weights_of(game, rewards)
     may_compile = can_compile() and not any(kind.plain for kind in kinds)
     if compiled and not may_compile:
-        reason = "an opponent runs only uncompiled" if can_compile() else "numba is missing: " + INSTALL
+        reason = "an opponent runs only uncompiled" if can_compile() else f"numba is missing: {installing('train')}"
         raise OptionError(f"compiled: {reason}")
     fast = may_compile if compiled is None else bool(compiled)
     return Task(setup, found, learners, kinds, ticks, bool(continuous), weights, starts, fast)

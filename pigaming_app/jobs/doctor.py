@@ -21,6 +21,7 @@ from pigaming_app.boot.interpreter import requirements as listed
 from pigaming_app.boot.version import commit
 from pigaming_app.jobs.terminal.options import shared
 from pigaming_app.jobs.terminal.refusal import remedy
+from pigaming_app.links import DOWNLOAD
 from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.restarts import restarts
 from pigaming_app.storage.scores import migrations
@@ -28,7 +29,8 @@ from pigaming_app.storage.settings import Folders, NoHome, folders
 
 MIN_FREE = 200_000_000  # bytes of free disk space, below which the report has a note
 TIMEOUT = 15.0  # s for the drivers to answer
-REINSTALL = "install the package again" if INSTALLED else "get the whole folder of the program again"
+WHOLE = f"get the whole folder of the program again {DOWNLOAD}".rstrip()
+REINSTALL = "install the package again" if INSTALLED else WHOLE
 RESTART = REINSTALL if INSTALLED or FROZEN else "start main.py again"
 EXTRAS = {
     "train": "bench, duel, league and train are slow without it; the arcade does not need it",

@@ -23,5 +23,5 @@ def test_the_lobby_offers_brains_and_begins_with_a_level(game):
     assert Settings().strength in LEVELS
 
 
-def test_the_old_machine_is_offered_after_all_others():
-    assert AIS["pitanks"].rivals[-1] == "fsm"
+def test_both_state_machines_are_offered_after_all_others():
+    assert AIS["pitanks"].rivals[-2:] == ("fsm", "classic")

@@ -228,7 +228,10 @@ def test_actions_outside_the_space_are_refused():
 def test_without_the_extra_one_line_says_how_to_install_it():
     code = "import sys; sys.modules['pettingzoo'] = None; import pigaming_app.gym"
     done = subprocess.run([sys.executable, "-c", code], cwd=os.getcwd(), capture_output=True, text=True)
-    assert done.stderr.splitlines()[-1] == "ImportError: pigaming_app.gym needs pettingzoo: pip install '.[gym]'"
+    assert (
+        done.stderr.splitlines()[-1]
+        == "ImportError: pigaming_app.gym needs pettingzoo: pip install '.[gym]' in the project's folder"
+    )
 
 
 def test_every_encoding_has_an_environment():

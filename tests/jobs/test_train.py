@@ -16,6 +16,7 @@ from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.cli import main
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.i18n import Words
 from tests.disks import content, failing_at, room_for
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -39,7 +40,7 @@ def test_the_job_trains_and_prints_its_result(tmp_path, capsys):
     assert result["wins"] + result["ties"] + result["losses"] == result["measured"]
     assert "4/4 matches" in output.err
     assert "480 experiences" in output.err
-    assert "FSM" in output.err
+    assert f"{Words('en')('lobby.classic').lower()} " in output.err
     rows = list(csv.DictReader(log.read_text().splitlines()))
     assert [row["matches"] for row in rows] == ["0", "1", "2", "3", "4"]
     learner = Training(RECIPES[2], 5, fast=False, minutes=0.1)

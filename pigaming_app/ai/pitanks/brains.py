@@ -18,5 +18,5 @@ AI = GameAI(
         "net": levels.NET,
         **{level.name: level for level in levels.LEVELS},
     },
-    rivals=(*LEVELS, "q1", "q2", "fsm"),
+    rivals=(*LEVELS, "q1", "q2", "fsm", "classic"),
 )

@@ -1,4 +1,4 @@
-"""The frozen reference opponent of PiTanks: the original's finite state machine, with one addition.
+"""`classic`, the thesis robot of the lobby: the finite state machine of the thesis, frozen, with one addition.
 
 Winning or level it defends: it goes behind the nearest inner wall, waits there, and fires at an opponent in sight.
 Losing it attacks: it closes in round the walls, aims and fires. It aims without lead, never dodges, ignores pickups and

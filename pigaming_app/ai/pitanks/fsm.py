@@ -1,10 +1,8 @@
-"""The hand-written opponent of PiTanks: a finite state machine based on the original's.
+"""`fsm`, the cautious robot of the lobby: a state machine for PiTanks after the idea of the thesis.
 
 Winning or level it defends: it takes cover behind the nearest inner wall, waits, and fires at opponents in sight.
 Losing it attacks: it closes in round the walls, aims and fires. Two additions to the original: it backs out when stuck,
 and it leaves cover after a long wait in a level match, since two of them would otherwise wait for ever.
-
-The three strengths differ in reaction time, aiming error and patience, never in speed.
 """
 
 from math import pi

@@ -7,6 +7,7 @@ from importlib.util import find_spec
 
 from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.hardware.messages import OperatorError
+from pigaming_app.links import installing
 from pigaming_app.ui.i18n import english
 
 EXTRAS = {  # a module, and the package's name
@@ -84,4 +85,4 @@ def remedy(extra: str) -> str:
     """How to install an extra: `main.py` does it in a clone, pip in an installed package; a bundle stays as it is."""
     if FROZEN:
         return NOT_BUNDLED
-    return f"pip install '.[{extra}]'" if INSTALLED else FETCHED
+    return installing(extra) if INSTALLED else FETCHED

@@ -27,10 +27,11 @@ from pigaming_app.storage.safe_files import write_atomic
 SHOWN_EVERY = 0.1  # s, interval of the progress line
 MEASURES = 10  # of a training, spread evenly
 MEASURED = 10  # matches for each
+RIVAL = "the thesis robot"  # whom it meets: `classic`, as the lobby names it
 
 
 class Point(NamedTuple):
-    """State of a training; wins, ties and losses against the frozen FSM."""
+    """State of a training; wins, ties and losses against the thesis robot."""
 
     matches: int
     experiences: int
@@ -138,7 +139,7 @@ def _train(learner: training.Training, arguments: Namespace, points: list[Point]
 
 
 def _note(learner: training.Training, points: list[Point]) -> None:
-    """Append the present state of the training, with a measurement against the FSM after the first match."""
+    """Append the present state of the training, with a measurement against the thesis robot after the first match."""
     score = learner.measure(matches=MEASURED) if learner.matches else (0, 0, 0)
     pairs = int(learner.table.pairs)
     points.append(Point(learner.matches, learner.experiences, learner.temperature, learner.visited, pairs, *score))
@@ -146,7 +147,7 @@ def _note(learner: training.Training, points: list[Point]) -> None:
 
 def _show(learner: training.Training, matches: int, last: Point) -> None:
     """Print a line of progress."""
-    score = f"FSM {last.wins}-{last.ties}-{last.losses}" if last.matches else "FSM not met yet"
+    score = f"{RIVAL} {last.wins}-{last.ties}-{last.losses}" if last.matches else f"{RIVAL} not met yet"
     line = (
         f"{bar(learner.matches / matches)} {learner.matches}/{matches} matches  {learner.experiences:,} experiences  "
         f"T {learner.temperature:.3f}  {learner.visited:,} states  {score}"
@@ -155,12 +156,12 @@ def _show(learner: training.Training, matches: int, last: Point) -> None:
 
 
 def _curve_of(points: list[Point], arguments: Namespace) -> bytes:
-    """The learning curve as a PNG file: results against the FSM, states visited, temperature."""
+    """The learning curve as a PNG file: results against the thesis robot, states visited, temperature."""
     figure, score, seen = two_plots()
     matches = [point.matches for point in points]
     for word, colour in (("wins", "tab:green"), ("ties", "tab:gray"), ("losses", "tab:red")):
         shares = [getattr(point, word) / MEASURED if point.matches else float("nan") for point in points]
-        score.plot(matches, shares, color=colour, marker="o", label=f"{word} against the FSM")
+        score.plot(matches, shares, color=colour, marker="o", label=f"{word} against {RIVAL}")
     score.set(title=f"Reward {arguments.reward}, seed {arguments.seed}", ylabel="share", ylim=(-0.03, 1.03))
     score.legend()
     seen.plot(matches, [point.states for point in points], color="tab:blue", marker="o", label="states visited")
@@ -193,7 +194,7 @@ def _print(
         print(json.dumps(result))
         return
     how = "compiled" if learner.fast else "plain"
-    score = f"; {last.wins}-{last.ties}-{last.losses} of {MEASURED} against the FSM" if last.matches else ""
+    score = f"; {last.wins}-{last.ties}-{last.losses} of {MEASURED} against {RIVAL}" if last.matches else ""
     print(
         f"{learner.matches} matches, {learner.experiences:,} experiences, {learner.visited:,} states: {arguments.out}"
     )

@@ -46,7 +46,7 @@ PITCH = 76  # px from row to row, at most
 NAMES, BARS, VALUES = LEFT, (556, 1640), RIGHT  # px: left edge, ends of the longest bar, right edge
 ARROW = 20  # px
 APART, WIPE = 0.06, 0.35  # s: delay from row to row, wipe of one row
-NAMED = ("idle", "random", "classic", "hand1", "hand2", "hand3")  # AIs that no other screen names
+NAMED = ("idle", "random", "hand1", "hand2", "hand3")  # AIs that no other screen names
 CLOSING = Button.FIRE, Button.START, Button.BACK, Button.X, Button.CLICK
 
 log = logging.getLogger("pigaming")

@@ -1,4 +1,4 @@
-"""The old machines of PiTanks: they play exactly as they always did, and are never stuck."""
+"""The cautious and the thesis robot of PiTanks: they play exactly as they always did, and are never stuck."""
 
 import hashlib
 

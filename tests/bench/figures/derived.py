@@ -1,0 +1,78 @@
+"""Blocks that follow from the code."""
+
+from pigaming_app import links
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.networks import policy
+from pigaming_app.ai.registry import AIS
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.match import Match
+from pigaming_app.games.registry import games
+from pigaming_app.games.setup import make_setup
+from pigaming_app.sim.drivetrain import MM
+from pigaming_app.sim.world import HZ
+from pigaming_app.ui.i18n import Words
+from tests.bench.figures import as_markdown
+
+
+def where_to_get_it() -> str:
+    """README's sentence on where the program can be had; nothing while there is no such place."""
+    sentences = []
+    if links.DOWNLOAD:
+        sentences.append(
+            f"Or nothing at all: [download]({links.DOWNLOAD}) the program for your system, unpack it and open it "
+            "([all systems](docs/bundle.md))."
+        )
+    if links.CLONE:
+        sentences.append(f"    git clone {links.CLONE}")
+    return "\n\n".join(sentences)
+
+
+def bundles() -> str:
+    """The sentence of docs/bundle.md on the page of all bundles."""
+    if not links.DOWNLOAD:
+        return ""
+    return f"[All of them]({links.DOWNLOAD}) are on one page, with `SHA256SUMS` to check them by."
+
+
+def games_in_numbers() -> str:
+    """The table of docs/thesis.md: a column for each game."""
+    known, words = games(), Words("en")
+    rules = {
+        name: Match(make_setup(name, ["idle"] * 4, None, None, 1, None, None, ["idle"])).state.rules for name in known
+    }
+    rows = [["", *(words(f"games.{name}") for name in known)]]
+    rows.append(["rule sets", *(", ".join(f"`{rule}`" for rule in game.variants) for game in known.values())])
+    rows.append(["arenas", *(str(len(arenas(name))) for name in known)])
+    rows.append(["speed", *(f"{r.speed:g} px/s ({r.speed * MM / 1000:.2f} m/s)" for r in rules.values())])
+    rows.append(["turn rate", *(f"{r.turn_rate:g} rad/s" for r in rules.values())])
+    rows.append(["turbo", *(turbo(r) for r in rules.values())])
+    rows.append(["levels played by a network", *(levels(name, True) for name in known)])
+    rows.append(["levels written by hand", *(levels(name, False) for name in known)])
+    rows.append(["other AIs", *(others(name) for name in known)])
+    return as_markdown(rows)
+
+
+def turbo(rules: object) -> str:
+    """Factor and meter of the turbo."""
+    factor, drain, refill = (getattr(rules, f"turbo_{part}") for part in ("factor", "drain", "refill"))
+    return f"×{factor:g} for {1 / drain / HZ:g} s, refills in {1 / refill / HZ:g} s"
+
+
+def is_network(game: str, brain: str) -> bool:
+    """True if a network decides for this AI."""
+    return AIS[game].kinds[brain].think.__module__ == policy.__name__
+
+
+def levels(game: str, by_network: bool) -> str:
+    """The levels that are networks, or those that are not."""
+    return listed(level for level in LEVELS if is_network(game, level) == by_network)
+
+
+def others(game: str) -> str:
+    """The AIs besides the levels."""
+    return listed(name for name in AIS[game].kinds if name not in LEVELS)
+
+
+def listed(names: object) -> str:
+    """Names in code, or a dash."""
+    return ", ".join(f"`{name}`" for name in names) or "–"  # type: ignore[attr-defined]

@@ -1,0 +1,100 @@
+"""What `test_commands` changes in a command before it runs, and which commands it only parses, each with its reason.
+
+Commands are parsed as printed; lengths are limited afterwards. A row that fits no command fails the test.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Placeholder:
+    """A part of a command, as a regular expression, and what stands in its place."""
+
+    part: str
+    instead: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Elsewhere:
+    """Commands that are parsed only. `proof`: the file that runs them, below the project's folder."""
+
+    command: str  # a regular expression for the whole command
+    reason: str
+    proof: str
+
+
+NAME, OPTION, VALUE = "a name to fill in", "an option that may be left out", "an option without its value"
+
+PLACEHOLDERS = (
+    Placeholder(r" \[(-[^\]]*)\]", r" \1", OPTION),
+    Placeholder(r"\bGAME BRAIN BRAIN …", "pitanks idle random", NAME),
+    Placeholder(r"\bNAME hand2|\bLEFT RIGHT", "hand1 hand2", NAME),
+    Placeholder(r"\bnew-game NAME", "new-game hide", NAME),
+    Placeholder(r"\bGAME\b", "pitanks", NAME),
+    Placeholder(r"\bJOB\b", "duel", NAME),
+    Placeholder(r"\bBRAIN\b", "net", NAME),
+    Placeholder(r"path/to/file\.toml", "mine.toml", NAME),
+    Placeholder(r"--variant V\b", "--variant party", NAME),
+    Placeholder(r"--matches N\b", "--matches 400", NAME),
+    Placeholder(r"\bevent run (FILE|(?=--headless))", "event run cup.json ", NAME),
+    Placeholder(r"\breplay FILE", "replay match.replay", NAME),
+    Placeholder(r"--robots FILE", "--robots robots.toml", NAME),
+    Placeholder(r"--csv FILE --curve FILE\.png", "--csv curve.csv --curve curve.png", NAME),
+    Placeholder(r"^pigaming play …", "pigaming play --seats idle,idle --headless", "any options"),
+    Placeholder(r"^pigaming train …", "pigaming train qlearning --out any.npz", "any options"),
+    Placeholder(r"play --seats$", "play --seats level1,level2 --headless", VALUE),
+    Placeholder(r"play --record$", "play --record match.replay --seats idle,idle --headless", VALUE),
+    Placeholder(r"play --seed$", "play --seed 3 --seats idle,idle --headless", VALUE),
+    Placeholder(r"ppo --against$", "ppo --against net --out against.npz", VALUE),
+    Placeholder(r"robots --arena$", "robots --arena 4711", VALUE),
+    Placeholder(r" --resume", "", "nothing to go on from; tests/jobs/test_train.py resumes"),
+    Placeholder(r"(qlearning --set .*=0)$", r"\1 --out readings.npz", "a file that the sentence leaves out"),
+    Placeholder(r"bundle --out /media/stick", "bundle --out stick", "no stick is plugged in"),
+)
+
+MINUTES = 0.05  # of every match
+LIMITS = {  # of parsed arguments, by the end of the program's name: the same work, less of it
+    "play": {"minutes": MINUTES, "at": 1.0},
+    "duel": {"minutes": MINUTES, "matches": 2},
+    "league": {"minutes": MINUTES, "matches": 2},
+    "train qlearning": {"minutes": MINUTES, "matches": 1},
+    "train ppo": {"minutes": None, "updates": 1},
+    "tests.bench.fairness": {"matches": 4},
+    "tests.bench.network_wins": {"matches": 1, "rivals": "idle", "arenas": "classic", "variants": "party"},
+    "tests.bench.network_football": {"matches": 2},
+}
+MAY_MISS = r".*tests\.bench\..*"  # commands that end with 1 if a limit is missed, as few short matches may
+
+EMULATED = ("calibrate", "robots")  # jobs that need robots or a camera: the emulated arena stands in,
+WITHOUT_ROBOTS = ("arena", "microbit", "sheet", "wifi_config")  # but not with these options, which need neither
+
+MINUTES_LONG = "it takes minutes"
+ELSEWHERE = (
+    Elsewhere(r"(python3 main\.py )?(test|bundle)\b.*", MINUTES_LONG, ".ci/run"),
+    Elsewhere(r"(python3 main\.py )?bench robots\b.*", MINUTES_LONG, "tests/jobs/test_bench_robots.py"),
+    Elsewhere(r"(python3 main\.py )?bench (?!robots|phones).*", MINUTES_LONG, "tests/jobs/test_bench_yardsticks.py"),
+    Elsewhere(r".*(--plant ros|main\.py ros)\b.*|roscore &", "it needs ROS", "tests/hardware/ros/test_ros.py"),
+    Elsewhere(r".* --ray .*|ray start .*|.*ray_speedup", "it needs Ray", "tests/ai/ppo/test_ray_workers.py"),
+    Elsewhere(r".*--radio udp\b.*", "boards run MicroPython", "tests/hardware/emulator/test_boards.py"),
+    Elsewhere(r".*robots --radio-setup .*", "a radio on a cable", "tests/jobs/test_robots.py"),
+    Elsewhere(r".*robots\b.*--(pair|latency|wheels).*", "half a minute of driving", "tests/jobs/test_robots.py"),
+    Elsewhere(r".*fidelity (record|identify|replay)\b.*", "a minute of driving", "tests/jobs/test_robots.py"),
+    Elsewhere(r".*calibrate --emulate .*--json.*", "half a minute of pictures", "tests/jobs/test_calibrate.py"),
+    Elsewhere(r".*play pitanks --real .*", "robots take their places first", "tests/jobs/test_bench_robots.py"),
+    Elsewhere(r".*tests\.golden( --write)?", "a minute; it may change what tests compare with", "tests/test_golden.py"),
+    Elsewhere(r".*tests\.bench\.open_day.*", MINUTES_LONG, "tests/bench/test_open_day.py"),
+    Elsewhere(
+        r".*tests\.bench\.(detection|makespan|reference_lap|network_races|levels)\b.*", MINUTES_LONG, "tests/bench"
+    ),
+    Elsewhere(r".*tests\.bench\.reproduce_table.*", MINUTES_LONG, "tests/bench/test_reproduce_table.py"),
+    Elsewhere(r".*tests\.bench\.figures.*", "an hour", "tests/pages/test_figures.py"),
+    Elsewhere(r".*tests\.pages\.pictures", "it writes into the project", "tests/pages/test_pictures.py"),
+    Elsewhere(r"python3 examples/ppo_torch\.py .*", "it needs PyTorch", "examples/ppo_torch.py"),
+    Elsewhere(r"(pip|pipx|uvx|uv) .*", "packages are fetched", "tests/test_package.py"),
+    Elsewhere(r"sudo .*", "packages of the system", ".ci/run"),
+    Elsewhere(r"cd pigaming_app/hardware/firmware|make.*", "a compiler and a robot", "tests/hardware/firmware"),
+    Elsewhere(r"mpremote .*", "a board on a cable", "tests/hardware/emulator/test_boards.py"),
+)
+
+FORMULAS = ("expected = ", "Q(s, a) += ")  # beginnings of lines set off like commands

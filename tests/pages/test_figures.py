@@ -1,0 +1,138 @@
+"""Blocks that a program writes: derived ones are those of the code, and measured ones have its rows and columns."""
+
+import re
+from itertools import pairwise
+
+import pytest
+
+from pigaming_app import links
+from tests.bench.figures import as_markdown, on_page, pattern, write
+from tests.bench.figures.derived import bundles, where_to_get_it
+from tests.bench.figures.registry import DERIVED, MEASURED
+from tests.bench.figures.seeds import BINS, counted
+from tests.pages.commands import PAGES, ROOT
+
+SMALL = 0.01  # share of the work
+BY_HAND = {  # tables that their bench prints in another form, by their page and the beginning of their head
+    "football.md": ("| against | `level1`", "| `level5` | `standard`"),
+    "hardware.md": ("| | measured | target |", "| after | 1 s", "| | 1080p from above"),
+    "networks.md": (
+        "| fewest wins of 400",
+        "| Race, `network_races",
+        "| | `party` | `classic`",
+        "| trained | rival wins |",
+    ),
+    "opponents.md": ("| | four, `pickups`", "| | seconds |", "| | classic | hairpin", "| four pallets, two robots"),
+    "qlearning.md": ("| wins / ties / losses",),
+}
+
+
+@pytest.mark.parametrize("name", DERIVED)
+def test_a_derived_block_is_that_of_the_code(name: str) -> None:
+    block = DERIVED[name]
+    renew = f"python -m tests.bench.figures --only {name} --write"
+    assert on_page(block.page, name) == block.text(), renew
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_a_measured_block_names_a_version_and_its_command(name: str) -> None:
+    block = MEASURED[name]
+    first = on_page(block.page, name).partition("\n")[0]
+    assert re.fullmatch(rf"Version \d+\.\d+\.\d+( to \d+\.\d+\.\d+)?, `{re.escape(block.command)}`:", first)
+
+
+@pytest.mark.parametrize("name", [name for name in MEASURED if name != "seeds"])
+def test_a_measured_block_has_the_rows_and_columns_of_its_program(name: str) -> None:
+    block = MEASURED[name]
+    assert outline(on_page(block.page, name)) == outline(as_markdown(block.table(SMALL)))
+
+
+def test_the_histogram_counts_every_seed_once() -> None:
+    one, two = [0, 0, 1, 20, 100], [21, 55, 99, 80, 41]
+    head, *body = counted(one, two)
+    assert [int(row[1]) for row in body] == [2, 2, 0, 0, 0, 0, 1]
+    assert [int(row[3]) for row in body] == [0, 0, 1, 2, 1, 1, 0]
+    assert BINS[0][0] == 0
+    assert BINS[-1][1] == 100
+    assert all(high + 1 == low for (_, high), (low, _) in pairwise(BINS))
+    assert outline(on_page(MEASURED["seeds"].page, "seeds")) == outline(as_markdown([head, *body]))
+
+
+def outline(text: str) -> tuple[list[str], list[str], set[int]]:
+    """Head, first column, and number of cells a row, of the table in a text."""
+    head, _, *body = [
+        [cell.strip() for cell in line.strip("|").split("|")] for line in re.findall(r"^\|.*$", text, re.M)
+    ]
+    return head, [row[0] for row in body if not row[0][:1].isdigit()], {len(row) for row in (head, *body)}
+
+
+def test_every_block_of_a_page_is_registered() -> None:
+    known = {(block.page, name) for name, block in {**DERIVED, **MEASURED}.items()}
+    found = set()
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        marks = re.findall(r"^<!-- (.*?) -->$", text, re.M)
+        assert marks[1::2] == ["end"] * (len(marks) // 2), page
+        found |= {(page.relative_to(ROOT).as_posix(), name) for name in marks[::2]}
+    assert found == known
+
+
+def test_a_table_below_a_command_that_measures_is_a_block() -> None:
+    measures = re.compile(r"tests\.bench\.|main\.py (duel|league|bench)\b|figures of version", re.I)
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        for name in re.findall(r"^<!-- (?!end)(.*?) -->$", text, re.M):
+            text = pattern(name).sub("", text, count=1)
+        for before, table in pairwise(text.split("\n\n")):
+            if (
+                table.startswith("|")
+                and not before.startswith("    ")
+                and not table.startswith(BY_HAND.get(page.name, ()))
+            ):
+                assert not measures.search(before), f"{page.name}: {table.splitlines()[0]}"
+
+
+def test_no_place_is_mentioned_that_does_not_exist(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert (where_to_get_it(), bundles()) == ("", "") or links.DOWNLOAD or links.CLONE
+    if not links.DOWNLOAD:
+        for page in PAGES:
+            text = page.read_text(encoding="utf-8")
+            assert not re.search(r"\[[^\]]*download[^\]]*\]\(http|releases/", text, re.I), page
+            assert "git clone" not in text or links.CLONE, page
+    monkeypatch.setattr(links, "DOWNLOAD", "https://example.org/pigaming")
+    monkeypatch.setattr(links, "CLONE", "https://example.org/pigaming.git")
+    assert "[download](https://example.org/pigaming)" in where_to_get_it()
+    assert "    git clone https://example.org/pigaming.git" in where_to_get_it()
+    assert "https://example.org/pigaming" in bundles()
+
+
+def test_a_place_is_written_in_one_file_only() -> None:
+    addresses = re.compile(r"https?://[\w./-]*pigaming", re.I)
+    ours = [
+        *PAGES,
+        *(ROOT / "pigaming_app").rglob("*.py"),
+        *(ROOT / "assets/text").glob("*.toml"),
+        ROOT / "pyproject.toml",
+    ]
+    assert [
+        str(file) for file in ours if file.name != "links.py" and addresses.search(file.read_text(encoding="utf-8"))
+    ] == []
+
+
+def test_a_block_is_written_into_its_page_and_nothing_else(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tests.bench.figures.ROOT", tmp_path)
+    file = tmp_path / "a.md"
+    file.write_text("before\n<!-- one -->\nold\n<!-- end -->\nafter\n<!-- two -->\n<!-- end -->\n", encoding="utf-8")
+    write("a.md", "one", "new\nlines")
+    write("a.md", "two", "")
+    text = file.read_text(encoding="utf-8")
+    assert text == "before\n<!-- one -->\nnew\nlines\n<!-- end -->\nafter\n<!-- two -->\n<!-- end -->\n"
+    assert (on_page("a.md", "one"), on_page("a.md", "two")) == ("new\nlines", "")
+
+
+def test_readme_is_short_and_begins_with_two_commands() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 110
+    assert re.findall(r"^    (\S.*?)(?:  .*)?$", text, re.M) == ["python3 main.py", "python3 main.py test"]
+    assert not re.search(r"hand[0-9*]|39th|44th", text)
+    assert not re.search(r"\b(cost|about) \d+ (each|a )", text), "prices have a currency"
