@@ -76,7 +76,7 @@ def samples(
             place = np.array([(x + WIDTH / 2 * (robot % 2), y + HEIGHT / 2 * (robot // 2))]) + ARENA_AT
             cv2.circle(image, (round(place[0, 0]), round(place[0, 1])), round(DISC), GREY, -1)
             (x, y), heading = optics.mat(place)[0].tolist(), random.uniform(0.0, tau)
-            ways = [SPEED * exposure * (i / (STEPS - 1) - 0.5) for i in range(STEPS)]
+            ways = [SPEED * exposure * ((i + 0.5) / STEPS - 0.5) for i in range(STEPS)]
             poses = tuple((x + way * cos(heading), y + way * sin(heading), heading) for way in ways)
             pace = SPEED * READOUT / SENSOR[1]
             slant = pace * cos(heading), pace * sin(heading)

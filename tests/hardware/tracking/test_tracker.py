@@ -9,6 +9,7 @@ cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker  # noqa: E402
 from pigaming_app.hardware.tracking.tracker import Tracker  # noqa: E402
+from pigaming_app.hardware.vision.markers import ROBOT_IDS  # noqa: E402
 from tests.hardware.grounds import nominal  # noqa: E402
 from tests.hardware.pictures import SIZE, lids, speckled, square  # noqa: E402
 
@@ -193,3 +194,13 @@ def test_a_picture_without_robots_costs_nothing_but_time(wide):
     for frame in range(3):
         assert tracker.process(CameraFrame(noise, frame * 0.1, frame)) == []
     assert tracker.process(CameraFrame(np.zeros((8, 8), np.uint8), 1.0, 9)) == []
+
+
+def test_markers_of_older_sheets_still_work_and_are_told():
+    mat = Mat([0, 1])
+    new = (1300.0, 250.0, 2.5)
+    assert mat.show({0: (300.0, 200.0, 0.4), ROBOT_IDS[1]: new}, 3) == {0, 1}
+    assert mat.away(1, new)[0] < 1.0
+    assert mat.tracker.old_markers == {0: 0}
+    mat.show({0: (300.0, 200.0, 0.4), ROBOT_IDS[0]: (900.0, 600.0, 0.4)}, 8)
+    assert mat.tracker.duplicates() == {0}, "two robots 1, one with an old marker"

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.hardware.calibration.quality import CameraQuality, assessed
+from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.calibration.site import Measurements
 from pigaming_app.hardware.calibration.solver import Residuals
 from pigaming_app.hardware.messages import OperatorMessage
@@ -17,14 +17,18 @@ from tests.hardware.grounds import nominal
 from tests.scenes.arcade import Arcade
 
 KNOWN = ExposureState(1 / 60, 1 / 30, 120.0, False, True)
+SHARP = CameraQuality(1 / 60, 120.0, 28.0, 0.8, 1.0, False, 0.99)
 PICTURES: dict[str, tuple[CameraQuality, ExposureState]] = {
-    "sharp": (assessed(28.0, 0.8, KNOWN), KNOWN),
-    "blurred": (assessed(28.0, 12.4, KNOWN), KNOWN),
-    "smeared": (assessed(28.0, 0.8, KNOWN._replace(seconds=1 / 30)), KNOWN._replace(seconds=1 / 30)),
-    "tiny": (assessed(12.0, 0.8, KNOWN), KNOWN),
-    "small": (assessed(18.0, 0.5, KNOWN), KNOWN),
-    "dark": (assessed(28.0, 0.8, KNOWN), KNOWN._replace(dark=True)),
-    "unknown": (assessed(28.0, 0.8, ExposureState()), KNOWN._replace(seconds=None)),
+    "sharp": (SHARP, KNOWN),
+    "blurred": (replace(SHARP, blur_px=12.4, detection=0.0, old_detection=0.0, cause="finds_blurred"), KNOWN),
+    "smeared": (
+        replace(SHARP, exposure=1 / 30, detection=0.4, old_detection=0.6, cause="finds_smeared"),
+        KNOWN._replace(seconds=1 / 30),
+    ),
+    "tiny": (replace(SHARP, marker_px=12.0, detection=0.5, old_detection=0.2, cause="finds_small"), KNOWN),
+    "small": (replace(SHARP, marker_px=18.0, blur_px=0.5), KNOWN),
+    "dark": (SHARP, KNOWN._replace(dark=True)),
+    "unknown": (replace(SHARP, exposure=0.0), KNOWN._replace(seconds=None)),
 }
 
 
