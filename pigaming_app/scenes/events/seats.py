@@ -110,7 +110,10 @@ class Seats:
 
     def jobs(self) -> Iterator[Callable[[], object]]:
         """The cards, one by one."""
-        for seat, name in enumerate(self.fixture.entrants if self.fixture else ()):
+        fixture = self.fixture
+        for seat, name in enumerate(fixture.entrants if fixture else ()):
+            if self.fixture is not fixture:
+                return  # another match has become the next one
             brain = self.running.brain(name)
             yield partial(view.frame, seat, name, *self._driver(seat, brain), view.AI if brain else view.WANTED)
 
