@@ -13,7 +13,7 @@ from pigaming_app.jobs.terminal import refusal
 from pigaming_app.storage.settings import Settings, folders
 
 ROOT = Path(__file__).resolve().parents[1]
-SHORT = ["--headless", "--speed", "max", "--minutes", "0.1", "--seats", "fsm,easy,off,off"]
+SHORT = ["--headless", "--speed", "max", "--minutes", "0.1", "--variant", "pickups", "--seats", "fsm,easy,off,off"]
 
 
 @pytest.fixture(autouse=True)
@@ -29,7 +29,7 @@ def test_a_match_without_a_window_tells_its_result(capsys):
 
 
 def test_rounds_are_played_until_one_side_has_won_most(capsys):
-    words = "play pitanks --rounds 3 --minutes 0.05 --headless --speed max --seats hard,idle --json"
+    words = "play pitanks --variant pickups --rounds 3 --minutes 0.05 --headless --speed max --seats hard,idle --json"
     assert main(words.split()) == 0
     result = json.loads(capsys.readouterr().out)
     assert 2 <= len(result["rounds"]) <= 3
@@ -39,7 +39,7 @@ def test_rounds_are_played_until_one_side_has_won_most(capsys):
 
 
 def test_a_round_lasts_a_minute(capsys):
-    words = "play pitanks --rounds 3 --headless --speed max --seats random,idle --json"
+    words = "play pitanks --variant pickups --rounds 3 --headless --speed max --seats random,idle --json"
     assert main(words.split()) == 0
     result = json.loads(capsys.readouterr().out)
     assert result["match_seconds"] == pytest.approx(60.0 * len(result["rounds"]))

@@ -114,9 +114,9 @@ class DayLog:
         """Delete the files of days more than KEPT_DAYS ago, and those of arcades that crashed."""
         if self.folder is None:
             return
-        for path in self.folder.glob(f"{RUNNING}*"):
-            if not is_held(path):
-                with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError):
+            for path in self.folder.glob(f"{RUNNING}*"):
+                if not is_held(path):
                     path.unlink()
         for day in days(self.folder.parent):
             if day < today - timedelta(days=KEPT_DAYS):

@@ -86,8 +86,9 @@ def test_a_round_of_several_is_neither_a_match_nor_left() -> None:
 
 
 def test_the_report_of_the_arcade_is_compared_line_by_line(tmp_path: Path) -> None:
-    log = DayLog(tmp_path)
-    for what, at in (("start", 0.0), ("start", 300.0), ("end", 7200.0)):
+    killed, log = DayLog(tmp_path), DayLog(tmp_path)
+    killed.add(ProgramEvent(time_of(0.0), "start"))
+    for what, at in (("start", 300.0), ("end", 7200.0)):
         log.add(ProgramEvent(time_of(at), what))
     matches = [logged(10), logged(4000), logged(5000), logged(6000, complete=False)]
     for match in matches:

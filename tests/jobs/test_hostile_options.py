@@ -152,8 +152,8 @@ def test_every_match_that_can_be_asked_for_has_a_replay_that_is_proven(here, cap
     (here / "é\n.toml").write_text((ASSETS / "arenas/pitanks/classic.toml").read_text() + "# é\n" * 15_000)
     for more in (
         ["--teams", "3,1,0,2"],
-        ["--seed", str(-(2**63) + 1)],
-        ["--seed", str(2**63 - 1)],
+        ["--seed", str(-(2**60))],
+        ["--seed", str(2**60 - 1)],
         ["--arena", "é\n.toml"],
         ["--minutes", "0.0501"],
     ):

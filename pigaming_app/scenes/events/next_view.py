@@ -59,12 +59,12 @@ def frame_steps(seat: int, name: str, sign: str, driver: str, state: str) -> Ste
     else:
         panel(layer.glow, 0, 0, W, H, color, LINE if state == TAKEN else THIN)
     badge(layer.glow, seat, 68, 70, 34)
-    icon(layer.glow, sign, 154, 70, 30, MIST, 4)
+    icon(layer.glow, sign, 144, 70, 30, MIST, 4)
     if driver and all(mark in ARROWS for mark in driver):
         for i, mark in enumerate(driver):
-            icon(layer.glow, ARROWS[mark], 224 + 44 * i, 70, 15, MIST, 5)
+            icon(layer.glow, ARROWS[mark], 210 + 44 * i, 70, 15, MIST, 5)
     else:
-        layer.canvas.body(driver, 206, 70, MIST, "l", fit_size(driver, BODY, W - 230, "body"))
+        layer.canvas.body(driver, 188, 70, MIST, "l", fit_size(driver, BODY, W - 206, "body"))
     name, size = fit_text(name, TITLE, W - 56, "hero", LABEL)
     layer.canvas.text(name, size, MIDDLE, NAME_Y, ICE, "hero", "c")
     yield

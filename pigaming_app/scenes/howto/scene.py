@@ -84,7 +84,7 @@ class HowTo:
         screen.blit(backdrop(), (0, 0))
         heading(words("title.howto")).draw(screen)
         for game, box in self._names():
-            chip(words(f"games.{game}"), box.w, "on" if game == self.game else "off").draw(screen, *box.topleft)
+            chip(words(f"events.short_{game}"), box.w, "on" if game == self.game else "off").draw(screen, *box.topleft)
         button_label("<>").draw(screen, self._names()[0][1].left - GAP - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
         black_out(screen, *boxes)
@@ -147,7 +147,7 @@ class HowTo:
         """
         words, games = self.context.words, taught()
         room = RIGHT - LEFT - text_width(words("title.howto"), TITLE) - 2 * GAP - button_width("<>")
-        widths = {game: chip_width(words(f"games.{game}")) for game in games}
+        widths = {game: chip_width(words(f"events.short_{game}")) for game in games}
         while sum(widths[game] + 16 for game in games) - 16 > room and len(games) > 1:
             games.pop(0 if games.index(self.game) > len(games) // 2 else -1)
         boxes, right = [], RIGHT

@@ -182,7 +182,7 @@ def test_nobody_is_stuck(arena):
 
 def test_strengths_are_ordered():
     for better, worse in (("hand3", "hand2"), ("hand2", "hand1"), ("hand1", "random")):
-        result = duel("pitanks", better, worse, matches=6, seed=100, minutes=1.0, fast=False)
+        result = duel("pitanks", better, worse, 6, 100, minutes=1.0, variant="pickups", fast=False)
         assert result.wins > result.losses, (better, worse)
 
 

@@ -162,14 +162,14 @@ def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arc
     _, xbox = plug(arcade, pads)
     plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
     plug(arcade, pads, plain=True)
-    for language, space in (("en", "SPACE"), ("pt", "ESPAÇO")):
+    for language, space, control in (("en", "SPACE", "R CTRL"), ("pt", "ESPAÇO", "CTRL DIR")):
         arcade.context.words.switch(language)
         page = Lobby(arcade.context, "pitanks")
-        assert page.page.invited == ("A", "Cross", "1", space, "R CTRL", "U", "0")
+        assert page.page.invited == ("A", "Cross", "1", space, control, "U")
         assert len(lobby.card.rows_of(page.page.invited)) == 2, "they fit on a card"
         page.seats.join(xbox)
         page.seats.join(KEYS[1])
-        assert page.page.invited == ("Cross", "1", space, "U", "0")
+        assert page.page.invited == ("Cross", "1", space, "U")
 
 
 def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
@@ -503,7 +503,7 @@ def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(ar
     assert scene.call_text == ("Press {button} to play", "SPACE")
     tap(arcade, pad, "down")
     assert arcade.context.controls.last == device
-    assert scene.call_text == ("Ladder: press {button}", "Cross")
+    assert scene.call_text == ("How to play: press {button}", "Cross")
     pad.unplug()
     arcade.frame()
     assert scene.call_text[1] == "SPACE", "not the button of a pad that is gone"

@@ -137,14 +137,14 @@ def test_the_other_ais_follow_the_strongest_one_and_play(arcade: Arcade) -> None
     arcade.press(Button.FIRE)
     arcade.press(Button.Y)
     arcade.press(Button.DOWN)
-    for wanted in ("level4", "level5", "q1", "q2", "fsm", "fsm"):
+    for wanted in ("level4", "level5", "q1", "q2", "fsm", "classic", "classic"):
         arcade.press(Button.RIGHT)
         assert arcade.shown(Lobby).seats.places[1].strength == wanted
         arcade.frame(draw=True)
     assert arcade.context.settings.strength == "level5"
     arcade.press(Button.START)
     arcade.press(Button.START)
-    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["human", "fsm", "off", "off"]
+    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["human", "classic", "off", "off"]
 
 
 def test_left_and_right_choose_the_team_and_a_match_needs_two_teams(arcade: Arcade) -> None:

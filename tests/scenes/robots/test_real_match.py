@@ -46,7 +46,8 @@ def match_for(game: str, brains: str, minutes: float) -> Setup:
     rules = games()[game]
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), rules.default.teams, strict=True))
     seats = (one, two, three, four)
-    return Setup(game, arenas(game)[0], seats, minutes, 3, rules.default.name, rules.default.default_goal)
+    variant = rules.variants["pickups"] if game == "pitanks" else rules.default  # without overtime
+    return Setup(game, arenas(game)[0], seats, minutes, 3, variant.name, variant.default_goal)
 
 
 def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
