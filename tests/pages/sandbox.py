@@ -101,7 +101,8 @@ class Sandbox:
         """0 if a command of ours accepts its words; of others, those that install this project are looked at."""
         if words[0] in ("pip", "pipx", "uv", "uvx"):
             return int(not is_installable(words))
-        if not {"main.py", "pigaming", "-m"} & {*words} and words[0] not in cli.JOBS:
+        foreign = words[1:3] == ["-m", "pip"] or not {"main.py", "pigaming", "-m"} & {*words}
+        if foreign and words[0] not in cli.JOBS:
             return 0
         if "-m" in words and "parse_args" not in source_of(words[words.index("-m") + 1]):
             return 0
