@@ -26,6 +26,7 @@ STICK = 0.3  # deflection from which the stick drives
 BACK = 80.0  # px from the place where the robot left the course to the requested pose
 MARGIN = 15.0  # px, least distance past the last line, as far as the robot has driven it
 STEP, STEPS = 24.0, 10  # px between tried poses, and their number, while robots stand there
+BESIDE = 90.0  # px from the edge of the course, within which a robot in the mud still drives along it
 ARRIVED = 60.0  # px from the requested pose, within which a robot that drives there has arrived
 
 
@@ -35,7 +36,7 @@ def detect_lost(match: Any, k: int) -> None:
     robot, racer = match.robots[k], match.racers[k]
     here, gap = stretch(match, racer)
     way = distance_ahead(match.course, here, racer.place.along)
-    if racer.place.on and not racer.missed and way <= gap:
+    if not racer.missed and way <= gap and (racer.place.on or drives_beside(match, racer, way)):
         racer.left = racer.place.along
     with_way = cos(robot.heading) * racer.place.tangent_x + sin(robot.heading) * racer.place.tangent_y
     racer.backward = racer.backward + 1 if with_way < BACKWARD and not racer.spin else 0
@@ -54,6 +55,14 @@ def detect_lost(match: Any, k: int) -> None:
         racer.lost = WRONG_WAY
     elif racer.still >= STILL_TICKS:
         racer.lost = STUCK
+
+
+@kernel
+def drives_beside(match: Any, racer: Any, way: float) -> bool:
+    """True if a robot in the mud still drives along the course that it has left, and does not cut across."""
+    step = way - way_driven(match, racer)
+    near: bool = abs(racer.place.aside) - racer.place.half < BESIDE
+    return near and -match.rules.carried < step < match.rules.carried
 
 
 @kernel

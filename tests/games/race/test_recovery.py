@@ -113,7 +113,7 @@ def test_after_a_missed_line_it_is_put_before_where_it_left_its_way_and_the_lap_
     assert racer.lost == MISSED_LINE
     press(ride.match)
     assert robot.recover == 1
-    left = two - 100.0
+    left = two  # beside the course, round the end of the line
     assert (robot.recover_x, robot.recover_y) == pytest.approx(point_at(ride.course, left - BACK, 0.0), abs=20.0)
     ride.along(0, left - BACK, three + 30.0)
     assert (racer.missed, racer.passed, robot.recover) == (0, 3, 0)

@@ -234,7 +234,7 @@ def test_distance_past_a_missed_line_is_no_progress():
     ride.along(0, two - 100.0, two + 100.0, aside=140.0)
     ride.along(0, two + 100.0, three + 60.0)
     assert ride.racers[0].missed
-    assert ride.racers[0].progress == pytest.approx(two - 100.0 - one, abs=20.0), "where it left the course"
+    assert two - one - 12.0 < ride.racers[0].progress <= two - one
 
 
 @pytest.mark.parametrize("track", TRACKS)

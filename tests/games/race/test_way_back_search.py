@@ -19,6 +19,7 @@ from tests.games.race.test_laps import judged
 from tests.games.rails import IN_ORDER
 
 JUMP = 40.0  # px in a tick, more than any robot drives
+BESIDE = 90.0  # px from the edge, in the mud along the course
 ROUNDING = 3.0  # px, between two ways of measuring along a ring of points
 LUCK = 150.0  # px that one hill climb may find and another miss: half a second
 TICKS = 500
@@ -73,11 +74,11 @@ class Referee:
         self.driven: dict[int, float] = {}  # by lines counted: furthest place past the last that it drove to, px
 
     def along(self, x, y):
-        """Place along the course, px, and whether (x, y) is on it."""
-        nearest, place, on = inf, 0.0, False
+        """Place along the course, px, and how far beyond its edge (x, y) lies, px."""
+        nearest, place = inf, 0.0
         step = self.length / len(self.points)
         for k, (ax, ay, half) in enumerate(self.points):
-            if abs(ax - x) > 200.0 or abs(ay - y) > 200.0:
+            if abs(ax - x) > 300.0 or abs(ay - y) > 300.0:
                 continue
             bx, by, other = self.points[(k + 1) % len(self.points)]
             share = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
@@ -85,8 +86,8 @@ class Referee:
             gap = hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y)
             width = half + share * (other - half)
             if gap - width < nearest:
-                nearest, place, on = gap - width, (k + share) * step, gap <= width
-        return place, on
+                nearest, place = gap - width, (k + share) * step
+        return place, nearest
 
     def way(self, passed, along):
         """Distance from the last counted line, px; negative before it, and None between the next line and that one."""
@@ -95,15 +96,15 @@ class Referee:
         return way if way <= (following - last) % self.length + ROUNDING else None
 
     def drove(self, passed, x, y):
-        along, on = self.along(x, y)
-        way = self.way(passed, along)
-        if way is not None and on:
-            self.driven[passed] = max(way, self.driven.get(passed, 0.0))
+        along, beyond = self.along(x, y)
+        way, driven = self.way(passed, along), self.driven.get(passed, 0.0)
+        if way is not None and (beyond <= 0.0 or (beyond < BESIDE and way < driven + JUMP)):
+            self.driven[passed] = max(way, driven)
 
     def put(self, passed, x, y):
         """Assert that a robot was put no further along than it had driven."""
-        along, on = self.along(x, y)
-        assert on
+        along, beyond = self.along(x, y)
+        assert beyond <= 0.0
         way = self.way(passed, along)
         if way is not None:
             assert way <= self.driven.get(passed, 0.0) + ROUNDING, "FIRE put it further along than it had driven"
