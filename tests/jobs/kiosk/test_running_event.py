@@ -72,7 +72,19 @@ def data(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def an_event(file: Path, brain: str = "level1") -> Path:
     file.parent.mkdir(parents=True, exist_ok=True)
     entrants = tuple(Entrant(name, brain) for name in ("ANA", "BEA", "EVA"))
-    save(file, Event(EventSpec("Cup", Format.ROUND_ROBIN, ("pitanks",), entrants, minutes={"pitanks": 0.05})))
+    save(
+        file,
+        Event(
+            EventSpec(
+                "Cup",
+                Format.ROUND_ROBIN,
+                ("pitanks",),
+                entrants,
+                minutes={"pitanks": 0.05},
+                variants={"pitanks": "pickups"},
+            )
+        ),
+    )
     return file
 
 
@@ -136,7 +148,8 @@ MatchRunner.prewarm = lambda runner, milliseconds: True
 
 file, kills = Path(sys.argv[1]), int(sys.argv[2])
 entrants = tuple(Entrant(name, "random") for name in ("ANA", "BEA", "EVA", "IDA", "LIA"))
-new = Event(EventSpec("Cup", Format.ROUND_ROBIN, ("pitanks",), entrants, rounds=2, minutes={"pitanks": 0.1}))
+rules, minutes = {"pitanks": "pickups"}, {"pitanks": 0.1}
+new = Event(EventSpec("Cup", Format.ROUND_ROBIN, ("pitanks",), entrants, rounds=2, variants=rules, minutes=minutes))
 chance = random.Random(int(sys.argv[3]))
 FRAMES = 80  # about as many as a match takes, with what follows it
 

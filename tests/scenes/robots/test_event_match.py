@@ -25,7 +25,9 @@ def page(arcade: Arcade, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Nex
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     event = an_event(brains="level1")
     arcade.context.settings.real = [1, 2]
-    page = NextMatch(arcade.context, running(Event(replace(event.spec, minutes={"pitanks": 0.05}))))
+    page = NextMatch(
+        arcade.context, running(Event(replace(event.spec, minutes={"pitanks": 0.05}, variants={"pitanks": "pickups"})))
+    )
     arcade.open(page)
     arcade.wait(INPUT_LOCKOUT + 0.1)
     return page
