@@ -162,10 +162,13 @@ def _sticks(session: RosSession) -> Callable[[int, bool], StickState | None]:
 
 
 def _projected(canvas: Canvas, window: pygame.Surface) -> object:
-    """The pixels projected onto the emulated mat: with bars cropped, or the whole window of a pinned picture."""
+    """The pixels projected onto the emulated mat: with bars cropped, or the whole window of a pinned picture.
+
+    A copy: a view that somebody keeps would lock the surface.
+    """
     from pigaming_app.ui.draw.pixels import pixels_of
 
-    return pixels_of(window if canvas.corners else canvas.screen)
+    return pixels_of(window if canvas.corners else canvas.screen).copy()
 
 
 def _save(record: Settings | Scores, folder: Path) -> None:

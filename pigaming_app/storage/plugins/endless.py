@@ -64,11 +64,15 @@ class Overseer:
     def _work(self) -> None:
         while True:
             time.sleep(LIMIT / 20)
-            frames = sys._current_frames()
-            for thread in self._running.keys() - frames.keys():
-                del self._running[thread]
-            for thread, frame in frames.items():
-                self._look(thread, frame)
+            self._look_round()
+
+    def _look_round(self) -> None:
+        """Look at all threads. No frame is kept: its variables, such as views that lock a surface, would live on."""
+        frames = sys._current_frames()
+        for thread in self._running.keys() - frames.keys():
+            del self._running[thread]
+        for thread, frame in frames.items():
+            self._look(thread, frame)
 
     def _look(self, thread: int, frame: FrameType) -> None:
         """Note what a thread runs; end it if it is still the same after LIMIT."""
