@@ -103,7 +103,7 @@ def keypad(name: str) -> LitImage:
     """The picture of the keypad and its name, beside the upper key of its card."""
     layer = Layer(0, 0, W, 100)
     icon(layer.glow, "keypad", 58, 58, 34, MIST, 3)
-    layer.canvas.body(name, W - 4, 18, MIST, "r", fit_size(name, 32, W - 194, "body"))
+    layer.canvas.body(name, W - 4, 18, MIST, "r", fit_size(name, 32, W - 187, "body"))
     return layer.render()
 
 
@@ -125,8 +125,9 @@ def cap(label: str, w: int, h: int, down: bool) -> LitImage:
     if label in ARROWS:
         icon(layer.glow, ARROWS[label], w / 2, h / 2, 18, color, LINE)
     else:
-        lines = label.split(" ") if fit_size(label, BODY, w - 20) < SMALLEST else [label]
-        size = min(fit_size(line, BODY if len(lines) == 1 else SMALLEST, w - 20) for line in lines)
+        is_long = text_width(label, BODY) > (w - 20) / 0.8
+        lines = label.split(" ") if is_long else [label]
+        size = min(fit_size(line, SMALLEST if is_long else BODY, w - 20) for line in lines)
         for i, line in enumerate(lines):
             middle = h / 2 + 30 * (i - (len(lines) - 1) / 2)
             layer.canvas.crisp.text(line, size, w / 2, middle, color, "head", "c")
