@@ -5,7 +5,6 @@ import os
 import pickle
 import random
 import secrets
-import signal
 import tempfile
 import threading
 import time
@@ -70,14 +69,6 @@ def _the_same_seeds_in_every_run(request: pytest.FixtureRequest, monkeypatch: py
     monkeypatch.setattr(secrets, "randbelow", chance.randrange)
     monkeypatch.setattr(secrets, "choice", chance.choice)
     random.seed(chance.random())
-
-
-@pytest.fixture(autouse=True)
-def _signals_as_they_were() -> Iterator[None]:
-    """`main.py` blocks Ctrl-C until a job can answer it; processes that later tests start would inherit that."""
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, ())
-    yield
-    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,14 @@ pytestmark = [
 
 ROOT = Path(__file__).resolve().parents[3]
 LONG = 60.0  # s, for whatever must come: the machine may be busy
+
+
+@pytest.fixture(autouse=True)
+def _ctrl_c_arrives() -> Iterator[None]:
+    """`main.py test` blocks Ctrl-C for the processes that it starts, and these for theirs."""
+    mask = signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    yield
+    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
 
 class Quick:
