@@ -9,7 +9,7 @@ from datetime import date, datetime, time, timedelta
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.events.day_log import Battery, PlayedMatch, ProgramEvent, Record, days, now, read_day, runs
+from pigaming_app.storage.day_log import Battery, PlayedMatch, ProgramEvent, Record, days, now, read_day, runs
 
 COLUMNS = ("start", "game", "seconds", "people", "ais", "robots")
 

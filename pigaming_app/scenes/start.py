@@ -15,7 +15,6 @@ from typing import IO, TYPE_CHECKING, Any
 import pygame
 
 from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
-from pigaming_app.events.day_log import DayLog
 from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
@@ -23,6 +22,7 @@ from pigaming_app.scenes.app import App, Options
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import choose_kiosk_rules
 from pigaming_app.scenes.preloaded import MODULES
+from pigaming_app.storage.day_log import DayLog
 from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.cli import main
-from pigaming_app.events.day_log import FOLDER, Battery, DayLog, PlayedMatch, ProgramEvent
+from pigaming_app.storage.day_log import FOLDER, Battery, DayLog, PlayedMatch, ProgramEvent
 
 
 @pytest.fixture

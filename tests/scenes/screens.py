@@ -13,7 +13,6 @@ import pytest
 
 from pigaming_app.ai.game_ai import ONE_BUTTON, POINT
 from pigaming_app.ai.registry import AIS
-from pigaming_app.events.day_log import Battery, PlayedMatch, ProgramEvent, Record
 from pigaming_app.events.day_report import figures as day_figures
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength
@@ -78,6 +77,7 @@ from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage.day_log import Battery, PlayedMatch, ProgramEvent, Record
 from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable

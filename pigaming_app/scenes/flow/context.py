@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
-from pigaming_app.events.day_log import DayLog, now
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import settings_problem
 from pigaming_app.scenes.flow.board_page import BoardPage
 from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.scenes.recordings.highlights import Highlights
+from pigaming_app.storage.day_log import DayLog, now
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words

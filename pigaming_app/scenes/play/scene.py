@@ -15,7 +15,6 @@ import pygame
 
 from pigaming_app.ai.game_ai import CHAUFFEUR, ONE_BUTTON
 from pigaming_app.ai.registry import make_brain, make_person, new_match
-from pigaming_app.events.day_log import PlayedMatch, now
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
@@ -38,6 +37,7 @@ from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.things.spec import ThingSpec
+from pigaming_app.storage.day_log import PlayedMatch, now
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, LABEL, PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue

@@ -8,7 +8,6 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.events.day_log import Battery, now
 from pigaming_app.games.arenas import load, with_things
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
@@ -41,6 +40,7 @@ from pigaming_app.scenes.things.match_watch import MatchWatch
 from pigaming_app.scenes.things.moved_page import MovedPage
 from pigaming_app.scenes.things.outlines import draw_things
 from pigaming_app.sim.arena import Arena, ArenaError
+from pigaming_app.storage.day_log import Battery, now
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM
 from pigaming_app.ui.i18n import english

@@ -5,7 +5,6 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.events.day_log import now
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.board_page import Box, Part
 from pigaming_app.scenes.flow.context import Context
@@ -14,6 +13,7 @@ from pigaming_app.scenes.results.high_score_tables import format_score
 from pigaming_app.scenes.scoreboard import text
 from pigaming_app.scenes.scoreboard.event_now import event_now, next_line
 from pigaming_app.scenes.views.registry import shown_games
+from pigaming_app.storage.day_log import now
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
 from pigaming_app.ui.draw.text import fit_size

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.events import event_files
-from pigaming_app.events.day_log import PlayedMatch, read_day
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Recorded
 from pigaming_app.jobs.kiosk.crash_reports import FOLDER as CRASHES
+from pigaming_app.storage.day_log import PlayedMatch, read_day
 from pigaming_app.storage.log import CRASH_FILE
 from pigaming_app.storage.log import FILE as LOG
 from pigaming_app.storage.restarts import restarts

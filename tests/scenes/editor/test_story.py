@@ -6,7 +6,6 @@ from typing import cast
 import pytest
 
 from pigaming_app.ai.registry import new_match
-from pigaming_app.events.day_log import DayLog
 from pigaming_app.games.arenas import arenas, load, own_arenas
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
@@ -16,6 +15,7 @@ from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.title.scene import Title
+from pigaming_app.storage.day_log import DayLog
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade

@@ -6,7 +6,6 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.events.day_log import DayLog, PlayedMatch, now
 from pigaming_app.scenes.flow.settings_page import IDLE
 from pigaming_app.scenes.operator.chart import OTHERS, bars_of, games_of, step_of
 from pigaming_app.scenes.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
@@ -16,6 +15,7 @@ from pigaming_app.scenes.options.page import FOR_CHILDREN, OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage import safe_start
+from pigaming_app.storage.day_log import DayLog, PlayedMatch, now
 from pigaming_app.storage.safe_mode import DEFAULTS, VARIABLE
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.draw.text import fit_lines

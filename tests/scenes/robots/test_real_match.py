@@ -7,7 +7,6 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.events.day_log import Battery, DayLog, PlayedMatch, read_day
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -27,6 +26,7 @@ from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.unavailable import UnavailablePage
+from pigaming_app.storage.day_log import Battery, DayLog, PlayedMatch, read_day
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.draw.pixels import pixels_of

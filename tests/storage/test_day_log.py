@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.events.day_log import (
+from pigaming_app.events.day_report import figures, report_of, to_csv
+from pigaming_app.storage.day_log import (
     FOLDER,
     KEPT_DAYS,
     MAX_BYTES,
@@ -25,7 +26,6 @@ from pigaming_app.events.day_log import (
     read_day,
     to_line,
 )
-from pigaming_app.events.day_report import figures, report_of, to_csv
 
 DAY = date(2026, 11, 23)
 
@@ -106,7 +106,7 @@ def test_a_line_torn_by_a_power_cut_costs_only_itself(tmp_path: Path) -> None:
 def test_a_killed_process_loses_no_line(tmp_path: Path) -> None:
     code = (
         "import os, signal, sys\nfrom pathlib import Path\nfrom datetime import datetime\n"
-        "from pigaming_app.events.day_log import DayLog, PlayedMatch\n"
+        "from pigaming_app.storage.day_log import DayLog, PlayedMatch\n"
         "log = DayLog(Path(sys.argv[1]))\n"
         "for i in range(7): log.add(PlayedMatch(datetime(2026, 11, 23, 10, i), 'race', 60.0, 1, 3))\n"
         "os.kill(os.getpid(), signal.SIGKILL)\n"
@@ -236,7 +236,7 @@ def test_what_runs_or_ends_on_another_day_has_not_crashed(tmp_path: Path) -> Non
 
 def test_of_two_real_processes_the_killed_one_has_crashed(tmp_path: Path) -> None:
     code = (
-        "import sys\nfrom pathlib import Path\nfrom pigaming_app.events.day_log import DayLog\n"
+        "import sys\nfrom pathlib import Path\nfrom pigaming_app.storage.day_log import DayLog\n"
         "log = DayLog(Path(sys.argv[1]))\nlog.note('start')\nprint(flush=True)\ninput()\nlog.note('end')\n"
     )
     command = [sys.executable, "-c", code, str(tmp_path)]
