@@ -12,7 +12,7 @@ from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.storage.safe_mode import DEFAULTS, is_safe
 
 if TYPE_CHECKING:
-    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.launch import Options
 
 
 def options(parser: ArgumentParser) -> None:
@@ -30,7 +30,7 @@ def run(arguments: Namespace) -> int:
     if needs_supervisor(arguments):
         return supervised(arguments)
     from pigaming_app.boot.fetch import COMMAND
-    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.launch import Options
 
     if arguments.emulate is not None:
         require("hardware")

@@ -88,7 +88,7 @@ def run(arguments: Namespace) -> int:
     if needs_supervisor(arguments) and not arguments.headless and not arguments.screenshot:
         return supervised(arguments)
     if arguments.kiosk and is_safe():  # the match may be what fails
-        from pigaming_app.scenes.app import Options
+        from pigaming_app.scenes.launch import Options
 
         return show(Options(kiosk=True))
     with refused(ChoiceError, ArenaError):
@@ -302,9 +302,9 @@ def _on_screen(
     width: float | None,
 ) -> int:
     """Play in a window; with --headless and emulated robots without one, as fast as possible."""
-    from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.flow.context import Context
     from pigaming_app.scenes.flow.stack import Scene
+    from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.lobby.scene import game_choice
     from pigaming_app.scenes.play.scene import MatchScene
     from pigaming_app.scenes.robots.start_match import match_of

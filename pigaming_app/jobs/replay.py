@@ -27,7 +27,7 @@ def run(arguments: Namespace) -> int:
             same = verify(replay)
             print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
             return 0 if same else 1
-    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.play.replay import ReplayScene
 
     return show(Options(first_scene=lambda context: ReplayScene(context, replay), without_title=True))

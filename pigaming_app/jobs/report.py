@@ -5,9 +5,9 @@ import json
 from argparse import ArgumentParser, Namespace
 from datetime import date
 
-from pigaming_app.events.day_report import DayReport, report_of, to_csv
 from pigaming_app.jobs.terminal.options import path, shared
 from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.storage.day_report import DayReport, report_of, to_csv
 from pigaming_app.storage.parsing import describe_error, quote
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import folders

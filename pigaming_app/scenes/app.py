@@ -7,12 +7,9 @@ import gc
 import logging
 import math
 import sys
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -20,14 +17,11 @@ from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.networks.onnx import failed
 from pigaming_app.ai.plugin_faults import blame, suspect
 from pigaming_app.hardware.messages import OperatorError
-from pigaming_app.hardware.session.robot_session import RobotSession
-from pigaming_app.scenes.events.resume import EventMarker
+from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
-from pigaming_app.scenes.operator.desk import OperatorDesk
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.options.new_game import game_name
-from pigaming_app.scenes.phones.link import PhoneLink
-from pigaming_app.storage.heartbeat import Heartbeat
 from pigaming_app.storage.plugins.found import Plugin
 from pigaming_app.storage.plugins.parts import is_running, stopped
 from pigaming_app.storage.plugins.time_limit import TookTooLong, Watchdog
@@ -39,10 +33,7 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.pulse import Pulse
-from pigaming_app.ui.widgets.notices import FrameMeter, Notices
-
-if TYPE_CHECKING:
-    from pigaming_app.scenes.camera_window import CameraWindow
+from pigaming_app.ui.widgets.notices import FrameMeter
 
 FPS = 60  # frames per second
 MAX_FRAME_GAP = 0.1  # s; longer gaps (a dragged window, a suspended machine) are cut to this
@@ -55,40 +46,16 @@ MAX_FAILURES, FAILURE_WINDOW = 5, 10.0  # give up after this many failures, each
 log = logging.getLogger("pigaming")
 
 
-@dataclass(frozen=True)
-class Options:
-    """Options of the arcade. `frames`: close after this many; `screenshot`: path of a picture, taken when due."""
-
-    first_scene: Callable[[Context], Scene] | None = None  # scene pushed on top of the title
-    without_title: bool = False  # show only that scene; close when it is popped
-    kiosk: bool = False
-    heartbeat: Heartbeat | None = None  # for a supervisor, beaten once a frame
-    display: int | None = None
-    scoreboard: int | None = None  # display of the second screen, from 1, instead of that of the settings
-    headless: bool = False
-    frames: int | None = None
-    screenshot: Path | None = None
-    screenshot_due: Callable[[], bool] = lambda: True
-    step: float | None = None  # s of simulated time per frame, instead of real time
-    should_close: Callable[[], bool] = lambda: False  # close after this picture if true
-    ros_width: float | None = None  # mm, width of the arena of robots in a ROS network
-    emulator_seed: int | None = None  # seed of an emulated arena instead of the real one
-    emulated_things: int = 0  # real things on its mat
-    fetch_networks: tuple[str, ...] = ()  # command that fetches what networks need in the Lab
-    changed_settings: Mapping[str, object] = field(default_factory=dict)  # settings to store
-
-
 class App:
     """A running arcade; `troubles` are sentences about damaged files."""
 
     def __init__(self, options: Options, context: Context, troubles: list[str]) -> None:
         self.options, self.context = options, context
-        self.notices, self.meter = Notices(), FrameMeter()
+        self.notices, self.meter = context.notices, FrameMeter()
         self.pulse = Pulse(options.heartbeat) if options.heartbeat else None
-        self.phones = PhoneLink(context)
-        session = context.session
-        self.window = _camera_window(session)
-        self.desk = OperatorDesk(context, self.notices, options.scoreboard, not options.without_title)
+        made = (feature.service(context, options) for feature in features() if feature.service)
+        self.services = [service for service in made if service]
+        context.preloader.on_done = self._preloaded
         for line in troubles:
             log.warning(line)
             print(f"PiGaming: {line}", file=sys.stderr)
@@ -102,7 +69,6 @@ class App:
         self.blamed: Plugin | None = None  # for the last failure
         self.watchdog = Watchdog(MAX_FRAME, is_running)
         self.code = 0
-        self.marker = EventMarker(folders().data) if options.kiosk and not options.without_title else None
         self.stack = self._first_stack()
         self.previous_ids = self._scene_ids()  # ids of the scenes on the stack in the last frame
         self.to_free = False  # a removed scene is still to be freed
@@ -144,9 +110,14 @@ class App:
         return stack
 
     def _resume(self, stack: Stack) -> None:
-        """Show the event that was running before a crash, a hang or a power cut."""
-        if self.marker and (page := self.marker.page(self.context)):
-            stack.apply(Push(page))
+        """Show what was open before a crash, a hang or a power cut."""
+        for service in self.services:
+            if page := service.first_page():
+                stack.apply(Push(page))
+
+    def _preloaded(self) -> None:
+        for service in self.services:
+            service.preloaded()
 
     def _pin(self) -> None:
         """Apply the corner pin of the settings."""
@@ -183,7 +154,8 @@ class App:
         if any(self._is_close_event(event) for event in events) and not self.context.kiosk:
             self.stack.clear()
             return False
-        events = self.desk.filter(events, self.stack.scenes)
+        for service in self.services:
+            events = service.filter(events, self.stack.scenes)
         for event in events:
             if event.type == pygame.KEYDOWN:
                 self._function_key(event.key)
@@ -195,7 +167,8 @@ class App:
             updated = perf_counter()
             if not self.stack.scenes or not self._paint(cpu_start):
                 return False
-        self.desk.draw(self.context.canvas.screen)
+        for service in self.services:
+            service.draw(self.context.canvas.screen)
         self._draw_notices(self.context.canvas.screen, seconds)
         if not first and len(self.stack.scenes) == 1 and not self.options.without_title and self.options.step is None:
             self._preload()
@@ -259,9 +232,8 @@ class App:
             return
         if painted:
             self.context.canvas.flip()
-        if self.window:
-            self.window.update(seconds)
-        self.desk.show(seconds, 1.0 / FPS - (perf_counter() - began), self.stack.scenes)
+        for service in self.services:
+            service.show(seconds, 1.0 / FPS - (perf_counter() - began), self.stack.scenes)
         if self.options.should_close():
             self.stack.clear()
 
@@ -281,8 +253,8 @@ class App:
             return True
         if event.type != pygame.WINDOWCLOSE:
             return False
-        others = [window for window in (self.window, self.desk) if window]
-        return bool(self.window or self.desk.window) and not any(one.close_if_requested(event) for one in others)
+        services = [service for service in self.services if service.has_window]
+        return bool(services) and not any(service.close_if_requested(event) for service in services)
 
     def _dispatch(self, events: list[pygame.Event], seconds: float) -> None:
         """Dispatch input to the top scene and update it."""
@@ -299,10 +271,8 @@ class App:
         if stack.scenes:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
             stack.apply(stack.top.update(seconds))
-        self.desk.update(seconds, stack)
-        self.phones.update(stack.scenes)
-        if self.marker and stack.scenes:
-            self.marker.update(stack.scenes)
+        for service in self.services:
+            service.update(seconds, stack)
 
     def _recover(self) -> bool:
         """After a scene has failed: clean up and restart at the title, in a kiosk at the running event. False if that
@@ -368,16 +338,6 @@ class App:
             self.notices.add(self.context.words("app.brain_failed", brain=display_name(failed.pop())))
         self.notices.draw(screen, seconds)
         self.meter.draw(screen)
-
-
-def _camera_window(session: RobotSession | None) -> "CameraWindow | None":
-    """The window of the emulated camera, if the emulated arena runs in real time."""
-    if session is None or not session.emulated:
-        return None
-    from pigaming_app.hardware.session.emulated import EmulatedSession
-    from pigaming_app.scenes.camera_window import CameraWindow
-
-    return CameraWindow(session) if isinstance(session, EmulatedSession) and session.live else None
 
 
 def _title(context: Context) -> Scene:

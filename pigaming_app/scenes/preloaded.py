@@ -1,27 +1,18 @@
 """Modules that the preloader imports while the title is shown, in the order in which they may be needed."""
 
-MODULES = (
+from pigaming_app.scenes.features.registry import features
+
+CORE = (
     "numpy",
     "pigaming_app.scenes.lobby.scene",
     "pigaming_app.scenes.play.scene",
-    "pigaming_app.scenes.editor.gallery.page",
     "pigaming_app.scenes.views.race.mud",
-    "pigaming_app.scenes.robots.start_match",
     "pigaming_app.scenes.options.page",
     "pigaming_app.scenes.options.controls_test",
     "pigaming_app.scenes.title.attract",
-    "pigaming_app.scenes.replays.page",
-    "pigaming_app.scenes.ladder.choice",
-    "pigaming_app.scenes.events.choice",
-    "pigaming_app.scenes.lab.scene",
-    "pigaming_app.scenes.lab.menu",
-    "pigaming_app.scenes.lab.name_page",
-    "pigaming_app.scenes.lab.open_page",
-    "pigaming_app.scenes.lab.compare_page",
-    "pigaming_app.scenes.lab.challenge",
-    "pigaming_app.scenes.robots.menu",
-    "pigaming_app.scenes.calibration.drift_page",
-    "pigaming_app.scenes.calibration.setup_page",
-    "pigaming_app.scenes.calibration.corner_pin_page",
-    "pigaming_app.scenes.robots.fleet_page",
 )
+
+
+def modules() -> tuple[str, ...]:
+    """Those of the core, then those of features."""
+    return (*CORE, *(module for feature in features() for module in feature.preload))

@@ -14,14 +14,14 @@ from typing import IO, TYPE_CHECKING, Any
 
 import pygame
 
-from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
 from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.session.ros import RosSession
-from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.app import App
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import choose_kiosk_rules
-from pigaming_app.scenes.preloaded import MODULES
+from pigaming_app.scenes.launch import Options
+from pigaming_app.scenes.preloaded import modules
 from pigaming_app.storage.day_log import DayLog
 from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
 from pigaming_app.storage.parsing import describe_error
@@ -83,7 +83,6 @@ def opened(options: Options) -> "Iterator[App]":
     context.day_log = DayLog(data_folders.data)
     context.day_log.delete_old(date.today())
     context.day_log.note("start")
-    context.network_fetch = ExtraFetch(options.fetch_networks)
     context.controls.remap(settings.controls)
     context.controls.has_keypad = settings.keypad
     context.session = session = _session(options, settings, canvas)
@@ -91,8 +90,7 @@ def opened(options: Options) -> "Iterator[App]":
     if isinstance(session, RosSession):
         context.sticks = _sticks(session)
         context.match_watchers.append(session.publish)
-    context.preloader.modules = MODULES
-    context.preloader.on_done = context.start_compilers
+    context.preloader.modules = modules()
     old_interval = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH_INTERVAL)
     old_handler = signal.signal(signal.SIGTERM, signal.default_int_handler)  # SIGTERM ends it like Ctrl+C
@@ -101,15 +99,12 @@ def opened(options: Options) -> "Iterator[App]":
         app = App(options, context, [*damaged, *damaged_scores])
         yield app
     finally:
-        if app:
-            app.desk.close()
         signal.signal(signal.SIGTERM, old_handler)
         sys.setswitchinterval(old_interval)
         context.stop_all_robots()
-        context.phone_host.close()
         context.preloader.end()
-        context.compiler.end()
-        context.network_compiler.end()
+        for service in app.services if app else ():
+            service.close()
         gc.unfreeze()
         session.end()
         context.day_log.note("end")

@@ -42,7 +42,7 @@ def main(arguments: Sequence[str]) -> int:
 
 def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int:
     """Run the arcade for some frames of `step` s, with `act` before each; returns 1 if it exceeds `limit` MB."""
-    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.start import run
 
     began, found = process_time(), [0.0]

@@ -17,6 +17,7 @@ from pigaming_app.events.spec import Format
 from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.events.poster import drawn, encoded
 from pigaming_app.scenes.flow.stack import Home, Stack
+from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import read_large
@@ -88,7 +89,7 @@ def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
                     press(arcade, chance)
             with stand_ins():
                 arcade.stack.apply(Home())
-            arcade.context.phone_host.close()
+            arcade.context.shared(phone_host).close()
         read_large(False)
         yield usage(made)
 

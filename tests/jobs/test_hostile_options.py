@@ -15,7 +15,7 @@ import pygame
 import pytest
 
 from pigaming_app import ASSETS, cli
-from pigaming_app.scenes.app import Options
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import run
 from pigaming_app.storage.parsing import MESSAGE_LENGTH
 from tests.ai.ppo.plain import SET

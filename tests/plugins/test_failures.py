@@ -14,7 +14,8 @@ from tests.plugins.packages import ROOT
 
 MATCH = """
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.app import App
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.views.registry import shown_games

@@ -6,6 +6,7 @@ from typing import TypeVar, cast
 import pygame
 
 from pigaming_app.games.game import Seat, Setup
+from pigaming_app.scenes.app import App
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
 from pigaming_app.storage.scores import Scores
@@ -98,6 +99,11 @@ class Arcade:
         assert isinstance(top, scene_class), f"{type(top).__name__} is on top"
         self.stack.top.draw(self.screen)
         return top
+
+
+def service_of(app: App, kind: type[S]) -> S:
+    """The service of this class in a running arcade."""
+    return next(service for service in app.services if isinstance(service, kind))
 
 
 def setup(brains: str, minutes: float = 0.1, teams: tuple[int, ...] = (0, 1, 2, 3), seed: int = 3) -> Setup:

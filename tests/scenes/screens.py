@@ -13,7 +13,6 @@ import pytest
 
 from pigaming_app.ai.game_ai import ONE_BUTTON, POINT
 from pigaming_app.ai.registry import AIS
-from pigaming_app.events.day_report import figures as day_figures
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.events.spec import Entrant, Format
@@ -48,6 +47,7 @@ from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.lab.background import Background
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.ladder.climber import Climber
@@ -65,6 +65,7 @@ from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.new_game import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
 from pigaming_app.scenes.options.remap_page import RemapPage
+from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
 from pigaming_app.scenes.phones.settings_page import PhonesPage
 from pigaming_app.scenes.play.device_table import DeviceTable
@@ -78,6 +79,7 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.day_log import Battery, PlayedMatch, ProgramEvent, Record
+from pigaming_app.storage.day_report import figures as day_figures
 from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable
@@ -354,7 +356,7 @@ URL = "http://192.168.100.200:65535/mmmmmmmmmm"  # the widest one
 
 def with_phones(arcade: Arcade, trouble: str = "") -> Arcade:
     """Phones are on, without a server: at the widest address, or with the trouble of this key."""
-    host = arcade.context.phone_host
+    host = arcade.context.shared(phone_host)
     host._asked = ("", 65535)
     if trouble:
         host.trouble = PhonesUnavailable(trouble, port=65535, name="Intel(R) Wi-Fi 6E AX210 160MHz")
@@ -447,7 +449,7 @@ def drawn_arenas(arcade: Arcade, game: str, page: bool = False) -> Scene:
 def fetch_page(arcade: Arcade, state: str) -> Scene:
     """What networks need is being fetched, or was not."""
     fetch: Any = SimpleNamespace(state=state, share=0.4, start=lambda: None)
-    arcade.context.network_fetch = fetch
+    arcade.context.shared(Background).network_fetch = fetch
     return FetchPage(arcade.context, lambda: pygame.Surface((1920, 1080)), lambda: None)
 
 

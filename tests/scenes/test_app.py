@@ -16,10 +16,11 @@ import pytest
 from pigaming_app.games.arenas import load
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.scenes import app as app_module
-from pigaming_app.scenes.app import MAX_FAILURES, App, Options
+from pigaming_app.scenes.app import MAX_FAILURES, App
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened, run

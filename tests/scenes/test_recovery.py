@@ -8,9 +8,9 @@ import pygame
 import pytest
 
 from pigaming_app.hardware.calibration.corner_pin import CornerPin
-from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import run
 from pigaming_app.scenes.title import scene as title
 from tests.cases import one_in

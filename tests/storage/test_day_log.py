@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.events.day_report import figures, report_of, to_csv
 from pigaming_app.storage.day_log import (
     FOLDER,
     KEPT_DAYS,
@@ -26,6 +25,7 @@ from pigaming_app.storage.day_log import (
     read_day,
     to_line,
 )
+from pigaming_app.storage.day_report import figures, report_of, to_csv
 
 DAY = date(2026, 11, 23)
 

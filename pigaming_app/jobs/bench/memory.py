@@ -63,7 +63,7 @@ def resident_mb() -> float | None:
 
 def visit(state: str) -> float | None:
     """Run the arcade into one of STATES and stay there for a while; returns the memory at the end, MB."""
-    from pigaming_app.scenes.app import Options
+    from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.start import run
 
     route = ROUTES.get(state, ROUTES["match"])

@@ -29,8 +29,8 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Device, StickState
 from pigaming_app.ui.input.filters import apply_dead_zone
-from pigaming_app.ui.input.phones.protocol import REACH, Touches, pack
-from pigaming_app.ui.input.phones.registry import MAX_PHONES
+from pigaming_app.ui.input.phone_messages import REACH, Touches, pack
+from pigaming_app.ui.input.phone_pads import MAX_PHONES
 from pigaming_app.ui.input.phones.server import PhoneServer
 from pigaming_app.ui.window import Canvas
 

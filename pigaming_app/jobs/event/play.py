@@ -77,9 +77,9 @@ def _in_window(arguments: Namespace, event: Event) -> int:
         resume.mark(folders().data, arguments.file)
         return arcade.supervised(arguments)
     from pigaming_app.boot.fetch import COMMAND
-    from pigaming_app.scenes.app import Options
     from pigaming_app.scenes.events.choice import page_of
     from pigaming_app.scenes.events.running import RunningEvent
+    from pigaming_app.scenes.launch import Options
 
     options = Options(
         display=display(arguments), scoreboard=arguments.scoreboard, kiosk=arguments.kiosk, fetch_networks=COMMAND

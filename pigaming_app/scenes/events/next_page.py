@@ -35,6 +35,7 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
@@ -363,6 +364,12 @@ class EventMatch:
     def names(self) -> tuple[str, ...]:
         """Who plays, in the order of the seats."""
         return self.fixture.entrants
+
+    def round_line(self, words: Words) -> str:
+        """Its round, and its number in the event."""
+        fixtures = self.running.event.fixtures
+        at = next((i for i, one in enumerate(fixtures, 1) if one.number == self.fixture.number), len(fixtures))
+        return words("events.progress", round=self.fixture.round, match=at, of=len(fixtures))
 
     def __call__(self, scene: MatchScene) -> AfterMatch:
         """A match that was ended by hand is still open. A tie in a knock-out leads to an extra match."""

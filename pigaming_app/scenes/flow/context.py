@@ -1,17 +1,13 @@
 """The context shared by all scenes: settings, scores, texts, devices, sound and window."""
 
 import logging
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import settings_problem
-from pigaming_app.scenes.flow.board_page import BoardPage
 from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.scenes.recordings.highlights import Highlights
@@ -21,15 +17,16 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, StickState
-from pigaming_app.ui.input.phones.host import PhoneHost
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
+from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
-
-COMPILE_NETWORKS = (sys.executable, "-m", "pigaming_app.ai.ppo.lab.process", "compile")
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.session.robot_session import RobotSession
+
+
+T = TypeVar("T")
 
 
 @dataclass
@@ -45,24 +42,19 @@ class Context:
     kiosk: bool = False
     idle: float = 0.0  # seconds since the last input
     session: "RobotSession | None" = None  # of real robots
-    compiler: Compiler = field(default_factory=Compiler)  # for tables in the Lab
-    network_fetch: ExtraFetch = field(default_factory=ExtraFetch)  # of what networks need in the Lab
-    network_compiler: Compiler = field(default_factory=lambda: Compiler(COMPILE_NETWORKS))  # for networks in the Lab
+    notices: Notices = field(default_factory=Notices)
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)
-    phone_host: PhoneHost = field(init=False)
     highlights: Highlights = field(default_factory=Highlights)  # for attract mode
     day_log: DayLog = field(default_factory=DayLog)
-    board_pages: list[BoardPage] = field(default_factory=list)  # of the second screen, in the order of the F2 key
-    board_page: str = "scores"  # the one chosen
     sticks: Callable[[int, bool], StickState | None] = lambda *_: None  # joysticks of a network: see RosSession
     match_watchers: list[Callable[[dict[str, Any]], None]] = field(default_factory=list)  # get the state of a match
     dropped: list[Path] = field(default_factory=list)  # files dropped onto the window
     emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # callbacks that stop robots at once
+    _shared: dict[object, Any] = field(default_factory=dict)  # see `shared`
 
     def __post_init__(self) -> None:
         self.driving = DrivingStyles(self.settings)
-        self.phone_host = PhoneHost(self.controls.phones)
 
     @property
     def robots(self) -> bool:
@@ -86,10 +78,12 @@ class Context:
         """A page's row of button prompts, see `ButtonPrompts`."""
         return ButtonPrompts(self.words, self.controls, items, y, room, solid, device)
 
-    def start_compilers(self) -> None:
-        """Compile what the Lab needs, in the background. Raises OSError."""
-        self.compiler.start()
-        self.network_compiler.start()
+    def shared(self, make: Callable[["Context"], T]) -> T:
+        """The one object of this context that `make` makes, at first use: the state of a feature."""
+        if make not in self._shared:
+            self._shared[make] = make(self)
+        made: T = self._shared[make]
+        return made
 
     @property
     def quiet(self) -> bool:

@@ -15,6 +15,7 @@ from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.lab.background import Background
 from pigaming_app.scenes.lab.host import dimmed_background
 from pigaming_app.scenes.lab.knob import LIMIT
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
@@ -47,8 +48,9 @@ class Lab:
 
     def __init__(self, context: Context, fast: bool | None = None) -> None:
         self.context = context
-        self.table = Trainer(FIRST, new_seed(), fast, context.compiler)
-        self.network = NetworkTrainer(new_seed(), context.network_compiler)
+        background = context.shared(Background)
+        self.table = Trainer(FIRST, new_seed(), fast, background.compiler)
+        self.network = NetworkTrainer(new_seed(), background.network_compiler)
         self.kind = TABLE
         self.names = dict.fromkeys(KINDS, "")  # under which each robot was saved or opened
         self.was_behind: Progress | NetworkProgress | None = None  # the training behind the hand-made robot
@@ -149,7 +151,7 @@ class Lab:
 
     def play(self, device: Device) -> StackOperation:
         """A challenge match against the robot as trained so far."""
-        from pigaming_app.scenes.lab.challenge import Challenge
+        from pigaming_app.scenes.lab.pages.challenge import Challenge
 
         self.context.sounds.play("accept")
         driver = self.context.controls.driver(device)
@@ -270,7 +272,7 @@ class Lab:
         return [kind, FocusSpot("speed", SPEED), FocusSpot("play", PLAY), *knobs]
 
     def _menu(self) -> StackOperation:
-        from pigaming_app.scenes.lab.menu import LabMenu
+        from pigaming_app.scenes.lab.pages.menu import LabMenu
 
         self.context.sounds.play("accept")
         return self.leave(Push(LabMenu(self)))

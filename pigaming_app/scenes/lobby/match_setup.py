@@ -14,8 +14,7 @@ from pigaming_app.games.arenas import own_arenas, score_name
 from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.scenes.editor.gallery.page import Gallery
-from pigaming_app.scenes.editor.registry import EDITORS
+from pigaming_app.scenes.features.registry import draw_arena
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, load_cached, playable_arenas
@@ -64,7 +63,8 @@ class MatchSetupPage:
         self.going = False  # start requested, waiting for the preloader
         self.things: tuple[ThingSpec, ...] = ()  # on the mat, for a match with real robots
         build = [(Button.Y, "things.hint_build")] if self._on_mat else []
-        draw = [(Button.X, "setup.hint_editor")] if game in EDITORS else []
+        self.editor = draw_arena(context, game)
+        draw = [(Button.X, "setup.hint_editor")] if self.editor else []
         hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), *build, *draw]
         hints.append((Button.BACK, "setup.hint_back"))
         self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
@@ -96,9 +96,9 @@ class MatchSetupPage:
 
                 self.context.sounds.play("accept")
                 return Push(ArenaPage(self.context, self.seats.devices))
-            case Button.X if self.game.name in EDITORS:
+            case Button.X if self.editor:
                 self.context.sounds.play("accept")
-                return Push(Gallery(self.context, self.game.name))
+                return Push(self.editor())
             case Button.CLICK:
                 self.focus.handle(event)
                 return self._click(event)

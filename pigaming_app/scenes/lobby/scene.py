@@ -25,7 +25,6 @@ from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
 from pigaming_app.scenes.lobby.view import CODE, LobbyPage, LobbyState, level_words, problem, spots
-from pigaming_app.scenes.phones.join import JoinByPhone
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
@@ -142,7 +141,7 @@ class Lobby:
 
     def _code_is_due(self) -> bool:
         """True if the large QR code should be shown: at first, and while nobody acts, as long as a seat is free."""
-        if not self.context.phone_host.url or self.now.starting is not None:
+        if not self.page.open_to_phones or self.now.starting is not None:
             return False
         idle = self.context.idle > CODE_SECONDS
         due, self.code_due = (self.code_due or idle) and not self.seats.full, False
@@ -150,7 +149,8 @@ class Lobby:
 
     def _open_code(self) -> StackOperation:
         self.code_open = True
-        return Push(JoinByPhone(self.context, self.seats.devices, self.handle, lambda: self.now.starting is not None))
+        assert self.page.offer is not None
+        return Push(self.page.offer.page(self.seats.devices, self.handle, lambda: self.now.starting is not None))
 
     def _prewarm(self) -> None:
         """Prewarm while people choose: first this page, then the sprites of the match."""

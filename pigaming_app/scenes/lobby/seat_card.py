@@ -98,13 +98,14 @@ def by_phone(player: int, text: str, call: str, others: str) -> Steps[LitImage]:
 @cached
 @resumable
 def plug_in(player: int, text: str, call: str, others: str) -> Steps[LitImage]:
-    """Card of an empty seat for which there is no device: a pad and a phone, and how to get them."""
+    """Card of an empty seat for which there is no device: a pad, and a phone if there are `others`; how to get them."""
     layer, color = Layer(0, 0, W, H), PLAYERS[player]
     layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
     badge(layer.glow, player, 72, 76, 36, dim(color, 0.75))
     layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, MIST)
-    icon(layer.glow, "pad", MIDDLE - 76, PLUS_Y, 66, MIST, THIN)
-    icon(layer.glow, "phone", MIDDLE + 92, PLUS_Y, 60, MIST, THIN)
+    icon(layer.glow, "pad", MIDDLE - 76 if others else MIDDLE, PLUS_Y, 66, MIST, THIN)
+    if others:
+        icon(layer.glow, "phone", MIDDLE + 92, PLUS_Y, 60, MIST, THIN)
     yield
     layer.canvas.body(call, MIDDLE, ASKS_Y, ICE, "c", fit_size(call, readable(BODY), W - 48, "body"))
     size, lines = fit_lines(others, W - 48, 3, (readable(34), 34, 30))

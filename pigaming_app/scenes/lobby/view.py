@@ -8,6 +8,7 @@ import pygame
 
 from pigaming_app.ai.registry import level_of
 from pigaming_app.games.game import ALLIES, FREE, PAIRS
+from pigaming_app.scenes.features.registry import join_offer
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.brain_names import stars_of
 from pigaming_app.scenes.flow.context import Context
@@ -15,7 +16,6 @@ from pigaming_app.scenes.flow.device_words import steering
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
-from pigaming_app.scenes.phones.join import draw_code
 from pigaming_app.ui.draw import FOCUS, LABEL, PLAYERS, Color, dim
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, step
@@ -65,6 +65,7 @@ class LobbyPage:
     ) -> None:
         self.context, self.seats, self.now, self.fact, self.access = context, seats, now, fact, access
         self.driving = driving
+        self.offer = join_offer(context)
 
     def draw(self, screen: pygame.Surface) -> None:
         screen.blit(backdrop(), (0, 0))
@@ -92,6 +93,11 @@ class LobbyPage:
         )
 
     @property
+    def open_to_phones(self) -> bool:
+        """True if people can join by phone now."""
+        return self.offer is not None and self.offer.open
+
+    @property
     def free(self) -> list[Device]:
         """The devices that may still join: pads first, then keyboard clusters."""
         return [device for device in self.context.controls.offered() if self.seats.seat_of(device) is None]
@@ -106,20 +112,20 @@ class LobbyPage:
     def code_seat(self) -> int | None:
         """The empty seat whose card shows the QR code for phones: the last one; None if phones cannot join."""
         empty = self.seats.of_kind(EMPTY)
-        return empty[-1] if empty and self.context.phone_host.url else None
+        return empty[-1] if empty and self.open_to_phones else None
 
     def _card(self, screen: pygame.Surface, seat: int) -> None:
         words, place, (x, y) = self.context.words, self.seats.places[seat], card_rect(seat).topleft
         title = words("lobby.seat", player=seat + 1)
         if place.kind == EMPTY:
-            if seat == self.code_seat:
+            if self.offer and seat == self.code_seat:
                 card.by_phone(seat, title, words("lobby.by_phone"), words("lobby.or_press")).draw(screen, x, y)
-                draw_code(screen, self.context.phone_host.url, CODE_BOX.move(x, y))
+                self.offer.draw_code(screen, CODE_BOX.move(x, y))
                 return
             if seat in self.seats.of_kind(EMPTY)[len(self.free) :]:
                 menus = {"options": words("title.options"), "controls": words("options.controls")}
-                phones = words("lobby.by_phone") if self.context.phone_host.url else words("lobby.phones", **menus)
-                card.plug_in(seat, title, words("lobby.plug"), phones).draw(screen, x, y)
+                phones = words("lobby.by_phone") if self.open_to_phones else words("lobby.phones", **menus)
+                card.plug_in(seat, title, words("lobby.plug"), phones if self.offer else "").draw(screen, x, y)
                 return
             card.empty(seat, title).draw(screen, x, y)
             level = pulse(self.now.clock) if seat == self.seats.of_kind(EMPTY)[0] else 0
@@ -192,7 +198,7 @@ class LobbyPage:
             message = words("lobby.wait", player=waiting[0] + 1, button="{button}")
             label = words.key_name(self.context.controls.label(place.device, Button.FIRE))
         else:
-            first = words("lobby.first_phone" if self.context.phone_host.url else "lobby.first")
+            first = words("lobby.first_phone" if self.open_to_phones else "lobby.first")
             message, label = first if not self.seats.robots else problem(self.seats, words), ""
         call_to_action(message, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
 

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import pygame
 
+from pigaming_app.scenes.features.feature import Service
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.operator.group_limit import GroupLimit
+from pigaming_app.scenes.scoreboard.pages import Pages
 from pigaming_app.ui.draw import FOCUS, ICE
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.caption import caption
-from pigaming_app.ui.widgets.notices import MAX_WIDTH, Notices
+from pigaming_app.ui.widgets.notices import MAX_WIDTH
 
 if TYPE_CHECKING:
     from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
@@ -35,13 +37,14 @@ class Waiting(Protocol):
     waits: bool
 
 
-class OperatorDesk:
-    """Part of the arcade. `scoreboard`: the display of the second screen, from 1, instead of that of the settings;
+class OperatorDesk(Service):
+    """`scoreboard`: the display of the second screen, from 1, instead of that of the settings;
     `limited`: groups have a time limit.
     """
 
-    def __init__(self, context: Context, notices: Notices, scoreboard: int | None, limited: bool) -> None:
-        self.context, self.notices, self.limited = context, notices, limited
+    def __init__(self, context: Context, scoreboard: int | None, limited: bool) -> None:
+        self.context, self.notices, self.limited = context, context.notices, limited
+        self.board = context.shared(Pages)
         self.limit = GroupLimit(context)
         self.held: float | None = None  # s for which F10 has been held
         self.window: ScoreboardWindow | None = None
@@ -96,7 +99,7 @@ class OperatorDesk:
             self._follow_displays()
         if self.window and scenes:
             whole = not self.window.trouble
-            self.window.update(seconds, left, self.context.board_page, scenes)
+            self.window.update(seconds, left, self.board.chosen, scenes)
             if whole and self.window.trouble:
                 self.notices.add(self.context.words("scoreboard.none"))
 
@@ -105,6 +108,10 @@ class OperatorDesk:
         closed = self.window is not None and self.window.close_if_requested(event)
         self.dismissed = self.dismissed or closed
         return closed
+
+    @property
+    def has_window(self) -> bool:
+        return self.window is not None
 
     def close(self) -> None:
         if self.window:
@@ -117,12 +124,10 @@ class OperatorDesk:
         if not number:
             return
         self.displays = pygame.display.get_desktop_sizes()
-        from pigaming_app.scenes.scoreboard.pages import complete
         from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
 
         canvas = self.context.canvas
-        complete(self.context)
-        self.window = ScoreboardWindow(number, canvas.display, self.context.board_pages, canvas.headless)
+        self.window = ScoreboardWindow(number, canvas.display, self.board.pages, canvas.headless)
         if self.window.trouble:
             self.notices.add(self.context.words("scoreboard.none"))
 
@@ -160,13 +165,13 @@ class OperatorDesk:
         if self.window and self.window.window is None:
             self._open(self.number)
             return
-        pages = [page for page in self.context.board_pages if page.parts(scenes) is not None]
+        pages = [page for page in self.board.pages if page.parts(scenes) is not None]
         names = [page.name for page in pages]
         if self.window is None or self.window.window is None or not names:
             return
-        at = names.index(self.context.board_page) if self.context.board_page in names else -1
-        self.context.board_page = names[(at + 1) % len(names)]
-        self.notices.add(self.context.words(f"scoreboard.shows_{self.context.board_page}"))
+        at = names.index(self.board.chosen) if self.board.chosen in names else -1
+        self.board.chosen = names[(at + 1) % len(names)]
+        self.notices.add(self.context.words(f"scoreboard.shows_{self.board.chosen}"))
 
     def _open_page(self, stack: Stack) -> None:
         from pigaming_app.scenes.operator.page import OperatorPage

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
-from pigaming_app.scenes.events.resume import running_path
+from pigaming_app.scenes.features.registry import without_limit
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
 
@@ -53,7 +53,7 @@ class GroupLimit:
 
     def update(self, seconds: float, scenes: Sequence[Scene]) -> StackOperation:
         """Advance by `seconds` with these scenes on the stack; returns to the title when the time is over."""
-        self.event = len(scenes) > 1 and (self.event or running_path(scenes) is not None)
+        self.event = len(scenes) > 1 and (self.event or without_limit(scenes))
         if self.event or len(scenes) < 2:
             self.seconds, self.farewell, self.still = 0.0, None, False
             return None

@@ -13,6 +13,7 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperatio
 from pigaming_app.scenes.operator import pictures
 from pigaming_app.scenes.operator.group_limit import InMatch
 from pigaming_app.scenes.operator.safe_start_notice import SafeStartNotice
+from pigaming_app.scenes.scoreboard.pages import Pages
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.setting_row import SettingValue
@@ -92,8 +93,9 @@ class OperatorPage(SettingsPage):
                     "arrows", (words("options.off"), *displays), min(settings.scoreboard, len(displays))
                 )
             case "board":
-                names = [page.name for page in self.context.board_pages] or [self.context.board_page]
-                chosen = names.index(self.context.board_page) if self.context.board_page in names else 0
+                board = self.context.shared(Pages)
+                names = [page.name for page in board.pages]
+                chosen = names.index(board.chosen)
                 return SettingValue("arrows", tuple(words(f"scoreboard.{page}") for page in names), chosen)
         return SettingValue("deed", (words("options.open" if name == "figures" else "options.clear"),))
 
@@ -130,7 +132,8 @@ class OperatorPage(SettingsPage):
             case "scoreboard":
                 settings.scoreboard = chosen
             case "board":
-                context.board_page = context.board_pages[chosen].name
+                board = context.shared(Pages)
+                board.chosen = board.pages[chosen].name
 
 
 _SLOTS = 24 * 60 // STEP_MINUTES

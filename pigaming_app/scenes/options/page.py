@@ -4,9 +4,12 @@ In a kiosk they offer only what children may change; the operator's page offers 
 """
 
 import logging
+from functools import cache
 
 import pygame
 
+from pigaming_app.scenes.features.feature import OptionRow
+from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.settings_page import SettingsPage
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
@@ -18,25 +21,40 @@ from pigaming_app.ui.draw import read_large
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import InputEvent
-from pigaming_app.ui.widgets.setting_row import SettingValue
+from pigaming_app.ui.widgets.setting_row import CENTRE, SettingValue
 
 CLEAR = 2.0  # seconds for which a button is held to clear the high scores
 FLASHES = ("off", "soft", "full")
-ROWS = ("language", "picture", "controls", "ease", "robots", "games", "day")
+ROWS = ("language", "picture", "controls", "ease", "games")
 SECTIONS: dict[str, tuple[str, ...]] = {
     "picture": ("music", "sounds", "display", "fullscreen"),
-    "controls": ("rumble", "padtest", "remap", "phones"),
+    "controls": ("rumble", "padtest", "remap"),
     "ease": ("calm", "flashes", "shake", "large"),
     "games": ("added", "reset"),
 }
 FOR_CHILDREN = {"language", "rumble", "padtest", *SECTIONS["ease"]}
-OPENING = ("padtest", "phones", "robots", "added", "day", "remap", *SECTIONS)  # rows that open a page
+OPENING = ("padtest", "added", "remap", *SECTIONS)  # rows that open a page, besides those of features
 log = logging.getLogger("pigaming")
+
+
+@cache
+def added_rows() -> dict[str, OptionRow]:
+    """The rows of features."""
+    return {name: row for feature in features() for name, row in feature.options.items()}
+
+
+def rows_of(section: str) -> tuple[str, ...]:
+    """The rows of a section with those of features; empty: of the first page."""
+    found = list(SECTIONS.get(section, ROWS))
+    for name, row in added_rows().items():
+        if row.section == section:
+            found.insert(found.index(row.after) + 1, name)
+    return tuple(found)
 
 
 def offered(rows: tuple[str, ...]) -> tuple[str, ...]:
     """Those of the rows that children may change, and those that lead to such rows."""
-    return tuple(name for name in rows if name in FOR_CHILDREN or offered(SECTIONS.get(name, ())))
+    return tuple(name for name in rows if name in FOR_CHILDREN or (name in SECTIONS and offered(rows_of(name))))
 
 
 class OptionsPage(SettingsPage):
@@ -44,17 +62,21 @@ class OptionsPage(SettingsPage):
 
     def __init__(self, context: Context, operator: bool = False, section: str = "") -> None:
         self.operator, self.untimed, self.cleared = operator, operator, False
-        rows: tuple[str, ...] = SECTIONS.get(section, ROWS)
+        self.added = added_rows()
+        rows = rows_of(section)
         if context.kiosk:
             rows = rows if operator and section else (*rows, "close") if operator else offered(rows)
         title = section or ("operator" if operator else "title")
         super().__init__(context, "options", f"options.{title}", rows, CLEAR)
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
-        pictures.sketch(screen, name, chosen, self.clock)
+        if name in self.added:
+            pictures.added(self.added[name].picture, int(self.clock * 2) % 2).draw(screen, *CENTRE)
+        else:
+            pictures.sketch(screen, name, chosen, self.clock)
 
     def render_picture(self, name: str, chosen: int) -> object:
-        return pictures.drawn(name, chosen)
+        return pictures.added(self.added[name].picture, 0) if name in self.added else pictures.drawn(name, chosen)
 
     def value(self, name: str) -> SettingValue:
         """The value of a row."""
@@ -81,7 +103,8 @@ class OptionsPage(SettingsPage):
             case "reset":
                 key = "cleared" if self.cleared else "clear"
                 return SettingValue("deed", (words(f"options.{key}"),))
-        return SettingValue("deed", (words("options.open" if name in OPENING else "options.end"),))
+        opens = name in OPENING or name in self.added
+        return SettingValue("deed", (words("options.open" if opens else "options.end"),))
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         """Open a page, close the arcade, or begin to clear the high scores."""
@@ -100,26 +123,16 @@ class OptionsPage(SettingsPage):
             from pigaming_app.scenes.options.controls_test import ControlsTest
 
             return ControlsTest(self.context)
-        if name == "phones":
-            from pigaming_app.scenes.phones.settings_page import PhonesPage
-
-            return PhonesPage(self.context)
         if name == "remap":
             from pigaming_app.scenes.options.remap_page import RemapPage
 
             return RemapPage(self.context)
-        if name == "robots":
-            from pigaming_app.scenes.robots.menu import RobotsMenu
-
-            return RobotsMenu(self.context)
         if name == "added":
             from pigaming_app.scenes.options.games_page import GamesPage
 
             return GamesPage(self.context)
-        if name == "day":
-            from pigaming_app.scenes.operator.page import OperatorPage
-
-            return OperatorPage(self.context)
+        if name in self.added:
+            return self.added[name].page(self.context)
         return OptionsPage(self.context, self.operator, name)
 
     def apply(self, name: str, chosen: int) -> None:

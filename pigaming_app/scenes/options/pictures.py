@@ -1,6 +1,7 @@
 """The animated picture beside the options that illustrates the focused row."""
 
 import math
+from collections.abc import Callable
 
 import pygame
 
@@ -49,6 +50,14 @@ def drawn(name: str, chosen: int, seconds: float = 0.0) -> LitImage:
     if name == "sounds":
         return _speaker(chosen, int(seconds * 6) % 4)
     return _note(chosen, int(seconds * 8) % 8) if name == "music" else _drawn(name, chosen, int(seconds * 2) % 2)
+
+
+@cached
+def added(sketch: Callable[[GlowCanvas, int], object], beat: int) -> LitImage:
+    """The picture of a row of a feature."""
+    ink = GlowCanvas(480, 340).set_transform(240, 170)
+    sketch(ink, beat)
+    return LitImage(ink.lit(0.9), (-240, -170))
 
 
 @cached
@@ -110,12 +119,6 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
         icon(ink, "pad", 0, 10, 130, FOCUS, LINE)
         if beat:
             ink.disc(0.44 * 130, 10 - 0.28 * 130, 12, ICE)
-    elif name == "phones":
-        icon(ink, "phone", 0, 10, 130, FOCUS, LINE)
-        if beat:
-            for side in (-1, 1):
-                start = (math.pi if side < 0 else 0.0) - 0.5
-                ink.arc(0, 10, 150, start, start + 1.0, ICE, LINE)
     elif name == "rumble":
         icon(ink, "pad", 0, 10, 110, FOCUS, LINE)
         for side in (-1, 1):
@@ -140,16 +143,6 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
             last = i == 3 and (beat or name == "games")
             ink.line(cut_box(x, y, 100, 68, 12), FOCUS if last else STEEL, LINE, True)
         icon(ink, "plus", 60, 56, 20, FOCUS, LINE)
-    elif name == "robots":
-        ink.ring(0, 0, 104, FOCUS, LINE).line(cut_box(-46, -46, 92, 92, 4), ICE, LINE, True)
-        ink.fill([(-30, -30), (0, -30), (0, 0), (-30, 0)], ICE).fill([(0, 0), (30, 0), (30, 30), (0, 30)], ICE)
-        for y in (-118, 118):
-            ink.line([(-34, y), (34, y)], FOCUS, LINE)
-        ink.line([(122, -22), (146, 0), (122, 22)], FOCUS, LINE)
-    elif name == "day":
-        for i, high in enumerate((60, 130, 190, 110)):
-            ink.line(cut_box(-134 + 70 * i, 100 - high, 48, high, 8), FOCUS if high == 190 else ICE, LINE, True)
-        ink.line([(-160, 112), (160, 112)], STEEL, LINE)
     elif name == "reset":
         icon(ink, "crown", 0, 0, 96, FOCUS, LINE)
         ink.line([(-120, 96), (120, -96)], ICE, LINE)

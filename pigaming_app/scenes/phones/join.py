@@ -10,6 +10,7 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.ui.draw import (
     ALARM,
     BLACK,
@@ -62,6 +63,7 @@ class JoinByPhone:
         ready: Callable[[], bool] = lambda: False,
     ) -> None:
         self.context, self.devices, self.lobby, self.ready = context, devices, lobby, ready
+        self.host = context.shared(phone_host)
         self.clock = 0.0
         self.prompts = context.prompts([(Button.BACK, "phones.hint_back")])
 
@@ -92,12 +94,12 @@ class JoinByPhone:
     def update(self, seconds: float) -> StackOperation:
         """Return when phones are off; to the title when the lobby is abandoned."""
         self.clock += seconds
-        if not self.context.phone_host.on:
+        if not self.host.on:
             return Pop()
         return Home() if self.lobby and self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        words, host = self.context.words, self.context.phone_host
+        words, host = self.context.words, self.host
         screen.blit(backdrop(), (0, 0))
         heading(words("phones.title"), words("phones.line")).draw(screen)
         if host.url:

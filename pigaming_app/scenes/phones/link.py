@@ -8,12 +8,13 @@ from typing import Protocol, runtime_checkable
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.snapshot import match_of, snapshot
 from pigaming_app.ui.draw import MIST, PLAYERS
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
-from pigaming_app.ui.input.phones.protocol import SeatView
+from pigaming_app.ui.input.phone_messages import SeatView
 
 PAGE_TEXTS = (
     "page_player", "page_join", "page_fire", "page_turbo", "page_ok", "page_back", "page_lost", "page_old",
@@ -57,7 +58,7 @@ class PhoneLink:
     """Call `update` once a frame."""
 
     def __init__(self, context: Context, clock: Callable[[], float] = time.monotonic) -> None:
-        self.context, self._clock = context, clock
+        self.context, self.host, self._clock = context, context.shared(phone_host), clock
         self._tallies: dict[int, Tally] = {}  # by seat
         self._counted_at = -TALLY_SECONDS
         self._texts: dict[str, dict[str, str]] = {}  # of the page, by language
@@ -66,7 +67,7 @@ class PhoneLink:
         """Switch phones on or off as set, and tell each phone its seat on the uppermost scene that has seats."""
         context, settings = self.context, self.context.settings
         texts = self._texts.setdefault(context.words.language, page_texts(context.words))
-        context.phone_host.switch(settings.phones, settings.phones_network, settings.phones_port, texts)
+        self.host.switch(settings.phones, settings.phones_network, settings.phones_port, texts)
         phones = context.controls.phones
         if not phones.plugged:
             return

@@ -5,6 +5,7 @@ import pygame
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.settings_page import SettingsPage
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, plain, trouble
 from pigaming_app.storage.settings import MAX_NAME
 from pigaming_app.ui.draw import ALARM, FOCUS, MIST, STEEL, THIN, text_width
@@ -26,6 +27,7 @@ class PhonesPage(SettingsPage):
     def __init__(self, context: Context) -> None:
         self.networks: list[Network] = []
         super().__init__(context, "phones", "options.phones", ROWS)
+        self.host = context.shared(phone_host)
 
     def on_enter(self) -> None:
         """Look which networks there are."""
@@ -36,19 +38,19 @@ class PhonesPage(SettingsPage):
 
     def draw(self, screen: pygame.Surface) -> None:
         super().draw(screen)
-        lines = paragraph(self._status(), dials.W - 40, 4, ALARM if self.context.phone_host.trouble else MIST)
+        lines = paragraph(self._status(), dials.W - 40, 4, ALARM if self.host.trouble else MIST)
         for i, lit in enumerate(lines):
             lit.draw(screen, LEFT + 40, STATUS_Y + 58 * i)
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
-        host, (x, y) = self.context.phone_host, dials.CENTRE
+        host, (x, y) = self.host, dials.CENTRE
         if host.url:
             draw_code(screen, host.url, pygame.Rect(x - 165, y - 165, 330, 330))
         else:
             sign("phone", 120, FOCUS if host.on else STEEL, THIN).draw(screen, x, y)
 
     def _status(self) -> str:
-        words, host = self.context.words, self.context.phone_host
+        words, host = self.context.words, self.host
         if host.trouble:
             return trouble(words, host)
         return words("phones.listening", address=plain(host.url)) if host.url else words("phones.are_off")
@@ -77,7 +79,7 @@ class PhonesPage(SettingsPage):
             settings.phones_network = known[chosen]
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
-        if not self.context.phone_host.on:
+        if not self.host.on:
             self.navigation.show_message(self.context.words("phones.are_off"))
             self.context.sounds.play("error")
             return None

@@ -11,10 +11,10 @@ from typing import Protocol
 
 import pygame
 
+from pigaming_app.scenes.features.registry import join_offer
 from pigaming_app.scenes.flow.access import OWNER_SECONDS, Access, PauseAccess
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
-from pigaming_app.scenes.phones.join import JoinByPhone
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.sim.things.spec import ThingSpec
@@ -105,7 +105,8 @@ class Pause:
         self.picture: pygame.Surface | None = None
         self.confirm_left = self.explain_left = 0.0
         items = [item for item in ITEMS[1:] if item != "restart" or match.restart_allowed]
-        phones = ["phones"] if self.context.phone_host.on else []
+        self.offer = join_offer(match.context)
+        phones = ["phones"] if self.offer and self.offer.on else []
         self.focus = Focus(menu_spots((ITEMS[0], *match.extra_items, *phones, *items)))
         hints = [
             (Button.FIRE, "pause.hint_ok"),
@@ -197,8 +198,8 @@ class Pause:
                 self.match.restart()
             case "end":
                 self.match.stop()
-            case "phones":
-                return Push(JoinByPhone(self.context, lambda: self.match.devices))
+            case "phones" if self.offer:
+                return Push(self.offer.page(lambda: self.match.devices))
             case "controls":
                 return Push(DeviceTable(self.context, self.match.devices, self.access, self.match.style_of))
             case extra if extra in self.match.extra_items:

@@ -4,7 +4,7 @@ from collections.abc import Hashable, Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.board_page import BoardPage, Box, Part
+from pigaming_app.scenes.features.board_page import BoardPage, Box, Part
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 

@@ -1,14 +1,22 @@
-"""The pages of the second screen that the arcade always has."""
+"""The pages of the second screen."""
 
+from itertools import chain
+
+from pigaming_app.scenes.features.board_page import BoardPage
+from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.scoreboard.camera_page import CameraPage
-from pigaming_app.scenes.scoreboard.event_page import EventPage
 from pigaming_app.scenes.scoreboard.score_page import ScorePage
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage
 
 
-def complete(context: Context) -> None:
-    """Add them to the pages of the second screen, round any others, unless they are there."""
-    pages = context.board_pages
-    if not any(page.name == StandbyPage.name for page in pages):
-        pages[:] = [StandbyPage(context), ScorePage(context), EventPage(context), *pages, CameraPage()]
+class Pages:
+    """`pages`: in the order of the F2 key, those of features last; `chosen`: the name of one."""
+
+    def __init__(self, context: Context) -> None:
+        self.chosen = ScorePage.name
+        offers = [feature.board_pages(context) for feature in features() if feature.board_pages]
+        self.pages: list[BoardPage] = [
+            StandbyPage(context),
+            ScorePage(context),
+            *chain.from_iterable(offers),
+        ]

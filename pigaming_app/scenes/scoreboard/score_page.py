@@ -2,15 +2,15 @@
 
 from collections.abc import Sequence
 from functools import partial
+from typing import Protocol, runtime_checkable
 
 import pygame
 
-from pigaming_app.scenes.flow.board_page import Box, Part
+from pigaming_app.scenes.features import board_text as text
+from pigaming_app.scenes.features.board_page import Box, Part
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.snapshot import MatchSnapshot, ShownMatch, Side, match_of, snapshot
-from pigaming_app.scenes.scoreboard import text
-from pigaming_app.scenes.scoreboard.event_now import event_match, round_line
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, PLAYERS, STEEL, SUB, Color
 from pigaming_app.ui.i18n import Words
 
@@ -19,6 +19,18 @@ ROW_MAX = 372  # px
 HEAD: Box = (LEFT, 40, 620, 220)
 CLOCK: Box = (690, 40, 540, 220)
 STATE: Box = (1240, 40, 620, 220)
+
+
+@runtime_checkable
+class PartOfEvent(Protocol):
+    """What follows a match of an event."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Who plays, in the order of the seats."""
+
+    def round_line(self, words: Words) -> str:
+        """Where the match stands in the event."""
 
 
 class ScorePage:
@@ -108,7 +120,7 @@ def _state(state: str, round_line: str, surface: pygame.Surface) -> None:
 
 def shown_match(scene: ShownMatch, words: Words, on_top: bool) -> MatchSnapshot:
     """The match of a scene now, with the entrants and the round of an event."""
-    event = event_match(scene)
-    if event is None:
+    after = getattr(scene, "after", None)
+    if not isinstance(after, PartOfEvent):
         return snapshot(scene, words, on_top)
-    return snapshot(scene, words, on_top, event.fixture.entrants, round_line(words, event))
+    return snapshot(scene, words, on_top, after.names, after.round_line(words))

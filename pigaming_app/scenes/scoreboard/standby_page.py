@@ -6,12 +6,12 @@ from functools import partial
 import pygame
 
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.board_page import Box, Part
+from pigaming_app.scenes.features import board_text as text
+from pigaming_app.scenes.features.board_page import Box, Part
+from pigaming_app.scenes.features.registry import next_line
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.high_score_tables import format_score
-from pigaming_app.scenes.scoreboard import text
-from pigaming_app.scenes.scoreboard.event_now import event_now, next_line
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.day_log import now
 from pigaming_app.storage.scores import Scores, ScoreTable
@@ -43,8 +43,7 @@ class StandbyPage:
             Part((1260, 50, 600, 220), clock, partial(_clock, clock)),
             Part((LEFT, 290, W, 110), words("scoreboard.today"), partial(_headline, words("scoreboard.today"))),
         ]
-        event = event_now(self.context, scenes)
-        following = next_line(words, event) if event else ""
+        following = next_line(self.context, scenes)
         if following:
             parts.append(Part(FOOT, following, partial(_foot, following)))
         rows, h = (ROWS - 1, H - FOOT[3]) if following else (ROWS, H)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.board_page import BoardPage
+from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.scoreboard.board import Board
 

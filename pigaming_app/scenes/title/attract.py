@@ -1,10 +1,10 @@
-"""Attract mode: for each game in turn an AI match, a highlight, the lesson, the high scores and the best climbers.
+"""Attract mode: for each game in turn an AI match, a highlight, the high scores, and what features show.
 
 Any input only ends it.
 """
 
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import cycle
 
@@ -12,13 +12,13 @@ import pygame
 
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import new_match
-from pigaming_app.events.ladder import ALL, table_of
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.features.feature import Show
+from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
-from pigaming_app.scenes.ladder.climbers import Climbers
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.results.high_score_tables import contests
@@ -37,7 +37,7 @@ GLOWS = 6  # brightnesses of the prompt
 
 
 class Attract:
-    """Up to five shows per game, cyclically, from a random game; pushed over the title when idle."""
+    """The shows of each game, cyclically, from a random game; pushed over the title when idle."""
 
     untimed = waits = True
 
@@ -49,7 +49,7 @@ class Attract:
         self.shows = (
             partial(make, game)
             for game in cycle(names[first:] + names[:first])
-            for make in (self._match, self._highlight, self._howto, self._best, self._climbers)
+            for make in (self._match, self._highlight, self._best, *self._of_features())
         )
         self.show: Scene | None = None
         self.clip: Clip | None = None  # the next highlight
@@ -108,15 +108,6 @@ class Attract:
     def _match(self, game: str) -> Scene:
         return DemoMatch(self.context, game)
 
-    def _howto(self, game: str) -> Scene | None:
-        """The lessons of the game; None if it has none."""
-        from pigaming_app.scenes.howto.scene import HowTo, taught
-
-        if game not in taught():
-            return None
-        page = HowTo(self.context, game)
-        return TimedPage(page, page.draw)
-
     def _best(self, game: str) -> Scene | None:
         """High scores of the game; None if there are none."""
         tables = [table for table in contests(self.context.scores) if table.game == game]
@@ -125,13 +116,16 @@ class Attract:
         best = HighScores(self.context, secrets.choice(tables))
         return TimedPage(best, best.paint)
 
-    def _climbers(self, game: str) -> Scene | None:
-        """The best climbers of the game, or of all games; None if there are none."""
-        climbed = [ladder for ladder in (game, ALL) if self.context.scores.best(table_of(ladder))]
-        if not climbed:
-            return None
-        page = Climbers(self.context, secrets.choice(climbed))
-        return TimedPage(page, page.paint)
+    def _of_features(self) -> Iterator[Callable[[str], Scene | None]]:
+        """The shows of features."""
+        for feature in features():
+            if feature.show:
+                yield partial(self._timed, feature.show)
+
+    def _timed(self, make: Callable[[Context, str], Show | None], game: str) -> Scene | None:
+        """A page of a feature for a while; None if it has none."""
+        show = make(self.context, game)
+        return TimedPage(show.page, show.paint) if show else None
 
 
 class DemoMatch:

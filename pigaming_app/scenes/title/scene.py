@@ -5,6 +5,7 @@ After a while without input, attract mode starts.
 
 import pygame
 
+from pigaming_app.scenes.features.registry import menu
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
@@ -57,9 +58,9 @@ class Title:
         self.kiosk_unlock = KioskUnlock(context)
         self.tiles = TileStrip(shown_games())
         self.game = self.tiles.names[0]  # the game whose tile was focused last
+        self.menu = menu()  # of features, from left to right
         self.focus = Focus(self._spots())
         self.language = LanguageName(context)
-        self.lab: Scene | None = None
         self.music = True  # off in the quiet hours
         self.since = 0.0  # s since the last return
         self.asked: set[str] = set()  # new plug-ins that were asked about
@@ -166,47 +167,20 @@ class Title:
             from pigaming_app.scenes.lobby.scene import Lobby
 
             return Lobby(self.context, name)
-        if name == "howto":
-            from pigaming_app.scenes.howto.scene import HowTo
-
-            return HowTo(self.context, self.game)
-        if name == "lab":
-            return self._lab()
-        if name == "ladder":
-            from pigaming_app.scenes.ladder.choice import LadderChoice
-
-            return LadderChoice(self.context, self.game)
-        if name == "events":
-            from pigaming_app.scenes.events.choice import EventsPage
-
-            return EventsPage(self.context)
-        if name == "replays":
-            from pigaming_app.scenes.replays.page import ReplaysPage
-
-            return ReplaysPage(self.context)
-        if name == "editor":
-            from pigaming_app.scenes.editor.gallery.page import Gallery
-
-            return Gallery(self.context, self.game)
+        if name in self.menu:
+            return self.menu[name].open(self.context, self.game)
         if name == "options":
             from pigaming_app.scenes.options.page import OptionsPage
 
             return OptionsPage(self.context)
         return None
 
-    def _lab(self) -> Scene:
-        """The Lab in its last state: its robot is kept."""
-        from pigaming_app.scenes.lab.scene import Lab
-
-        self.lab = self.lab or Lab(self.context)
-        return self.lab
-
     def _spots(self) -> list[FocusSpot]:
         spots = self.tiles.spots()
-        widths = [chip_width(self.context.words(f"title.{name}")) for name in self._menu()]
+        widths = [chip_width(self.context.words(f"title.{name}")) for name in self._items()]
         room = RIGHT - LEFT - LANGUAGES_W - MENU_GAP * len(widths)
         x, share = LEFT, min(1.0, room / sum(widths))
-        for name, width in zip(self._menu(), widths, strict=True):
+        for name, width in zip(self._items(), widths, strict=True):
             w = int(width * share)
             spots.append(FocusSpot(name, pygame.Rect(x, FOOT_Y - 32, w, 64)))
             x += w + MENU_GAP
@@ -219,9 +193,8 @@ class Title:
         w = chip_width(self.language_word)
         return [*spots, FocusSpot("language", pygame.Rect(RIGHT - w, FOOT_Y - 32, w, 64))]
 
-    def _menu(self) -> tuple[str, ...]:
-        items = "howto", "ladder", "events", "lab", "editor", "replays", "options"
-        return items if self.context.kiosk else (*items, "quit")
+    def _items(self) -> tuple[str, ...]:
+        return (*self.menu, "options") if self.context.kiosk else (*self.menu, "options", "quit")
 
     def _prompt(self, screen: pygame.Surface) -> None:
         """The call to action, between arrows that run towards it."""
@@ -248,7 +221,7 @@ class Title:
         return self.language_word if name == "language" else self.context.words(f"title.{name}")
 
     def _foot(self, screen: pygame.Surface) -> None:
-        for name in (*self._menu(), "language"):
+        for name in (*self._items(), "language"):
             box = self.focus.rect(name)
             chip(self._item_name(name), box.w, "on" if name == self.focus.name else "off").draw(screen, *box.topleft)
         label = self.context.controls.label(None, Button.Y)

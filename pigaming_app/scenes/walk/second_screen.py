@@ -14,11 +14,13 @@ from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import MOST, Entrant, EventSpec, Format
-from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.scoreboard.pages import Pages
 from pigaming_app.scenes.start import opened
 from pigaming_app.storage.settings import folders
 
@@ -46,7 +48,8 @@ def frame(app: App, shown: bool) -> float:
     if app.compose(1 / FPS):
         app.context.canvas.flip()
     if shown:
-        app.desk.show(1 / FPS, 1 / FPS - (thread_time() - start), app.stack.scenes)
+        for service in app.services:
+            service.show(1 / FPS, 1 / FPS - (thread_time() - start), app.stack.scenes)
     return 1000.0 * (thread_time() - start)
 
 
@@ -59,7 +62,7 @@ def compare() -> dict[str, float]:
             frame(app, True)
         for block in range(BLOCKS):
             shown = block % 2 == 0
-            app.context.board_page = PAGES[block // 2 % len(PAGES)]
+            app.context.shared(Pages).chosen = PAGES[block // 2 % len(PAGES)]
             times[shown] += [frame(app, shown) for _ in range(BLOCK)]
     p99 = {shown: quantiles(found, n=100)[-1] for shown, found in times.items()}
     return {"median": median(times[True]) / median(times[False]), "p99": p99[True] / p99[False]}

@@ -12,7 +12,8 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.app import App
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.walk.tour import tour
 

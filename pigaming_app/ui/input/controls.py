@@ -9,10 +9,10 @@ import pygame
 
 from pigaming_app.ui.input import gamepads as pads
 from pigaming_app.ui.input import keyboard
+from pigaming_app.ui.input import phone_pads as phones
 from pigaming_app.ui.input.edges import TapQueue
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.filters import DIRECTIONS, AutoRepeat, ButtonChange
-from pigaming_app.ui.input.phones import registry as phones
 from pigaming_app.ui.input.remap import Tables
 
 _MOUSE = Device("mouse")

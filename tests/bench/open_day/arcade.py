@@ -29,8 +29,9 @@ def main(folder: Path) -> int:
     day_clock.install(clock)
 
     from pigaming_app.jobs.kiosk import child
-    from pigaming_app.scenes.app import App, Options
+    from pigaming_app.scenes.app import App
     from pigaming_app.scenes.events.next_page import NextMatch
+    from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.play.scene import MatchScene
     from pigaming_app.scenes.results.initials import Initials
     from pigaming_app.scenes.results.scene import Results

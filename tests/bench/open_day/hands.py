@@ -6,8 +6,8 @@ from typing import Protocol
 import pygame
 
 from pigaming_app.ui.input.events import Button, Device
-from pigaming_app.ui.input.phones.protocol import BITS, Touches
-from pigaming_app.ui.input.phones.registry import Phones
+from pigaming_app.ui.input.phone_messages import BITS, Touches
+from pigaming_app.ui.input.phone_pads import Phones
 from tests.bench.open_day.handsets import Handset
 from tests.ui.input.virtual_pad import VirtualPad
 

@@ -6,7 +6,7 @@ from contextlib import suppress
 
 from aiohttp import ClientError, ClientSession, ClientTimeout, WSMsgType
 
-from pigaming_app.ui.input.phones.protocol import Touches, pack
+from pigaming_app.ui.input.phone_messages import Touches, pack
 
 BEAT = 0.15  # s between two messages of a phone that is not touched
 RETRY = 0.1  # s until the next attempt to connect

@@ -10,6 +10,7 @@ from pigaming_app.scenes.app import App
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.operator.figures_page import FiguresPage
 from pigaming_app.scenes.operator.page import OperatorPage
+from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.scene import Title
@@ -151,7 +152,7 @@ class Stage:
             self.watch.count("phones")
 
     def _phone(self) -> PhoneHands:
-        host = self.app.context.phone_host
+        host = self.app.context.shared(phone_host)
 
         def others() -> list[PhoneHands]:
             phones = [player.hands for player in self.players if isinstance(player.hands, PhoneHands)]

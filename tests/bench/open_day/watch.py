@@ -7,6 +7,7 @@ from pigaming_app.games.rounds import Rounds
 from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.next_page import EventMatch
+from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.operator.group_limit import FAREWELL
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.initials import Initials
@@ -15,6 +16,7 @@ from pigaming_app.scenes.title.scene import Title
 from tests.bench.open_day.audit import table_key
 from tests.bench.open_day.ledger import LedgerFile
 from tests.bench.open_day.plan import Day, Group, time_of
+from tests.scenes.arcade import service_of
 
 LONGEST_STAY = 1.0  # s that a group may stay beyond its limit and the farewell
 
@@ -140,7 +142,7 @@ class Watch:
             self.count("titles in quiet hours")
 
     def _limit(self) -> None:
-        limit = self.app.desk.limit
+        limit = service_of(self.app, OperatorDesk).limit
         if self.farewell and limit.farewell is None and len(self.app.stack.scenes) == 1:
             self.count("groups at their limit")
         self.farewell = limit.farewell is not None

@@ -269,7 +269,7 @@ def test_keys_drive_the_seat_they_name_or_the_first_person_while_they_are_held()
 
 LOBBY = """
 import time
-from pigaming_app.scenes.app import Options
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage

@@ -62,7 +62,7 @@ if what == "early":
     sys.exit("it crashed before the first frame")
 
 from pigaming_app.jobs.kiosk import child
-from pigaming_app.scenes.app import Options
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import run
 from pigaming_app.scenes.flow.stack import Quit
 from pigaming_app.ui import pulse

@@ -30,7 +30,7 @@ import os, signal, sys
 from pathlib import Path
 
 from pigaming_app.jobs.kiosk import child
-from pigaming_app.scenes.app import Options
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import opened
 
 diary = Path(sys.argv[1])
@@ -135,11 +135,12 @@ from pigaming_app.events.event_files import load, save
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.games.engine_hash import engine_hash
-from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.app import App
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.events import choice, next_page
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.preloaded import MODULES
+from pigaming_app.scenes.preloaded import modules
 from pigaming_app.scenes.results import winner
 from pigaming_app.storage import resume
 
@@ -175,7 +176,7 @@ def arcade(pipe, beats):
                 top.match.state.rules.ticks = min(top.match.state.rules.ticks, 15)
 
 engine_hash()  # what every arcade needs is loaded once
-for module in MODULES:
+for module in modules():
     import_module(module)
 match = new_match(setup_of(new, new.open[0]))
 for _ in range(15):

@@ -43,8 +43,8 @@ from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from pigaming_app.ui.input.phones.protocol import SeatView
-from pigaming_app.ui.input.phones.registry import Phones
+from pigaming_app.ui.input.phone_messages import SeatView
+from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.widgets import setting_row
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events.drawn import an_event, played, result_of, running, saved

@@ -7,12 +7,13 @@ import pytest
 
 from pigaming_app.events import event_files
 from pigaming_app.events.spec import Format
-from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.next_page import INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.stack import Home, Push
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.title.scene import Title

@@ -11,10 +11,11 @@ from pigaming_app.ai.experiments.compiler import Compiler
 from pigaming_app.games import engine_hash
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
 from pigaming_app.scenes.flow import preload
 from pigaming_app.scenes.flow.preload import Preloader
+from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.play.scene import MatchScene
@@ -144,8 +145,9 @@ def test_the_compilers_run_once_from_the_title_on_and_end_with_the_arcade(
     home: Path, prepared: list[tuple[str, str]], name: str
 ) -> None:
     with opened(Options(headless=True)) as app:
-        compiler: Compiler = getattr(app.context, name)
-        app.context.compiler._command = app.context.network_compiler._command = ENDLESS
+        background = app.context.shared(Background)
+        compiler: Compiler = getattr(background, name)
+        background.compiler._command = background.network_compiler._command = ENDLESS
         app.compose(1 / 60)
         assert compiler.code is None
         assert compiler._process is None, "the first picture comes first"
@@ -176,7 +178,7 @@ def test_nothing_is_prepared_where_no_title_is_shown(home: Path, simulated: bool
         for _ in range(30):
             app.compose(1 / 60)
         assert not app.context.preloader.busy
-        assert app.context.compiler._process is None
+        assert app.context.shared(Background).compiler._process is None
 
 
 def test_a_compiler_that_was_ended_before_it_began_never_begins() -> None:

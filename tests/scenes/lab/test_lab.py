@@ -12,11 +12,12 @@ from pigaming_app.scenes.flow.stack import Stack
 from pigaming_app.scenes.lab import progress, scene
 from pigaming_app.scenes.lab import trainer as trainer
 from pigaming_app.scenes.lab import view as page
-from pigaming_app.scenes.lab.challenge import ROBOT, Challenge, ChallengeResult
-from pigaming_app.scenes.lab.compare_page import ComparePage
+from pigaming_app.scenes.lab.background import Background
 from pigaming_app.scenes.lab.layout import CURVE, KNOB_NAMES, MATCH, PLOT, SPEED
 from pigaming_app.scenes.lab.learning_curve import Measure, room, smoothed
-from pigaming_app.scenes.lab.menu import LabMenu
+from pigaming_app.scenes.lab.pages.challenge import ROBOT, Challenge, ChallengeResult
+from pigaming_app.scenes.lab.pages.compare_page import ComparePage
+from pigaming_app.scenes.lab.pages.menu import LabMenu
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.scenes.lab.view import warming
 from pigaming_app.scenes.play.pause import Pause
@@ -61,12 +62,13 @@ def at_full_speed(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcade: Arcade) -> None:
     arcade.stack = Stack(Title(arcade.context))
+    background = arcade.context.shared(Background)
+    background.lab = Lab(arcade.context, fast=False)
     for _ in range(2):
         title = arcade.shown(Title)
-        title.lab = title.lab or Lab(arcade.context, fast=False)
         title.focus.move_to("lab")
         arcade.press(Button.FIRE)
-        assert lab(arcade) is title.lab
+        assert lab(arcade) is background.lab
         arcade.wait(0.5)
         arcade.press(Button.BACK)
     assert lab_of(arcade).table.training.match.tick > 0
@@ -265,8 +267,8 @@ def test_forgetting_everything_takes_two_presses(arcade: Arcade) -> None:
 
 
 def test_the_table_compares_what_it_knew_with_what_it_knows(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pigaming_app.scenes.lab.compare_page.MINUTES", 0.1)
-    monkeypatch.setattr("pigaming_app.scenes.lab.compare_page.SLICE", 0.2)
+    monkeypatch.setattr("pigaming_app.scenes.lab.pages.compare_page.MINUTES", 0.1)
+    monkeypatch.setattr("pigaming_app.scenes.lab.pages.compare_page.SLICE", 0.2)
     at_full_speed(arcade, monkeypatch)
     learn(arcade, 1)
     here = lab(arcade)

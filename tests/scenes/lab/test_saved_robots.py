@@ -7,9 +7,9 @@ import pytest
 
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.lab import saved_robots as robots
-from pigaming_app.scenes.lab.menu import LabMenu
-from pigaming_app.scenes.lab.name_page import NamePage
-from pigaming_app.scenes.lab.open_page import COLUMNS, ROWS, OpenPage
+from pigaming_app.scenes.lab.pages.menu import LabMenu
+from pigaming_app.scenes.lab.pages.name_page import NamePage
+from pigaming_app.scenes.lab.pages.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES

@@ -5,10 +5,10 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.events.drivers import driver_label, suggested
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seats import EMPTY
 from pigaming_app.scenes.options.controls_test import ControlsTest

@@ -23,7 +23,6 @@ from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
@@ -137,7 +136,7 @@ def key(kind: int, code: int) -> pygame.Event:
 @pytest.mark.parametrize(("kiosk", "hold"), [(False, HOLD), (True, HOLD_IN_KIOSK)])
 def test_f10_opens_it_once_over_any_screen_when_held(arcade: Arcade, kiosk: bool, hold: float) -> None:
     arcade.context.kiosk = kiosk
-    desk = OperatorDesk(arcade.context, Notices(), None, True)
+    desk = OperatorDesk(arcade.context, None, True)
     desk.filter([key(pygame.KEYDOWN, pygame.K_F10)], arcade.stack.scenes)
     desk.update(hold - 0.1, arcade.stack)
     desk.filter([key(pygame.KEYUP, pygame.K_F10)], arcade.stack.scenes)
@@ -152,7 +151,7 @@ def test_f10_opens_it_once_over_any_screen_when_held(arcade: Arcade, kiosk: bool
 def test_the_desk_returns_a_group_to_the_title_only_if_there_is_one(arcade: Arcade) -> None:
     arcade.context.settings.group_minutes = 1
     for limited, left in ((False, 2), (True, 1)):
-        desk = OperatorDesk(arcade.context, Notices(), None, limited)
+        desk = OperatorDesk(arcade.context, None, limited)
         for _ in range(120):
             desk.update(1.0, arcade.stack)
             desk.draw(arcade.screen)

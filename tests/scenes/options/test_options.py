@@ -8,7 +8,8 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.options.controls_test import ControlsTest
-from pigaming_app.scenes.options.page import CLEAR, FOR_CHILDREN, ROWS, SECTIONS, OptionsPage
+from pigaming_app.scenes.options.page import CLEAR, FOR_CHILDREN, SECTIONS, OptionsPage
+from pigaming_app.scenes.options.page import rows_of as rows_in
 from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable
@@ -38,7 +39,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 def go(arcade: Arcade, name: str) -> OptionsPage:
     """Focus a row, on the page of its section."""
     page = arcade.shown(OptionsPage)
-    section = next((section for section, rows in SECTIONS.items() if name in rows), "")
+    section = next((section for section in SECTIONS if name in rows_in(section)), "")
     if section and name not in page.rows:
         go(arcade, section)
         arcade.press(Button.FIRE)
@@ -98,7 +99,7 @@ def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> N
 def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
     page = arcade.shown(OptionsPage)
-    for name in (*ROWS, "close", *(row for rows in SECTIONS.values() for row in rows)):
+    for name in ("close", *(row for section in ("", *SECTIONS) for row in rows_in(section))):
         value = page.value(name)
         if value.kind in ("toggle", "deed"):
             x, w = dials.chips(value.options)[-1]
@@ -147,7 +148,7 @@ def test_every_section_is_one_press_away_and_leads_back(arcade: Arcade, section:
         arcade.click(*page.focus.rect(section).center)
     else:
         arcade.press(Button.START)
-    assert arcade.shown(OptionsPage).rows == SECTIONS[section]
+    assert arcade.shown(OptionsPage).rows == rows_in(section)
     arcade.press(Button.BACK)
     assert arcade.shown(OptionsPage).focus.name == section
 
@@ -203,7 +204,7 @@ def test_children_in_a_kiosk_find_neither_volume_nor_display_nor_the_way_out(arc
     arcade.context.kiosk = True
     children, operator = rows_of(arcade, False), rows_of(arcade, True)
     assert children == {*FOR_CHILDREN, "controls", "ease"}
-    assert operator == {*ROWS, "close", *(row for rows in SECTIONS.values() for row in rows)}
+    assert operator == {"close", *(row for section in ("", *SECTIONS) for row in rows_in(section))}
     arcade.open(OptionsPage(arcade.context, operator=True))
     go(arcade, "close")
     arcade.press(Button.FIRE)

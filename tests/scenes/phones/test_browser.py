@@ -16,6 +16,7 @@ import pytest
 
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone
 from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.scenes.play.reconnect import Reconnect
@@ -83,7 +84,7 @@ class OpenDay:
 
     @property
     def url(self) -> str:
-        return self.arcade.context.phone_host.url
+        return self.arcade.context.shared(phone_host).url
 
     def run(self, story: Callable[[Browser], Coroutine[Any, Any, None]]) -> None:
         """Frames until the visitors are through."""
@@ -143,7 +144,7 @@ def day(browser: str, controls: Controls, tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(connection, "SILENT_SECONDS", LONG)  # a slow browser is no phone without Wi-Fi
     day = OpenDay(Arcade(controls), browser)
     yield day
-    day.arcade.context.phone_host.close()
+    day.arcade.context.shared(phone_host).close()
 
 
 async def steer(page: Page, x: float, y: float) -> None:

@@ -11,6 +11,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import CODE_SECONDS, Lobby
 from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone
 from pigaming_app.scenes.phones.link import TALLY_SECONDS, PhoneLink
 from pigaming_app.scenes.phones.settings_page import PhonesPage
@@ -22,8 +23,8 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
-from pigaming_app.ui.input.phones.protocol import BITS, SeatView, Touches
-from pigaming_app.ui.input.phones.registry import Phones
+from pigaming_app.ui.input.phone_messages import BITS, SeatView, Touches
+from pigaming_app.ui.input.phone_pads import Phones
 from tests.scenes.arcade import KEYS, Arcade
 
 MOUSE = Device("mouse")
@@ -38,9 +39,9 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 @pytest.fixture
 def open_to_phones(arcade: Arcade) -> Iterator[Arcade]:
     """Phones are on, on the loopback address."""
-    arcade.context.phone_host.switch(True, "127.0.0.1", 0, {})
+    arcade.context.shared(phone_host).switch(True, "127.0.0.1", 0, {})
     yield arcade
-    arcade.context.phone_host.close()
+    arcade.context.shared(phone_host).close()
 
 
 def join(arcade: Arcade) -> Device:
@@ -315,7 +316,7 @@ def test_a_phone_may_come_and_go_on_any_screen(arcade: Arcade, name: str, kiosk:
 
 
 def test_the_link_follows_the_settings(arcade: Arcade) -> None:
-    link, settings, host = PhoneLink(arcade.context), arcade.context.settings, arcade.context.phone_host
+    link, settings, host = PhoneLink(arcade.context), arcade.context.settings, arcade.context.shared(phone_host)
     link.update(arcade.stack.scenes)
     assert not host.on
     settings.phones, settings.phones_network, settings.phones_port = True, "127.0.0.1", 0
@@ -365,7 +366,7 @@ def test_the_operators_page_changes_and_keeps_the_settings(arcade: Arcade, tmp_p
 
 
 def test_trouble_is_one_sentence_on_both_pages(arcade: Arcade) -> None:
-    arcade.context.phone_host.switch(True, "a network that is gone", 8787, {})
+    arcade.context.shared(phone_host).switch(True, "a network that is gone", 8787, {})
     try:
         for page in (PhonesPage(arcade.context), JoinByPhone(arcade.context, lambda: [])):
             arcade.open(page)
@@ -373,14 +374,14 @@ def test_trouble_is_one_sentence_on_both_pages(arcade: Arcade) -> None:
             arcade.press(Button.BACK)
         assert lobby_of(arcade).page.code_seat is None
     finally:
-        arcade.context.phone_host.close()
+        arcade.context.shared(phone_host).close()
 
 
 def test_the_large_code_in_the_picture_can_be_read(open_to_phones: Arcade) -> None:
     cv2 = pytest.importorskip("cv2", reason="the extra `hardware` is not installed")
     from pigaming_app.ui.draw.pixels import pixels_of
 
-    url = open_to_phones.context.phone_host.url
+    url = open_to_phones.context.shared(phone_host).url
     page = JoinByPhone(open_to_phones.context, lambda: [None] * 4)
     page.draw(open_to_phones.screen)
     seen = pygame.transform.smoothscale(open_to_phones.screen, (960, 540))

@@ -12,8 +12,8 @@ from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.ui.input.events import Button, Device
-from pigaming_app.ui.input.phones.protocol import BITS, Touches
-from pigaming_app.ui.input.phones.registry import Phones
+from pigaming_app.ui.input.phone_messages import BITS, Touches
+from pigaming_app.ui.input.phone_pads import Phones
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import FPS, match_for
 

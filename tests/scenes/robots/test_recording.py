@@ -14,8 +14,8 @@ from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.jobs import play as play_job
 from pigaming_app.jobs.terminal.refusal import Refusal
-from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.files import load_replay, save_replay
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play import replay_faults
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.replay_faults import ReplayFaults

@@ -8,9 +8,9 @@ import pytest
 
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.hardware.session.emulated import EmulatedSession
-from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.start import run

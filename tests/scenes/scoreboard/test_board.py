@@ -8,16 +8,16 @@ import numpy as np
 import pygame
 import pytest
 
-from pigaming_app.scenes.flow.board_page import Part
+from pigaming_app.scenes.features import board_text as text
+from pigaming_app.scenes.features.board_page import Part
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.mat.camera_page import CameraPage
 from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.snapshot import sides, snapshot
-from pigaming_app.scenes.scoreboard import text
 from pigaming_app.scenes.scoreboard.board import SIZE, Board, fit
-from pigaming_app.scenes.scoreboard.camera_page import CameraPage
-from pigaming_app.scenes.scoreboard.pages import complete
+from pigaming_app.scenes.scoreboard.pages import Pages
 from pigaming_app.scenes.scoreboard.score_page import ScorePage, match_parts
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage, best_today
 from pigaming_app.scenes.scoreboard.window import PERIOD, ScoreboardWindow
@@ -25,7 +25,6 @@ from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade, setup
 
@@ -241,7 +240,7 @@ def test_pages_are_read_a_few_times_a_second(arcade: Arcade, monkeypatch: pytest
 
 
 def test_its_mouse_is_not_that_of_the_arcade_and_it_closes_alone(arcade: Arcade) -> None:
-    desk = OperatorDesk(arcade.context, Notices(), 1, True)
+    desk = OperatorDesk(arcade.context, 1, True)
     assert desk.window
     assert desk.window.window
     theirs = pygame.Event(pygame.MOUSEMOTION, pos=(5, 5), rel=(0, 0), buttons=(0, 0, 0), window=desk.window.window)
@@ -261,27 +260,26 @@ def test_without_a_second_window_the_arcade_prints_a_reason_and_goes_on(
         raise pygame.error("windows are sold out")
 
     monkeypatch.setattr(pygame, "Window", refuse)
-    notices = Notices()
-    desk = OperatorDesk(arcade.context, notices, 2, True)
+    desk = OperatorDesk(arcade.context, 2, True)
     desk.show(1.0, 0.01, arcade.stack.scenes)
     assert "no second screen" in capsys.readouterr().err
-    assert list(notices.waiting) == [arcade.context.words("scoreboard.none")]
+    assert list(arcade.context.notices.waiting) == [arcade.context.words("scoreboard.none")]
 
 
 def test_f2_goes_through_the_pages_that_have_something_to_show(arcade: Arcade) -> None:
-    desk = OperatorDesk(arcade.context, Notices(), 1, True)
+    desk = OperatorDesk(arcade.context, 1, True)
     key = pygame.Event(pygame.KEYDOWN, key=pygame.K_F2, scancode=0, mod=0)
     seen = []
     scene = MatchScene(arcade.context, setup("easy easy off off"))
     for _ in range(3):
         desk.filter([key], [arcade.title, scene])
-        seen.append(arcade.context.board_page)
+        seen.append(arcade.context.shared(Pages).chosen)
     desk.close()
     assert seen == ["standby", "scores", "standby"]
 
 
 def test_the_setting_opens_and_closes_it_while_the_arcade_runs(arcade: Arcade) -> None:
-    desk = OperatorDesk(arcade.context, Notices(), None, True)
+    desk = OperatorDesk(arcade.context, None, True)
     assert desk.window is None
     arcade.context.settings.scoreboard = 1
     desk.show(0.1, 0.01, arcade.stack.scenes)
@@ -292,11 +290,8 @@ def test_the_setting_opens_and_closes_it_while_the_arcade_runs(arcade: Arcade) -
     assert desk.window is None
 
 
-def test_other_pages_stand_between_scores_and_camera(arcade: Arcade) -> None:
-    arcade.context.board_pages.append(Lamps("a"))
-    complete(arcade.context)
-    complete(arcade.context)
-    assert [page.name for page in arcade.context.board_pages] == ["standby", "scores", "event", "lamps", "camera"]
+def test_the_pages_of_features_stand_behind_those_of_the_kiosk(arcade: Arcade) -> None:
+    assert [page.name for page in arcade.context.shared(Pages).pages] == ["standby", "scores", "event", "camera"]
 
 
 def test_a_paused_match_is_shown_as_such(arcade: Arcade) -> None:

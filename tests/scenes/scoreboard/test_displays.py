@@ -9,10 +9,10 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.operator.desk import OperatorDesk
+from pigaming_app.scenes.scoreboard.pages import Pages
 from pigaming_app.scenes.scoreboard.window import WINDOWED, ScoreboardWindow
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
@@ -49,7 +49,7 @@ class Displays:
 def a_desk(arcade: Arcade, number: int | None, arena: int = 0) -> OperatorDesk:
     canvas = arcade.context.canvas
     canvas.headless, canvas.display = False, arena
-    return OperatorDesk(arcade.context, Notices(), number, True)
+    return OperatorDesk(arcade.context, number, True)
 
 
 def seconds_later(desk: OperatorDesk, arcade: Arcade, frames: int = 130) -> None:
@@ -114,10 +114,10 @@ def test_one_closed_by_hand_stays_closed_until_f2(arcade: Arcade, monkeypatch: p
     displays.sizes.append((1280, 800))
     seconds_later(desk, arcade)
     assert desk.window.window is None
-    page = arcade.context.board_page
+    page = arcade.context.shared(Pages).chosen
     desk.filter([pygame.Event(pygame.KEYDOWN, key=pygame.K_F2, scancode=0, mod=0)], arcade.stack.scenes)
     assert desk.window.window
-    assert arcade.context.board_page == page
+    assert arcade.context.shared(Pages).chosen == page
     assert displays.opened == [(1366, 768)] * 2
     desk.close()
 

@@ -10,18 +10,19 @@ import pytest
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.app import App
+from pigaming_app.scenes.events.board.event_now import event_now, next_line, now_line
+from pigaming_app.scenes.events.board.event_page import CALL, FOOT, PODIUM, TURN, EventPage
 from pigaming_app.scenes.events.next_page import EventMatch, NextMatch
 from pigaming_app.scenes.events.podium_page import PodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.board_page import Part
+from pigaming_app.scenes.features.board_page import Part
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.snapshot import MatchSnapshot
 from pigaming_app.scenes.scoreboard.board import SIZE, Board
-from pigaming_app.scenes.scoreboard.event_now import event_now, next_line, now_line
-from pigaming_app.scenes.scoreboard.event_page import CALL, FOOT, PODIUM, TURN, EventPage
 from pigaming_app.scenes.scoreboard.score_page import shown_match
 from pigaming_app.scenes.scoreboard.standby_page import StandbyPage
 from pigaming_app.scenes.walk import second_screen
@@ -29,7 +30,7 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
-from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.arcade import KEYS, Arcade, service_of
 from tests.scenes.events.drawn import an_event, played, running
 
 FIELDS = [
@@ -284,9 +285,10 @@ def test_its_cost_is_measured_over_all_of_its_pages(home: Path, monkeypatch: pyt
 
     def frame(app: App, shown: bool) -> float:
         spent = whole(app, shown)
-        assert app.desk.window
-        assert app.desk.window.window
-        seen.append((app.desk.window.board.page, shown))
+        window = service_of(app, OperatorDesk).window
+        assert window
+        assert window.window
+        seen.append((window.board.page, shown))
         return spent
 
     monkeypatch.setattr(second_screen, "frame", frame)

@@ -13,9 +13,9 @@ from pigaming_app.games.moments import CLOSE, KINDS, LAST, Moment
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay, recorded
 from pigaming_app.games.setup import make_setup
-from pigaming_app.scenes.app import Options
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.howto.scene import HowTo, taught
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store

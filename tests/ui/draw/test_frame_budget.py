@@ -8,8 +8,9 @@ import pygame
 import pytest
 
 from pigaming_app.scenes import app as arcade
-from pigaming_app.scenes.app import App, Options
+from pigaming_app.scenes.app import App
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import opened
 from pigaming_app.ui.draw import frame_budget
 from pigaming_app.ui.draw.frame_budget import (

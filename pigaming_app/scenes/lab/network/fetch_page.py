@@ -7,6 +7,7 @@ import pygame
 from pigaming_app.ai.experiments.extra_fetch import BUILT, DONE, FETCHING, FOREIGN, RESTART
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.lab.background import Background
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, STEEL, THIN, cut_box
 from pigaming_app.ui.draw.layers import Layer
@@ -26,7 +27,7 @@ class FetchPage:
 
     def __init__(self, context: Context, behind: Callable[[], pygame.Surface], ready: Callable[[], object]) -> None:
         self.context, self.behind, self.ready = context, behind, ready
-        self.fetch = context.network_fetch
+        self.fetch = context.shared(Background).network_fetch
         self.fetch.start()
         self.picture: tuple[str, pygame.Surface] | None = None
 

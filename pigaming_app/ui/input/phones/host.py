@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
+from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.network import PhonesUnavailable, chosen, networks
-from pigaming_app.ui.input.phones.registry import Phones
 
 if TYPE_CHECKING:
     from pigaming_app.ui.input.phones.server import PhoneServer

@@ -22,11 +22,11 @@ from typing import Any
 from aiohttp import web
 
 from pigaming_app import ASSETS
-from pigaming_app.ui.input.phones import protocol
+from pigaming_app.ui.input import phone_messages as protocol
+from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, Seats, stop_reading
 from pigaming_app.ui.input.phones.network import PhonesUnavailable
 from pigaming_app.ui.input.phones.refusals import ErrorsOfLibrary, RateMeter, Refusals
-from pigaming_app.ui.input.phones.registry import Phones
 
 START_SECONDS = 5.0  # for the server to listen
 ALPHABET = "abcdefghjkmnpqrstuvwxyz23456789"  # without signs that look alike: the address may be typed

@@ -8,8 +8,8 @@ from typing import Any, TypeVar
 
 from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
 
-from pigaming_app.ui.input.phones.protocol import Touches, pack
-from pigaming_app.ui.input.phones.registry import Phones
+from pigaming_app.ui.input.phone_messages import Touches, pack
+from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.server import PhoneServer
 
 LONG = 60.0  # s, for whatever must come: the machine may be busy

@@ -10,7 +10,7 @@ from aiohttp import ClientSession
 
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.input.phones.protocol import BITS
+from pigaming_app.ui.input.phone_messages import BITS
 from tests.ui.input.phones.client import phone, play, serving
 
 pytestmark = [pytest.mark.long, pytest.mark.usefixtures("_no_threads_stay")]

@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 
 from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones import host as hosts
 from pigaming_app.ui.input.phones import network
 from pigaming_app.ui.input.phones.host import CHECK_SECONDS, PhoneHost
 from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable, chosen, networks
-from pigaming_app.ui.input.phones.registry import Phones
 
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
 CABLE, WIFI = Network("eth0", "203.0.113.5"), Network("wlan0", "192.168.1.20")

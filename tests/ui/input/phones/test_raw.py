@@ -14,9 +14,10 @@ from typing import Any
 import pytest
 from aiohttp import ClientSession
 
+from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.input.phones import connection, protocol, refusals
+from pigaming_app.ui.input.phones import connection, refusals
 from pigaming_app.ui.input.phones import server as servers
 from pigaming_app.ui.input.phones.server import PhoneServer
 from tests.ui.input.phones.client import LONG, phone, play, serving, until

@@ -13,12 +13,13 @@ from typing import Any
 import pytest
 from aiohttp import ClientSession, WSServerHandshakeError
 
+from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, StickState
-from pigaming_app.ui.input.phones import connection, protocol
+from pigaming_app.ui.input.phone_messages import BITS, SeatView
+from pigaming_app.ui.input.phones import connection
 from pigaming_app.ui.input.phones import server as servers
 from pigaming_app.ui.input.phones.network import PhonesUnavailable
-from pigaming_app.ui.input.phones.protocol import BITS, SeatView
 from pigaming_app.ui.input.phones.server import PhoneServer
 from tests.ui.input.phones.client import LONG, origin, phone, play, serving, socket_of, until
 

@@ -4,7 +4,7 @@ import pygame
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
-from pigaming_app.scenes.camera_window import SIZE, CameraWindow
+from pigaming_app.scenes.mat.camera_window import SIZE, CameraWindow
 from pigaming_app.ui.input.controls import Controls
 
 pytest.importorskip("cv2")

@@ -85,10 +85,3 @@ def next_line(words: Words, now: EventNow) -> str:
 def now_line(words: Words, now: EventNow) -> str:
     """The match that is being played in one line; empty if there is none."""
     return words("scoreboard.now", names=versus(now.playing.entrants)) if now.playing else ""
-
-
-def round_line(words: Words, match: EventMatch) -> str:
-    """Round of a match of an event, and its number."""
-    fixtures = match.running.event.fixtures
-    at = next((i for i, one in enumerate(fixtures, 1) if one.number == match.fixture.number), len(fixtures))
-    return words("events.progress", round=match.fixture.round, match=at, of=len(fixtures))

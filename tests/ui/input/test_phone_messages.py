@@ -3,7 +3,7 @@
 import pytest
 
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.input.phones.protocol import ALL_BITS, BITS, Touches, pack, parse
+from pigaming_app.ui.input.phone_messages import ALL_BITS, BITS, Touches, pack, parse
 
 
 @pytest.mark.parametrize(

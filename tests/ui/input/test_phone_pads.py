@@ -7,8 +7,8 @@ import pytest
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.filters import FIRST_REPEAT
-from pigaming_app.ui.input.phones.protocol import ALL_BITS, BITS, SeatView, Touches
-from pigaming_app.ui.input.phones.registry import FRESH_SECONDS, MAX_CHANGES, MAX_PHONES, Phones
+from pigaming_app.ui.input.phone_messages import ALL_BITS, BITS, SeatView, Touches
+from pigaming_app.ui.input.phone_pads import FRESH_SECONDS, MAX_CHANGES, MAX_PHONES, Phones
 
 FIRE, TURBO = BITS[Button.FIRE], BITS[Button.BACK]
 STILL = StickState()

@@ -9,15 +9,15 @@ import pygame
 
 from pigaming_app.events.event import Event
 from pigaming_app.scenes.events import bracket_view, next_view, podium_page, table_view
+from pigaming_app.scenes.events.board.event_now import Called, EventNow, event_now, next_line, now_line
 from pigaming_app.scenes.events.names import versus
 from pigaming_app.scenes.events.overview import BRACKET, Overview, overview
 from pigaming_app.scenes.events.running import progress_line
-from pigaming_app.scenes.flow.board_page import Box, Part
+from pigaming_app.scenes.features import board_text as text
+from pigaming_app.scenes.features.board_page import Box, Part
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.podium import FIRST, Podium, Stand
-from pigaming_app.scenes.scoreboard import text
-from pigaming_app.scenes.scoreboard.event_now import Called, EventNow, event_now, next_line, now_line
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, TITLE
 from pigaming_app.ui.draw.frame_budget import resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT

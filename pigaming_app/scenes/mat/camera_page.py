@@ -5,7 +5,7 @@ from typing import Any, Protocol, runtime_checkable
 
 import pygame
 
-from pigaming_app.scenes.flow.board_page import Box, Part
+from pigaming_app.scenes.features.board_page import Box, Part
 from pigaming_app.scenes.flow.stack import Scene
 
 BOX: Box = (60, 34, 1800, 1012)

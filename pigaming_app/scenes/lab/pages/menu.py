@@ -3,10 +3,10 @@
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
-from pigaming_app.scenes.lab.compare_page import ComparePage
 from pigaming_app.scenes.lab.host import IDLE, LabHost, dimmed_background
-from pigaming_app.scenes.lab.name_page import NamePage
-from pigaming_app.scenes.lab.open_page import OpenPage
+from pigaming_app.scenes.lab.pages.compare_page import ComparePage
+from pigaming_app.scenes.lab.pages.name_page import NamePage
+from pigaming_app.scenes.lab.pages.open_page import OpenPage
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
 from pigaming_app.ui.draw.layers import Layer

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from pigaming_app.ui.input.events import Button, StickState
 from pigaming_app.ui.input.filters import ButtonChange, StickDirection, apply_dead_zone
-from pigaming_app.ui.input.phones.protocol import BITS, SeatView, Touches, rumble_text, state_text, texts_text
+from pigaming_app.ui.input.phone_messages import BITS, SeatView, Touches, rumble_text, state_text, texts_text
 
 MAX_PHONES = 4
 FRESH_SECONDS = 0.6  # age of the last message after which a stick counts as released

@@ -1,0 +1,1 @@
+"""What the core asks of features, and where it finds them."""

@@ -1,0 +1,120 @@
+"""The contract of a feature: screens and services that the core offers when they are there, and runs without.
+
+A feature declares itself in `scenes/NAME/feature.py` as `FEATURE`. That module is imported before the title appears, so
+it imports its own screens late. `registry.py` lists the names.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple, Protocol
+
+import pygame
+
+from pigaming_app.scenes.features.board_page import BoardPage
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
+from pigaming_app.scenes.launch import Options
+from pigaming_app.ui.draw import GlowCanvas
+from pigaming_app.ui.input.events import Device, InputEvent
+
+
+class MenuItem(NamedTuple):
+    """An item of the title's menu; its word is the text `title.NAME`. `open` gets the game that was focused last."""
+
+    place: int  # from the left
+    open: Callable[[Context, str], Scene]
+
+
+class OptionRow(NamedTuple):
+    """A row of the options that opens a page; its words are the texts `options.NAME` and `options.NAME_line`."""
+
+    section: str  # of the options; empty: the first page
+    after: str  # the row of the core that it follows
+    page: Callable[[Context], Scene]
+    picture: Callable[[GlowCanvas, int], object]  # draws round (0, 0); `beat`: 0 or 1, twice a second
+
+
+class Show(NamedTuple):
+    """A page of attract mode. `paint` draws it without what only a visitor needs."""
+
+    page: Scene
+    paint: Callable[[pygame.Surface], None]
+
+
+class Service:
+    """Part of the running arcade, called by its main loop. Each method does nothing unless a service has its own."""
+
+    @property
+    def has_window(self) -> bool:
+        """True while it has a window of its own."""
+        return False
+
+    def first_page(self) -> Scene | None:
+        """The page to show on top of the title at the start and after a failure, if any."""
+        return None
+
+    def preloaded(self) -> None:
+        """Everything that the title has loaded in the background is there. Called by another thread."""
+
+    def filter(self, events: Sequence[pygame.Event], scenes: Sequence[Scene]) -> list[pygame.Event]:
+        """Those of the events of a frame that go on to the arcade."""
+        return list(events)
+
+    def update(self, seconds: float, stack: Stack) -> None:
+        """Advance by `seconds`, after the scene on top, if any is left."""
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Draw over the scene on top."""
+
+    def show(self, seconds: float, left: float, scenes: Sequence[Scene]) -> None:
+        """Work after the picture is shown. `left`: s of this frame that nobody else needs."""
+
+    def close_if_requested(self, event: pygame.Event) -> bool:
+        """Close the own window if an event requests it; true if so."""
+        return False
+
+    def close(self) -> None:
+        """The arcade ends."""
+
+
+class JoinOffer(Protocol):
+    """Another way to take a seat than by the devices at hand."""
+
+    @property
+    def on(self) -> bool:
+        """True if it is switched on."""
+
+    @property
+    def open(self) -> bool:
+        """True if people can join now."""
+
+    def draw_code(self, screen: pygame.Surface, box: pygame.Rect) -> None:
+        """Draw the code to scan in the middle of a box."""
+
+    def page(
+        self,
+        devices: Callable[[], Sequence[Device | None]],
+        lobby: Callable[[InputEvent], StackOperation] | None = None,
+        ready: Callable[[], bool] = lambda: False,
+    ) -> Scene:
+        """The page with the code. `devices`: of the seats. `lobby`: handles presses of those who join; None over a
+        paused match. `ready`: true when the lobby goes on.
+        """
+
+
+@dataclass(frozen=True)
+class Feature:
+    """What a feature offers; all of it is optional."""
+
+    name: str
+    rooms: Sequence[str]  # its packages and modules in `pigaming_app`: without one of them the feature is not offered
+    menu: MenuItem | None = None
+    options: Mapping[str, OptionRow] = field(default_factory=dict)
+    show: Callable[[Context, str], Show | None] | None = None  # of a game, for attract mode
+    service: Callable[[Context, Options], Service | None] | None = None
+    join: Callable[[Context], JoinOffer] | None = None
+    draw_arena: Callable[[Context, str], Callable[[], Scene] | None] | None = None  # opens the drawn arenas of a game
+    board_pages: Callable[[Context], Sequence[BoardPage]] | None = None  # of the second screen
+    next_line: Callable[[Context, Sequence[Scene]], str] | None = None  # what comes next, for the second screen
+    without_limit: Callable[[Sequence[Scene]], bool] | None = None  # the time limit of a group does not apply
+    preload: Sequence[str] = ()  # modules, loaded in the background in this order

@@ -1,0 +1,71 @@
+"""The features of this installation. One that is not there is left out: no tile, row or page leads to it."""
+
+import logging
+from collections.abc import Callable, Sequence
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+
+from pigaming_app.scenes.features.feature import Feature, JoinOffer, MenuItem
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+
+PACKAGE = "pigaming_app"
+NAMES = ("howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
+
+log = logging.getLogger("pigaming")
+
+
+@cache
+def features() -> tuple[Feature, ...]:
+    """The features that are there, in the order of NAMES."""
+    return tuple(feature for name in NAMES if (feature := _found(name)))
+
+
+def _found(name: str) -> Feature | None:
+    """A feature with all its rooms, or None; a mistake in one of its modules is raised."""
+    module = f"{PACKAGE}.scenes.{name}.feature"
+    if not is_there(module):
+        return None
+    feature = import_module(module).FEATURE
+    assert isinstance(feature, Feature)
+    missing = [room for room in feature.rooms if not is_there(f"{PACKAGE}.{room}")]
+    if missing:
+        log.warning("%s is not offered: %s is missing", name, missing[0])
+        return None
+    return feature
+
+
+def is_there(module: str) -> bool:
+    """True if a module can be imported, as far as its file goes."""
+    try:
+        return find_spec(module) is not None
+    except ModuleNotFoundError:  # its package
+        return False
+
+
+def menu() -> dict[str, MenuItem]:
+    """The items of the title's menu, from left to right."""
+    items = {feature.name: feature.menu for feature in features() if feature.menu}
+    return dict(sorted(items.items(), key=lambda item: item[1].place))
+
+
+def draw_arena(context: Context, game: str) -> Callable[[], Scene] | None:
+    """Opens the page of a game's drawn arenas; None if none can be drawn."""
+    return next((feature.draw_arena(context, game) for feature in features() if feature.draw_arena), None)
+
+
+def next_line(context: Context, scenes: Sequence[Scene]) -> str:
+    """What comes next for everybody, in one line for the second screen; empty: nothing."""
+    lines = (feature.next_line(context, scenes) for feature in features() if feature.next_line)
+    return next((line for line in lines if line), "")
+
+
+def without_limit(scenes: Sequence[Scene]) -> bool:
+    """True if the time limit of a group does not apply to these scenes."""
+    return any(feature.without_limit(scenes) for feature in features() if feature.without_limit)
+
+
+def join_offer(context: Context) -> JoinOffer | None:
+    """The way to take a seat without a device at hand, if there is one."""
+    return next((feature.join(context) for feature in features() if feature.join), None)

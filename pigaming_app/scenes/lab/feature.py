@@ -1,0 +1,40 @@
+"""The Lab as a feature: robots that learn while people watch."""
+
+from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
+from pigaming_app.scenes.features.feature import Feature, MenuItem, Service
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.launch import Options
+
+
+def service(context: Context, options: Options) -> Service:
+    """The background, with the command by which this start can fetch."""
+    background = context.shared(Background)
+    background.network_fetch = ExtraFetch(options.fetch_networks)
+    return background
+
+
+def page(context: Context, game: str) -> Scene:
+    """The Lab in its last state."""
+    from pigaming_app.scenes.lab.scene import Lab
+
+    background = context.shared(Background)
+    background.lab = background.lab or Lab(context)
+    return background.lab
+
+
+FEATURE = Feature(
+    "lab",
+    rooms=("ai.ppo.lab",),
+    menu=MenuItem(3, page),
+    service=service,
+    preload=(
+        "pigaming_app.scenes.lab.scene",
+        "pigaming_app.scenes.lab.pages.menu",
+        "pigaming_app.scenes.lab.pages.name_page",
+        "pigaming_app.scenes.lab.pages.open_page",
+        "pigaming_app.scenes.lab.pages.compare_page",
+        "pigaming_app.scenes.lab.pages.challenge",
+    ),
+)

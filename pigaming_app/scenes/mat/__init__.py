@@ -1,0 +1,1 @@
+"""Real robots on a mat."""

@@ -1,0 +1,77 @@
+"""The mat as a feature: real robots, their camera and radio, calibration."""
+
+from collections.abc import Sequence
+
+import pygame
+
+from pigaming_app.scenes.features.board_page import BoardPage
+from pigaming_app.scenes.features.feature import Feature, OptionRow, Service
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.launch import Options
+from pigaming_app.ui.draw import FOCUS, ICE, LINE, GlowCanvas, cut_box
+
+
+class CameraView(Service):
+    """The window of the emulated camera, if the emulated arena runs in real time."""
+
+    def __init__(self, context: Context) -> None:
+        from pigaming_app.hardware.session.emulated import EmulatedSession
+        from pigaming_app.scenes.mat.camera_window import CameraWindow
+
+        session = context.session
+        self.window = CameraWindow(session) if isinstance(session, EmulatedSession) and session.live else None
+
+    @property
+    def has_window(self) -> bool:
+        return self.window is not None
+
+    def show(self, seconds: float, left: float, scenes: Sequence[Scene]) -> None:
+        if self.window:
+            self.window.update(seconds)
+
+    def close_if_requested(self, event: pygame.Event) -> bool:
+        return self.window is not None and self.window.close_if_requested(event)
+
+
+def service(context: Context, options: Options) -> Service | None:
+    session = context.session
+    return CameraView(context) if session is not None and session.emulated else None
+
+
+def page(context: Context) -> Scene:
+    from pigaming_app.scenes.robots.menu import RobotsMenu
+
+    return RobotsMenu(context)
+
+
+def board_pages(context: Context) -> Sequence[BoardPage]:
+    from pigaming_app.scenes.mat.camera_page import CameraPage
+
+    return [CameraPage()]
+
+
+def sketch(ink: GlowCanvas, beat: int) -> None:
+    """Draw a robot with its marker."""
+    ink.ring(0, 0, 104, FOCUS, LINE).line(cut_box(-46, -46, 92, 92, 4), ICE, LINE, True)
+    ink.fill([(-30, -30), (0, -30), (0, 0), (-30, 0)], ICE).fill([(0, 0), (30, 0), (30, 30), (0, 30)], ICE)
+    for y in (-118, 118):
+        ink.line([(-34, y), (34, y)], FOCUS, LINE)
+    ink.line([(122, -22), (146, 0), (122, 22)], FOCUS, LINE)
+
+
+FEATURE = Feature(
+    "mat",
+    rooms=("hardware", "scenes.robots", "scenes.calibration", "scenes.things", "scenes.radio"),
+    options={"robots": OptionRow("", "ease", page, sketch)},
+    service=service,
+    board_pages=board_pages,
+    preload=(
+        "pigaming_app.scenes.robots.start_match",
+        "pigaming_app.scenes.robots.menu",
+        "pigaming_app.scenes.calibration.drift_page",
+        "pigaming_app.scenes.calibration.setup_page",
+        "pigaming_app.scenes.calibration.corner_pin_page",
+        "pigaming_app.scenes.robots.fleet_page",
+    ),
+)

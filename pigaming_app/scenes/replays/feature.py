@@ -1,0 +1,14 @@
+"""The list of saved replays as a feature."""
+
+from pigaming_app.scenes.features.feature import Feature, MenuItem
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+
+
+def page(context: Context, game: str) -> Scene:
+    from pigaming_app.scenes.replays.page import ReplaysPage
+
+    return ReplaysPage(context)
+
+
+FEATURE = Feature("replays", rooms=(), menu=MenuItem(5, page), preload=("pigaming_app.scenes.replays.page",))
