@@ -5,14 +5,13 @@ import os
 import sys
 import textwrap
 from collections.abc import Sequence
-from importlib import import_module
 from typing import NoReturn
 
 from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.boot.version import is_asked, print_version
 from pigaming_app.jobs import files
 from pigaming_app.jobs.terminal import console, interrupt
-from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin, names_failed_plugin
+from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin, module_of, names_failed_plugin
 
 PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
 JOBS = {  # modules of `jobs`
@@ -109,7 +108,7 @@ def _refused_in_one_line(words: list[str]) -> int:
 def _run(name: str, words: list[str]) -> int:
     if name not in JOBS:
         raise Refusal(f"no job '{name}'; there are {', '.join(JOBS)}")
-    job = import_module(f"pigaming_app.jobs.{name.replace('-', '_')}")
+    job = module_of(name.replace("-", "_"))
     parser = Parser(
         prog=PROGRAM if name == "arcade" else f"{PROGRAM} {name}",
         description=textwrap.fill((job.__doc__ or "").partition("\n\n")[0], 80),

@@ -5,10 +5,10 @@ from argparse import ArgumentParser, Namespace
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pigaming_app.jobs.kiosk import child
 from pigaming_app.jobs.terminal.command import own_command
 from pigaming_app.jobs.terminal.options import decimal, display, integer, mat_options, mat_settings, shared
-from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require
+from pigaming_app.jobs.terminal.supervised import heartbeat, is_supervised
 from pigaming_app.storage.safe_mode import DEFAULTS, is_safe
 
 if TYPE_CHECKING:
@@ -53,14 +53,12 @@ def run(arguments: Namespace) -> int:
 
 def needs_supervisor(arguments: Namespace) -> bool:
     """True in a kiosk, except in the process that its supervisor has started."""
-    return bool(arguments.kiosk) and not child.is_supervised()
+    return bool(arguments.kiosk) and not is_supervised()
 
 
 def supervised(arguments: Namespace) -> int:
-    """Run this same job under a supervisor; returns its exit code. Raises OSError."""
-    from pigaming_app.jobs.kiosk.start import supervise
-
-    return supervise(own_command(arguments.words))
+    """Run this same job under a supervisor; returns its exit code. Raises Refusal, OSError."""
+    return int(module_of("kiosk.start").supervise(own_command(arguments.words)))
 
 
 def ros_options(parser: ArgumentParser) -> None:
@@ -97,4 +95,4 @@ def show(options: "Options") -> int:
         changed = {name: value for name, value in options.changed_settings.items() if name not in DEFAULTS}
         options = replace(options, display=None, scoreboard=None, changed_settings=changed)
     with refused(NoDisplay):
-        return run(replace(options, heartbeat=child.heartbeat()))
+        return run(replace(options, heartbeat=heartbeat()))

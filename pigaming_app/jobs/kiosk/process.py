@@ -12,8 +12,8 @@ from pathlib import Path
 from threading import Thread
 from time import sleep
 
-from pigaming_app.jobs.kiosk.child import GRACE, VARIABLE
 from pigaming_app.jobs.terminal.interrupt import OWN_GROUP
+from pigaming_app.jobs.terminal.supervised import GRACE, VARIABLE
 from pigaming_app.storage.heartbeat import Heartbeat
 
 LINES = 200  # of standard error, the last ones of which are kept

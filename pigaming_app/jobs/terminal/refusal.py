@@ -3,7 +3,9 @@
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from importlib.util import find_spec
+from typing import Any
 
 from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.hardware.messages import OperatorError
@@ -28,6 +30,16 @@ FETCHED = "connect this machine to the internet and start main.py again, which i
 
 class Refusal(Exception):
     """A request that cannot be carried out; the text is one line."""
+
+
+def module_of(job: str) -> Any:
+    """A module of `jobs`. Raises Refusal if it, or a feature that it needs, is not in this installation."""
+    try:
+        return import_module(f"pigaming_app.jobs.{job}")
+    except ModuleNotFoundError as missing:
+        if not (missing.name or "").startswith("pigaming_app."):
+            raise
+        raise Refusal(f"{job.partition('.')[0].replace('_', '-')} is not part of this installation") from None
 
 
 @contextmanager

@@ -94,7 +94,7 @@ def is_running(scenes: Sequence[Scene]) -> bool:
 
 FEATURE = Feature(
     "events",
-    rooms=("events",),
+    rooms=("events", "jobs.event"),
     menu=MenuItem(2, page),
     service=service,
     board_pages=board_pages,

@@ -6,6 +6,7 @@ it imports its own screens late. `registry.py` lists the names.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import NamedTuple, Protocol
 
 import pygame
@@ -107,7 +108,8 @@ class Feature:
     """What a feature offers; all of it is optional."""
 
     name: str
-    rooms: Sequence[str]  # its packages and modules in `pigaming_app`: without one of them the feature is not offered
+    rooms: Sequence[str] = ()  # its other packages and modules in `pigaming_app`; it is offered with all of them only
+    needs: Sequence[str] = ()  # features without which it is not offered
     menu: MenuItem | None = None
     options: Mapping[str, OptionRow] = field(default_factory=dict)
     show: Callable[[Context, str], Show | None] | None = None  # of a game, for attract mode
@@ -117,4 +119,5 @@ class Feature:
     board_pages: Callable[[Context], Sequence[BoardPage]] | None = None  # of the second screen
     next_line: Callable[[Context, Sequence[Scene]], str] | None = None  # what comes next, for the second screen
     without_limit: Callable[[Sequence[Scene]], bool] | None = None  # the time limit of a group does not apply
+    saved_brains: Callable[[], Sequence[Path]] | None = None  # files of PiTanks robots that visitors have trained
     preload: Sequence[str] = ()  # modules, loaded in the background in this order

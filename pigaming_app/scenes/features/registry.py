@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 
 from pigaming_app.scenes.features.feature import Feature, JoinOffer, MenuItem
 from pigaming_app.scenes.flow.context import Context
@@ -19,7 +20,8 @@ log = logging.getLogger("pigaming")
 @cache
 def features() -> tuple[Feature, ...]:
     """The features that are there, in the order of NAMES."""
-    return tuple(feature for name in NAMES if (feature := _found(name)))
+    found = {name: feature for name in NAMES if (feature := _found(name))}
+    return tuple(feature for feature in found.values() if found.keys() >= {*feature.needs})
 
 
 def _found(name: str) -> Feature | None:
@@ -32,8 +34,7 @@ def _found(name: str) -> Feature | None:
     missing = [room for room in feature.rooms if not is_there(f"{PACKAGE}.{room}")]
     if missing:
         log.warning("%s is not offered: %s is missing", name, missing[0])
-        return None
-    return feature
+    return None if missing else feature
 
 
 def is_there(module: str) -> bool:
@@ -64,6 +65,11 @@ def next_line(context: Context, scenes: Sequence[Scene]) -> str:
 def without_limit(scenes: Sequence[Scene]) -> bool:
     """True if the time limit of a group does not apply to these scenes."""
     return any(feature.without_limit(scenes) for feature in features() if feature.without_limit)
+
+
+def saved_brains() -> list[Path]:
+    """Files of PiTanks robots that visitors have trained, newest first."""
+    return [path for feature in features() if feature.saved_brains for path in feature.saved_brains()]
 
 
 def join_offer(context: Context) -> JoinOffer | None:

@@ -1,5 +1,7 @@
 """The Lab as a feature: robots that learn while people watch."""
 
+from pathlib import Path
+
 from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Service
 from pigaming_app.scenes.flow.context import Context
@@ -24,11 +26,18 @@ def page(context: Context, game: str) -> Scene:
     return background.lab
 
 
+def saved_brains() -> list[Path]:
+    from pigaming_app.scenes.lab.saved_robots import file_of, names
+
+    return [file_of(name) for name in names()]
+
+
 FEATURE = Feature(
     "lab",
     rooms=("ai.ppo.lab",),
     menu=MenuItem(3, page),
     service=service,
+    saved_brains=saved_brains,
     preload=(
         "pigaming_app.scenes.lab.scene",
         "pigaming_app.scenes.lab.pages.menu",

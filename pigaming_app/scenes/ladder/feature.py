@@ -27,7 +27,7 @@ def show(context: Context, game: str) -> Show | None:
 
 FEATURE = Feature(
     "ladder",
-    rooms=("events",),  # its rules
+    needs=("events",),  # for its rules
     menu=MenuItem(1, page),
     show=show,
     preload=("pigaming_app.scenes.ladder.choice",),

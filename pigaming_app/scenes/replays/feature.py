@@ -11,4 +11,6 @@ def page(context: Context, game: str) -> Scene:
     return ReplaysPage(context)
 
 
-FEATURE = Feature("replays", rooms=(), menu=MenuItem(5, page), preload=("pigaming_app.scenes.replays.page",))
+FEATURE = Feature(
+    "replays", rooms=("jobs.replay",), menu=MenuItem(5, page), preload=("pigaming_app.scenes.replays.page",)
+)

@@ -28,7 +28,7 @@ def main(folder: Path) -> int:
     clock = day_clock.DayClock(folder / "clock")
     day_clock.install(clock)
 
-    from pigaming_app.jobs.kiosk import child
+    from pigaming_app.jobs.terminal import supervised as child
     from pigaming_app.scenes.app import App
     from pigaming_app.scenes.events.next_page import NextMatch
     from pigaming_app.scenes.launch import Options

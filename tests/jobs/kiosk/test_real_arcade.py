@@ -61,7 +61,7 @@ what = plan[min(number, len(plan)) - 1]
 if what == "early":
     sys.exit("it crashed before the first frame")
 
-from pigaming_app.jobs.kiosk import child
+from pigaming_app.jobs.terminal import supervised as child
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import run
 from pigaming_app.scenes.flow.stack import Quit

@@ -29,7 +29,7 @@ ARCADE = """
 import os, signal, sys
 from pathlib import Path
 
-from pigaming_app.jobs.kiosk import child
+from pigaming_app.jobs.terminal import supervised as child
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import opened
 

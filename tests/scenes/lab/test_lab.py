@@ -76,7 +76,8 @@ def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcad
 
 
 def lab_of(arcade: Arcade) -> Lab:
-    scene = arcade.shown(Title).lab
+    arcade.shown(Title)
+    scene = arcade.context.shared(Background).lab
     assert isinstance(scene, Lab)
     return scene
 

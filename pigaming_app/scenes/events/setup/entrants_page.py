@@ -18,11 +18,11 @@ from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.format_pictures import row_picture
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
+from pigaming_app.scenes.features.registry import saved_brains
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
-from pigaming_app.scenes.lab.saved_robots import file_of, names
 from pigaming_app.storage.parsing import one_line
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
@@ -278,7 +278,7 @@ def brains_for(played: tuple[str, ...]) -> tuple[str, ...]:
     """AIs that play all these games: the levels; in a single game its other ones, in PiTanks visitors' robots, too."""
     if len(played) > 1:
         return LEVELS
-    saved = [str(file_of(name)) for name in names()] if played == ("pitanks",) else []
+    saved = list(map(str, saved_brains())) if played == ("pitanks",) else []
     return (*AIS[played[0]].rivals, *saved)
 
 

@@ -1,0 +1,28 @@
+"""Imports, late ones included, between the core and its features."""
+
+from pigaming_app.scenes.features.registry import features
+from tests.test_layers import graph
+
+BENCH = "bench"  # no feature of the arcade: it measures all of them
+ROOMS = {f"pigaming_app.{room}": one.name for one in features() for room in (f"scenes.{one.name}", *one.rooms)}
+ROOMS |= dict.fromkeys(("pigaming_app.jobs.bench", "pigaming_app.scenes.walk"), BENCH)
+CORE = "core"
+ALLOWED = {
+    ("ladder", "events"): "the rules of a climb, and the ratings of leagues",
+    (CORE, "mat"): "lobby, match and replays know real robots; it is to be taken out next",
+    ("events", "mat"): "starts a match with real robots by the same function as the lobby",
+}
+
+
+def owner(module: str) -> str:
+    """The feature of a module, or the core."""
+    rooms = [room for room in ROOMS if f"{module}.".startswith(f"{room}.")]
+    return ROOMS[max(rooms, key=len)] if rooms else CORE
+
+
+def test_no_arrow_leads_from_the_core_to_a_feature_or_between_two_features() -> None:
+    arrows = {
+        (owner(name), owner(other)): f"{name} imports {other}" for name, others in graph().items() for other in others
+    }
+    found = {ends: arrow for ends, arrow in arrows.items() if ends[0] not in (ends[1], BENCH) and ends[1] != CORE}
+    assert found.keys() == ALLOWED.keys(), [arrow for ends, arrow in found.items() if ends not in ALLOWED]
