@@ -307,7 +307,7 @@ def _on_screen(
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.lobby.scene import game_choice
     from pigaming_app.scenes.play.scene import MatchScene
-    from pigaming_app.scenes.robots.start_match import match_of
+    from pigaming_app.scenes.play.start_match import match_of
     from pigaming_app.ui.input.events import Device
 
     scenes: list[MatchScene] = []

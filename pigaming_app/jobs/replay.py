@@ -7,8 +7,8 @@ from pigaming_app.games.replay import ReplayError
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import path
 from pigaming_app.jobs.terminal.refusal import refused
+from pigaming_app.scenes.features.replays import verify
 from pigaming_app.scenes.files import load_replay
-from pigaming_app.scenes.real_replays import verify
 
 
 def options(parser: ArgumentParser) -> None:

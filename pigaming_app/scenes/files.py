@@ -11,7 +11,7 @@ from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.qlearning.table_files import TableError, Trained
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import Replay, ReplayError
-from pigaming_app.scenes import real_replays
+from pigaming_app.scenes.features import replays
 from pigaming_app.storage.parsing import describe_error, read
 from pigaming_app.storage.safe_files import write_atomic
 
@@ -20,15 +20,15 @@ T = TypeVar("T")
 
 def save_replay(match: Match, path: Path) -> None:
     """Write the replay of a match up to now, atomically. Raises NotSaved, and ValueError if there can be none."""
-    replay = real_replays.replay_of(match)
+    replay = replays.replay_of(match)
     if replay is None:
         raise ValueError("a match of measured robots cannot be played again")
-    write_atomic(path, real_replays.pack(replay))
+    write_atomic(path, replays.pack(replay))
 
 
 def load_replay(path: Path) -> Replay:
     """Read and check a replay. Raises ReplayError, whose text begins with the file name."""
-    return _load(path, real_replays.MAX_BYTES, real_replays.decode, ReplayError)
+    return _load(path, replays.MAX_BYTES, replays.decode, ReplayError)
 
 
 def save_table(trained: Trained, path: Path) -> None:

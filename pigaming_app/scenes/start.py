@@ -6,18 +6,16 @@ import logging
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import date
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 
 import pygame
 
-from pigaming_app.hardware.session.real import UDP, RealSession
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable
-from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.app import App
+from pigaming_app.scenes.features.registry import mat_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import choose_kiosk_rules
 from pigaming_app.scenes.launch import Options
@@ -31,14 +29,10 @@ from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import FILE, Settings, folders
 from pigaming_app.ui import memory as heap
 from pigaming_app.ui.draw import read_large
-from pigaming_app.ui.i18n import Words, english, system_language
+from pigaming_app.ui.i18n import Words, system_language
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import StickState
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
-
-if TYPE_CHECKING:
-    from pigaming_app.hardware.session.emulated import EmulatedSession
 
 SWITCH_INTERVAL = 0.001  # s for which a thread in the background may hold up the one that draws
 
@@ -85,11 +79,9 @@ def opened(options: Options) -> "Iterator[App]":
     context.day_log.note("start")
     context.controls.remap(settings.controls)
     context.controls.has_keypad = settings.keypad
-    context.session = session = _session(options, settings, canvas)
-    context.emergency_stops.append(session.close)
-    if isinstance(session, RosSession):
-        context.sticks = _sticks(session)
-        context.match_watchers.append(session.publish)
+    context.mat = mat_of(context, options)
+    if context.mat:
+        context.emergency_stops.append(context.mat.stop)
     context.preloader.modules = modules()
     old_interval = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH_INTERVAL)
@@ -106,7 +98,8 @@ def opened(options: Options) -> "Iterator[App]":
         for service in app.services if app else ():
             service.close()
         gc.unfreeze()
-        session.end()
+        if context.mat:
+            context.mat.end()
         context.day_log.note("end")
         context.sounds.close()
         _save(settings, data_folders.config)
@@ -114,56 +107,6 @@ def opened(options: Options) -> "Iterator[App]":
             _save(scores, data_folders.data)
         canvas.close()
         _close_log(crash_file)
-
-
-def _session(options: Options, settings: Settings, canvas: Canvas) -> "EmulatedSession | RealSession | RosSession":
-    """The robot session: real or emulated. The emulator is imported late, so that the title appears at once."""
-    if options.ros_width is not None:
-        network = RosSession(options.ros_width)
-        _make_ready(network, settings)
-        return network
-    if options.emulator_seed is None:
-        return RealSession(settings, lambda: canvas.projection)
-    from pigaming_app.hardware.emulator.wifi.air import WifiChannel
-    from pigaming_app.hardware.session.emulated import EmulatedSession
-
-    wifi = WifiChannel() if settings.radio == UDP else None
-    live, things = options.step is None, options.emulated_things
-    session = EmulatedSession(options.emulator_seed, live, lambda: canvas.projection, wifi=wifi, things=things)
-    canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
-    print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
-    _make_ready(session, settings)
-    return session
-
-
-def _make_ready(session: "EmulatedSession | RosSession", settings: Settings) -> None:
-    """Open a session whose robots every lobby offers, while no picture is waiting; the first match reopens it."""
-    settings.real = settings.real or [1, 2, 3, 4]
-    try:
-        session.open()
-        session.close()
-    except RobotsUnavailable as trouble:
-        print(f"PiGaming: {english().long_sentence(trouble.message)}", file=sys.stderr)
-
-
-def _sticks(session: RosSession) -> Callable[[int, bool], StickState | None]:
-    """The joysticks of a session, by seat."""
-
-    def stick(seat: int, first: bool) -> StickState | None:
-        found = session.stick(seat, first)
-        return StickState(*found) if found else None
-
-    return stick
-
-
-def _projected(canvas: Canvas, window: pygame.Surface) -> object:
-    """The pixels projected onto the emulated mat: with bars cropped, or the whole window of a pinned picture.
-
-    A copy: a view that somebody keeps would lock the surface.
-    """
-    from pigaming_app.ui.draw.pixels import pixels_of
-
-    return pixels_of(window if canvas.corners else canvas.screen).copy()
 
 
 def _save(record: Settings | Scores, folder: Path) -> None:

@@ -18,6 +18,7 @@ from pigaming_app.scenes.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.calibration.setup_page import site_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut_box
 from pigaming_app.ui.draw.layers import Layer, LitImage
@@ -45,8 +46,8 @@ class DriftPage:
 
     def on_enter(self) -> None:
         """Start the check."""
-        if self.context.session is not None:
-            self.context.session.close()
+        if session := session_if_any(self.context):
+            session.close()
         self.work.begin()
 
     def on_leave(self) -> None:

@@ -16,6 +16,7 @@ from pigaming_app.scenes.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
@@ -44,7 +45,8 @@ log = logging.getLogger("pigaming")
 def site_of(context: Context) -> CalibrationSite:
     """The calibration site: of the emulated arena, if the arcade has one, else the real one."""
     try:
-        return context.session.site if context.session is not None else RealCalibrationSite()
+        session = session_if_any(context)
+        return session.site if session is not None else RealCalibrationSite()
     except RobotsUnavailable:
         return RealCalibrationSite()  # without OpenCV there is none; the page shows the reason
 
@@ -251,8 +253,8 @@ class CalibrationPage:
     def _open_camera(self) -> None:
         """Open the selected camera, after closing the previous one."""
         self._state_of = (0, 0)
-        if self.context.session is not None:
-            self.context.session.close()
+        if session := session_if_any(self.context):
+            session.close()
         self.on_leave()
         self.preview = CameraPreview(self.site, self.number)
         self.preview.begin()

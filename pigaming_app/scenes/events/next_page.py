@@ -29,8 +29,8 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.play.start_match import match_of
 from pigaming_app.scenes.results.winner import AfterMatch
-from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue

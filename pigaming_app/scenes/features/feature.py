@@ -12,7 +12,9 @@ from typing import NamedTuple, Protocol
 import pygame
 
 from pigaming_app.scenes.features.board_page import BoardPage
+from pigaming_app.scenes.features.replay_kind import ReplayKind
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
 from pigaming_app.scenes.launch import Options
 from pigaming_app.ui.draw import GlowCanvas
@@ -120,4 +122,6 @@ class Feature:
     next_line: Callable[[Context, Sequence[Scene]], str] | None = None  # what comes next, for the second screen
     without_limit: Callable[[Sequence[Scene]], bool] | None = None  # the time limit of a group does not apply
     saved_brains: Callable[[], Sequence[Path]] | None = None  # files of PiTanks robots that visitors have trained
+    mat: Callable[[Context, Options], RobotMat] | None = None
+    replays: Callable[[], ReplayKind] | None = None  # a kind of its own
     preload: Sequence[str] = ()  # modules, loaded in the background in this order

@@ -9,7 +9,9 @@ from pathlib import Path
 
 from pigaming_app.scenes.features.feature import Feature, JoinOffer, MenuItem
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.launch import Options
 
 PACKAGE = "pigaming_app"
 NAMES = ("howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
@@ -70,6 +72,11 @@ def without_limit(scenes: Sequence[Scene]) -> bool:
 def saved_brains() -> list[Path]:
     """Files of PiTanks robots that visitors have trained, newest first."""
     return [path for feature in features() if feature.saved_brains for path in feature.saved_brains()]
+
+
+def mat_of(context: Context, options: Options) -> RobotMat | None:
+    """The mat with real robots that the options ask for, if there can be one."""
+    return next((feature.mat(context, options) for feature in features() if feature.mat), None)
 
 
 def join_offer(context: Context) -> JoinOffer | None:

@@ -4,27 +4,22 @@ import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from pigaming_app.hardware.messages import OperatorMessage
-from pigaming_app.hardware.session.robot_session import settings_problem
 from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.flow.preload import Preloader
-from pigaming_app.scenes.recordings.highlights import Highlights
+from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.storage.day_log import DayLog, now
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Button, Device, StickState
+from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.widgets.notices import Notices
 from pigaming_app.ui.window import Canvas
-
-if TYPE_CHECKING:
-    from pigaming_app.hardware.session.robot_session import RobotSession
-
 
 T = TypeVar("T")
 
@@ -41,14 +36,11 @@ class Context:
     canvas: Canvas
     kiosk: bool = False
     idle: float = 0.0  # seconds since the last input
-    session: "RobotSession | None" = None  # of real robots
+    mat: RobotMat | None = None
     notices: Notices = field(default_factory=Notices)
     preloader: Preloader = field(default_factory=Preloader)
     driving: DrivingStyles = field(init=False)
-    highlights: Highlights = field(default_factory=Highlights)  # for attract mode
     day_log: DayLog = field(default_factory=DayLog)
-    sticks: Callable[[int, bool], StickState | None] = lambda *_: None  # joysticks of a network: see RosSession
-    match_watchers: list[Callable[[dict[str, Any]], None]] = field(default_factory=list)  # get the state of a match
     dropped: list[Path] = field(default_factory=list)  # files dropped onto the window
     emergency_stops: list[Callable[[], None]] = field(default_factory=list)  # callbacks that stop robots at once
     _shared: dict[object, Any] = field(default_factory=dict)  # see `shared`
@@ -59,13 +51,12 @@ class Context:
     @property
     def robots(self) -> bool:
         """True if matches with real robots are available."""
-        session = self.session
-        return session is not None and (session.emulated or not session.radio or self.settings.mat)
+        return self.mat is not None and self.mat.available
 
     @property
     def robots_problem(self) -> OperatorMessage | None:
         """Why the settings forbid matches with real robots, or None."""
-        return settings_problem(self.settings) if self.session is None or self.session.radio else None
+        return self.mat.problem if self.mat else None
 
     def prompts(
         self,

@@ -75,10 +75,8 @@ class MatchSetupPage:
         self.clock, self.going = 0.0, False
         self.context.sounds.music(True)
         self._find_arenas()
-        if self._on_mat and self.context.session is not None:
-            from pigaming_app.hardware.session.things_on_mat import things_in_play
-
-            self.things = () if self.context.settings.blocks else things_in_play(self.context.session)
+        if self._on_mat and self.context.mat:
+            self.things = self.context.mat.things
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Change a value, start or go back."""
@@ -91,11 +89,9 @@ class MatchSetupPage:
                 self._change(self.focus.name, 1 if event.button is Button.RIGHT else -1)
             case Button.FIRE | Button.START:
                 return self._go() if self.clock > INPUT_LOCKOUT else None
-            case Button.Y if self._on_mat:
-                from pigaming_app.scenes.things.arena_page import ArenaPage
-
+            case Button.Y if self._on_mat and self.context.mat:
                 self.context.sounds.play("accept")
-                return Push(ArenaPage(self.context, self.seats.devices))
+                return Push(self.context.mat.arena_page(self.seats.devices))
             case Button.X if self.editor:
                 self.context.sounds.play("accept")
                 return Push(self.editor())
@@ -148,8 +144,8 @@ class MatchSetupPage:
     @property
     def _on_mat(self) -> bool:
         """True if real robots play under our own camera."""
-        session = self.context.session
-        return session is not None and session.radio and bool(self.seats.real())
+        mat = self.context.mat
+        return mat is not None and mat.scans and bool(self.seats.real())
 
     def _go(self) -> StackOperation:
         self._save_selection()
@@ -160,7 +156,7 @@ class MatchSetupPage:
     def _begin(self) -> StackOperation:
         """Push the match, or return None while the preloader is busy."""
         from pigaming_app.scenes.play.scene import new_seed
-        from pigaming_app.scenes.robots.start_match import match_of
+        from pigaming_app.scenes.play.start_match import match_of
 
         if not self.context.preloader.ready(self.game.name, self.chosen.arena):
             return None

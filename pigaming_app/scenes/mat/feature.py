@@ -6,7 +6,9 @@ import pygame
 
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.feature import Feature, OptionRow, Service
+from pigaming_app.scenes.features.replay_kind import ReplayKind
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.launch import Options
 from pigaming_app.ui.draw import FOCUS, ICE, LINE, GlowCanvas, cut_box
@@ -18,8 +20,9 @@ class CameraView(Service):
     def __init__(self, context: Context) -> None:
         from pigaming_app.hardware.session.emulated import EmulatedSession
         from pigaming_app.scenes.mat.camera_window import CameraWindow
+        from pigaming_app.scenes.mat.session import session_of
 
-        session = context.session
+        session = session_of(context)
         self.window = CameraWindow(session) if isinstance(session, EmulatedSession) and session.live else None
 
     @property
@@ -35,8 +38,19 @@ class CameraView(Service):
 
 
 def service(context: Context, options: Options) -> Service | None:
-    session = context.session
-    return CameraView(context) if session is not None and session.emulated else None
+    return CameraView(context) if options.emulator_seed is not None else None
+
+
+def mat(context: Context, options: Options) -> RobotMat:
+    from pigaming_app.scenes.mat.robots import opened
+
+    return opened(context, options)
+
+
+def replays() -> ReplayKind:
+    from pigaming_app.scenes.mat.replays import RealReplays
+
+    return RealReplays()
 
 
 def page(context: Context) -> Scene:
@@ -65,9 +79,10 @@ FEATURE = Feature(
     rooms=("hardware", "scenes.robots", "scenes.calibration", "scenes.things", "scenes.radio"),
     options={"robots": OptionRow("", "ease", page, sketch)},
     service=service,
+    mat=mat,
+    replays=replays,
     board_pages=board_pages,
     preload=(
-        "pigaming_app.scenes.robots.start_match",
         "pigaming_app.scenes.robots.menu",
         "pigaming_app.scenes.calibration.drift_page",
         "pigaming_app.scenes.calibration.setup_page",

@@ -5,13 +5,14 @@ from collections.abc import Callable, Collection
 import pygame
 
 from pigaming_app.games.rounds import Rounds
+from pigaming_app.scenes.features.replays import replay_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation, Swap
 from pigaming_app.scenes.play.countdown import popped, show
 from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
 from pigaming_app.scenes.play.round_break import RoundBreak
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.real_replays import replay_of
+from pigaming_app.scenes.recordings.highlights import highlights
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.winner import AfterMatch, WinnersMoment
 from pigaming_app.ui.draw import ALARM
@@ -46,7 +47,7 @@ class Ending:
         """Keep the match for attract mode, and count the round. `assisted`: seats whose results are no records."""
         self.begun = True
         if replay := replay_of(self.match):
-            self.context.highlights.add(replay)
+            self.context.shared(highlights).add(replay)
         self.context.sounds.play("go")
         self.again = slow_motion(self.context, self.match, self.runner.view, self.runner.last_hit)
         if self.rounds:

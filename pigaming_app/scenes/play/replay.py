@@ -3,12 +3,11 @@
 import pygame
 
 from pigaming_app.games.replay import Replay
+from pigaming_app.scenes.features.replays import marks_of, timeline_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
-from pigaming_app.scenes.play.replay_faults import ReplayFaults
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.side_hints import SideHints, side_note
-from pigaming_app.scenes.real_replays import timeline_of
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, STEEL
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -32,7 +31,7 @@ class ReplayScene:
     def __init__(self, context: Context, replay: Replay) -> None:
         self.context, self.replay = context, replay
         self.timeline = timeline_of(replay)
-        self.faults = ReplayFaults(replay, context.words)
+        self.marks = marks_of(replay, context.words)
         self.speed, self.hints_left, self.playing = 1.0, HINTS_SECONDS, True
         self.runner, self.prewarmed = MatchRunner(context, self.timeline.match_at(0)), False
 
@@ -97,7 +96,8 @@ class ReplayScene:
         if seconds < HINTS_SECONDS or not self.playing:
             self.runner.draw_captions(screen, [None] * len(self.replay.setup.seats))
         self._draw_timeline(screen)
-        self.faults.draw(screen, self.tick)
+        for marks in self.marks:
+            marks.draw(screen, self.tick)
         if self.ended:
             caption(words("replay.over"), ALARM, ICE, LABEL, face="head").draw(screen, 960, 590)
         elif not self.playing or self.speed != 1.0 or seconds < HINTS_SECONDS:
@@ -115,7 +115,8 @@ class ReplayScene:
             x = self._x(moment.tick)
             diamond = [(x - MARK, LINE_Y), (x, LINE_Y - MARK), (x + MARK, LINE_Y), (x, LINE_Y + MARK)]
             pygame.draw.polygon(screen, ICE, diamond)
-        self.faults.draw_marks(screen, self._x, LINE_Y)
+        for marks in self.marks:
+            marks.draw_marks(screen, self._x, LINE_Y)
         pygame.draw.circle(screen, FOCUS, (now, LINE_Y), 9)
 
     def _x(self, tick: int) -> float:

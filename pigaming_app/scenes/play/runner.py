@@ -18,7 +18,6 @@ from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.last_hit import LastHit
-from pigaming_app.scenes.real_replays import shown_things
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.registry import SCREENS
@@ -101,7 +100,7 @@ class MatchRunner:
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the match, interpolated between its last two ticks."""
-        things = shown_things(self.match)
+        things: Sequence[ThingSpec] | None = getattr(self.match.plant, "shown_things", None)  # that may move
         if things is not None and things is not self.things:
             self.things = things
             self.view.show_things(things)

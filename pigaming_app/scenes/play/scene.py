@@ -17,6 +17,7 @@ from pigaming_app.ai.game_ai import CHAUFFEUR, ONE_BUTTON
 from pigaming_app.ai.registry import make_brain, make_person, new_match
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
+from pigaming_app.scenes.features.replays import replay_of
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import tagline
@@ -29,7 +30,6 @@ from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.round_break import draw_margin
 from pigaming_app.scenes.play.rule_card import rule_card
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.real_replays import replay_of
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.scene import Results, SceneFactory
 from pigaming_app.scenes.results.winner import AfterMatch
@@ -398,7 +398,8 @@ class MatchScene:
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""
-        drive = self.context.sticks(seat, seat == self.humans[0]) or self.context.controls.drive(device)
+        mat = self.context.mat
+        drive = (mat and mat.stick(seat, seat == self.humans[0])) or self.context.controls.drive(device)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.idle = 0.0
             self.idle_seats.touch(seat)

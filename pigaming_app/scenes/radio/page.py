@@ -16,6 +16,7 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.radio.sketches import sketch
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved
@@ -45,8 +46,7 @@ class RadioPage:
     """The page. Robots and camera stay closed, so that the radio's port is free."""
 
     def __init__(self, context: Context) -> None:
-        assert context.session is not None
-        self.context, self.session = context, context.session
+        self.context, self.session = context, session_of(context)
         own = () if self.session.emulated else ("arena",)  # emulated robots were flashed with their arena's number
         xbees = RADIO_ROWS if context.settings.radio in XBEE_MODES else ()
         self.focus = Focus(dials.spots((*own, *xbees, *KIND_ROWS)))

@@ -5,6 +5,7 @@ from collections import deque
 
 from pigaming_app.games.moments import CLOSE, KINDS, Moment
 from pigaming_app.games.replay import Replay
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.recordings import store
 
 KEPT = 8  # matches in memory
@@ -40,3 +41,8 @@ class Highlights:
         paths = store.paths()
         replay = store.load(secrets.choice(paths)) if paths else None
         return [replay] if replay and not replay.other_engine else []
+
+
+def highlights(context: Context) -> Highlights:
+    """Those of a context, for attract mode: `context.shared(highlights)`."""
+    return Highlights()

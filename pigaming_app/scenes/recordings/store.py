@@ -15,8 +15,8 @@ from pathlib import Path
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.games.game import Seat
 from pigaming_app.games.replay import Replay, ReplayError
+from pigaming_app.scenes.features.replays import pack
 from pigaming_app.scenes.files import load_replay
-from pigaming_app.scenes.real_replays import pack
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
 

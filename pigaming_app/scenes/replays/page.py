@@ -3,11 +3,11 @@
 import pygame
 
 from pigaming_app.games.replay import Replay
+from pigaming_app.scenes.features.replays import to_match
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.real_replays import to_match
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.replays import view

@@ -12,12 +12,12 @@ from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.mat.fault_icons import sign
 from pigaming_app.scenes.play.pause import Pause, sheet_title
 from pigaming_app.scenes.robots.flood_light import FloodLight, hint_line
 from pigaming_app.scenes.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
 from pigaming_app.scenes.things.moved_page import MovedPage
-from pigaming_app.scenes.views.fault_icons import sign
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
 from pigaming_app.ui.draw.layers import Layer

@@ -12,6 +12,7 @@ from pigaming_app.scenes.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.robots.avoid_discs import BlockLayout
 from pigaming_app.scenes.robots.fleet_state import FleetState, worst_finding
 from pigaming_app.scenes.robots.flood_light import FloodLight
@@ -51,17 +52,13 @@ class FleetPage:
     """Fleet page, shown where robots are available."""
 
     def __init__(self, context: Context) -> None:
-        assert context.session is not None
         self.context = context
-        self.check = FleetState(context.session, context.settings)
+        session = session_of(context)
+        self.check = FleetState(session, context.settings)
         self.flood = FloodLight()
         self.flood.level = 0.0
         self.names = (
-            ROWS
-            if context.session.radio and not context.session.emulated
-            else ("radio", *DEEDS)
-            if context.robots_problem
-            else DEEDS
+            ROWS if session.radio and not session.emulated else ("radio", *DEEDS) if context.robots_problem else DEEDS
         )
         self.focus = Focus(dials.spots(self.names), "pair")
         self.reopen_in, self.age = 0.0, EVERY

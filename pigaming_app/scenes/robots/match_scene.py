@@ -17,17 +17,17 @@ from pigaming_app.hardware.control.moving_things import MovingThings, same_mud
 from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.scan.block_walls import BlockWalls
 from pigaming_app.hardware.scan.things import Layout
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, cause_of
+from pigaming_app.hardware.session.robot_session import RobotSession, cause_of
 from pigaming_app.hardware.session.things_on_mat import save_layout
 from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.flow.timestep import FixedTimestep
+from pigaming_app.scenes.mat.replays import reroute_of
 from pigaming_app.scenes.play.countdown import Countdown
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import LEAD_SECONDS, NOTICE_SECONDS, MatchScene, fresh_rounds, rematch_setup
-from pigaming_app.scenes.real_replays import reroute_of
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.robots.fault_page import FaultPage, fault_sentence
@@ -72,8 +72,6 @@ class RealMatch(MatchScene):
         arena: Arena | None = None,
         after: Callable[[MatchScene], AfterMatch] | None = None,
     ) -> None:
-        if reason := context.robots_problem:
-            raise RobotsUnavailable(reason)
         rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
         self.session, self.match_of = session, match_of
@@ -100,6 +98,7 @@ class RealMatch(MatchScene):
         if context.settings.blocks and session.ground is not None:
             rig.viewers.append(BlockWalls(session.ground, plant.things).process)
         self.released = False  # rig released
+        self.watchers: Sequence[Callable[[dict[str, Any]], None]] = ()  # get its state
         self.waiting = FixedTimestep()  # clock while the match waits
         self.logged: set[tuple[str, int | None]] = set()
         self._mark_real()
@@ -357,10 +356,10 @@ class RealMatch(MatchScene):
 
     def _publish(self) -> None:
         """Hand the state of the match to those who watch it."""
-        if self.context.match_watchers:
+        if self.watchers:
             waiting = self.gathering is not None or self.blocked or self.countdown.locked
             state = match_state(self.match, self.plant.faults, waiting)
-            for watch in self.context.match_watchers:
+            for watch in self.watchers:
                 watch(state)
 
     def _reportable(self, fault: Fault) -> bool:

@@ -8,6 +8,7 @@ from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, GREY, ICE, LINE, PLAYERS, STEEL, THIN, GlowCanvas, cut_box
@@ -35,7 +36,8 @@ class RobotsMenu:
 
     def __init__(self, context: Context) -> None:
         self.context = context
-        self.focus = Focus(dials.spots(ROWS if context.session is None or context.session.radio else ROS_ROWS))
+        session = session_if_any(context)
+        self.focus = Focus(dials.spots(ROWS if session is None or session.radio else ROS_ROWS))
         hints = [(Button.FIRE, "robots.hint_ok"), (Button.BACK, "robots.hint_back")]
         self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
 

@@ -19,6 +19,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.things.outlines import COLORS, HALO, draw_thing, frame
 from pigaming_app.scenes.things.playable import PlayableArenas
 from pigaming_app.scenes.things.steps import draw_steps
@@ -46,8 +47,7 @@ class ArenaPage:
     def __init__(
         self, context: Context, devices: Callable[[], Sequence[Device | None]] = lambda: (), scan_now: bool = False
     ) -> None:
-        assert context.session is not None
-        self.context, self.session = context, context.session
+        self.context, self.session = context, session_of(context)
         self.access = Access(context, devices)
         self.rig: Rig | None = None
         self.layout, self.changed = Layout(), False

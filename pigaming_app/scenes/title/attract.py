@@ -21,6 +21,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import new_seed
+from pigaming_app.scenes.recordings.highlights import highlights
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.title.clip import Clip
@@ -94,7 +95,7 @@ class Attract:
         """Look for a highlight, once per show, and prepare it step by step."""
         if self.clip is None and not self.searched:
             self.searched = True
-            highlight = self.context.highlights.next()
+            highlight = self.context.shared(highlights).next()
             self.clip = Clip(self.context, highlight) if highlight else None
         self.clip_ready = self.clip is not None and (self.clip_ready or self.clip.prepare())
 

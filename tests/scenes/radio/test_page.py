@@ -8,6 +8,8 @@ from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
 from pigaming_app.hardware.emulator.xbee import Module
 from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session.real import RealSession
+from pigaming_app.scenes.mat.robots import Robots
+from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.radio.page import RadioPage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
@@ -35,7 +37,7 @@ class Session(RealSession):
 def arcade(controls: Controls, home: Path, request: pytest.FixtureRequest) -> Arcade:
     arcade = Arcade(controls, getattr(request, "param", "en"))
     arcade.context.settings.arena_id = 4711
-    arcade.context.session = Session(arcade.context.settings)
+    arcade.context.mat = Robots(arcade.context, Session(arcade.context.settings))
     arcade.open(RadioPage(arcade.context))
     return arcade
 
@@ -67,7 +69,7 @@ def test_number_channel_and_kinds_change_and_are_kept(arcade: Arcade) -> None:
 
 @pytest.mark.parametrize("arcade", ["en", "pt"], indirect=True)
 def test_radios_are_written_one_after_another_and_refusals_are_said(arcade: Arcade) -> None:
-    page, session = go(arcade, "module"), arcade.context.session
+    page, session = go(arcade, "module"), session_of(arcade.context)
     assert isinstance(session, Session)
     arcade.press(Button.RIGHT)
     arcade.press(Button.RIGHT)
@@ -90,7 +92,7 @@ def test_radios_are_written_one_after_another_and_refusals_are_said(arcade: Arca
 
 
 def test_a_rate_that_no_xbee_has_is_said_before_anything_is_written(arcade: Arcade) -> None:
-    page, session = go(arcade, "write"), arcade.context.session
+    page, session = go(arcade, "write"), session_of(arcade.context)
     assert isinstance(session, Session)
     arcade.context.settings.baud = 230400
     arcade.press(Button.FIRE)

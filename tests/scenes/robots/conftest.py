@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.scenes.mat.robots import Robots
 from pigaming_app.ui.input.controls import Controls
 from tests.scenes.arcade import Arcade
 
@@ -36,5 +37,5 @@ def mat(emulated: EmulatedSession) -> Iterator[EmulatedSession]:
 def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
     """An arcade connected to the arena."""
     arcade = Arcade(controls)
-    arcade.context.session = mat
+    arcade.context.mat = Robots(arcade.context, mat)
     return arcade

@@ -15,6 +15,7 @@ from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.scan.things import Layout, Thing, ThingKind
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.mat.robots import Robots
 from pigaming_app.scenes.radio.page import RadioPage
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.things.arena_page import ArenaPage
@@ -55,7 +56,7 @@ def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
 
 def arena_page(arcade: Arcade, things: Sequence[Thing] = (), fault: OperatorMessage | None = None) -> ArenaPage:
     """Build your arena, with these things on the mat and the first one selected."""
-    arcade.context.session = SimpleNamespace(ground=None)  # type: ignore[assignment]
+    arcade.context.mat = Robots(arcade.context, SimpleNamespace(ground=None))
     page = ArenaPage(arcade.context)
     page._take(Layout(tuple(things)), False)
     page.fault = fault
@@ -65,7 +66,7 @@ def arena_page(arcade: Arcade, things: Sequence[Thing] = (), fault: OperatorMess
 def radio_page(arcade: Arcade, message: str = "") -> RadioPage:
     """Arena and radio, with the longest arena number, the longest kind of robot, and a message about a radio."""
     session = SimpleNamespace(emulated=False, arena_id=LAST_ARENA, advance=lambda seconds: seconds)
-    arcade.context.session = session  # type: ignore[assignment]
+    arcade.context.mat = Robots(arcade.context, session)
     arcade.context.settings.kinds = [max(KINDS, key=lambda kind: len(kind.name)).key, "", "", ""]
     page = RadioPage(arcade.context)
     page.arena, page.module = LAST_ARENA, 4

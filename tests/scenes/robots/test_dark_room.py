@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.scenes.play.start_match import match_of
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.flood_light import FADE, LIGHT, UNSEEN
 from pigaming_app.scenes.robots.match_scene import RealMatch
-from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.take_places import TakePlaces
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade

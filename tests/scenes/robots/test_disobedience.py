@@ -6,10 +6,10 @@ from math import hypot
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.scenes.play.start_match import match_of
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
 from pigaming_app.scenes.robots.pair_again import PairAgain
-from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
 from tests.scenes.robots.test_real_match import begun, match_for, play, until

@@ -11,6 +11,8 @@ from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTE
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
+from pigaming_app.scenes.mat.robots import Robots
+from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.robots.avoid_discs import hit
 from pigaming_app.scenes.robots.fleet_page import FleetPage
 from pigaming_app.storage.settings import Settings, folders
@@ -31,7 +33,7 @@ def mat() -> Iterator[EmulatedSession]:
 @pytest.fixture
 def arcade(controls: Controls, home: Path, mat: EmulatedSession) -> Iterator[Arcade]:
     arcade = Arcade(controls)
-    arcade.context.session = mat
+    arcade.context.mat = Robots(arcade.context, mat)
     arcade.open(FleetPage(arcade.context))
     arcade.wait(1.1, fps=50)
     yield arcade
@@ -200,7 +202,8 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
     arcade = Arcade(controls, "pt")
     settings = arcade.context.settings
     settings.port = "/dev/nowhere"
-    arcade.context.session = mat = RealSession(settings, lambda: "1")
+    mat = RealSession(settings, lambda: "1")
+    arcade.context.mat = Robots(arcade.context, mat)
     arcade.open(FleetPage(arcade.context))
     try:
         page = arcade.shown(FleetPage)
@@ -217,4 +220,4 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         arcade.wait(1.5, draw=True)
     finally:
         arcade.press(Button.BACK)
-    assert arcade.context.session.fault is None
+    assert session_of(arcade.context).fault is None

@@ -15,15 +15,16 @@ from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
+from pigaming_app.scenes.features.replays import verify
+from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.operator.page import OperatorPage, end_all
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.real_replays import verify
+from pigaming_app.scenes.play.start_match import match_of
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
-from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.robots.swap_page import SwapPage
 from pigaming_app.scenes.robots.unavailable import UnavailablePage
 from pigaming_app.storage.day_log import Battery, DayLog, PlayedMatch, read_day
@@ -55,7 +56,7 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
     for _ in range(round(seconds * FPS)):
         arcade.frame(1 / FPS, draw=lit)
         if lit:
-            mat = arcade.context.session
+            mat = session_of(arcade.context)
             assert isinstance(mat, EmulatedSession)
             mat.show(lambda: pixels_of(arcade.screen))
 

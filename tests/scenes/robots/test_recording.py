@@ -5,24 +5,24 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.registry import new_match
 from pigaming_app.cli import Parser
-from pigaming_app.games import replay as replays
 from pigaming_app.games.replay import ReplayError
 from pigaming_app.hardware import recordings
 from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.jobs import play as play_job
 from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.scenes.features.replays import timeline_of, verify
 from pigaming_app.scenes.files import load_replay, save_replay
 from pigaming_app.scenes.launch import Options
-from pigaming_app.scenes.play import replay_faults
+from pigaming_app.scenes.mat import replay_faults
+from pigaming_app.scenes.mat.replay_faults import ReplayFaults
+from pigaming_app.scenes.mat.replays import RealReplay
+from pigaming_app.scenes.mat.robots import Robots
 from pigaming_app.scenes.play.replay import ReplayScene
-from pigaming_app.scenes.play.replay_faults import ReplayFaults
-from pigaming_app.scenes.real_replays import RealReplay, timeline_of, verify
+from pigaming_app.scenes.play.start_match import match_of
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
-from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
@@ -62,7 +62,8 @@ def arcade(controls: Controls) -> Arcade:
 @pytest.fixture
 def played(arcade: Arcade) -> RealMatch:
     """A match of one real robot against a simulated one, with a fault that paused it."""
-    arcade.context.session = session = MatSession()  # type: ignore[assignment]
+    session = MatSession()  # type: ignore[assignment]
+    arcade.context.mat = Robots(arcade.context, session)
     match = match_of(arcade.context, match_for("pitanks", "normal easy off off", 2.0), [], (0,))
     assert isinstance(match, RealMatch)
     arcade.open(match)
@@ -125,7 +126,7 @@ def test_the_cause_is_among_the_faults_that_a_replay_shows(monkeypatch: pytest.M
     """A frozen camera loses all robots at once; there is room for three plates."""
     arcade, shown = Arcade(controls), list[str]()
     monkeypatch.setattr(replay_faults, "plate", lambda name, *rest: shown.append(name) or caption("", (0, 0, 0)))
-    faults = ReplayFaults(replays.recorded(new_match(match_for("pitanks", "easy easy off off", 1.0))), Words("en"))
+    faults = ReplayFaults((), Words("en"))
     fault = match_recording.RecordedFault
     faults.faults = [fault("camera", None, 9, True), *(fault("lost", i, 9, True) for i in range(3))]
     faults.faults += [fault("deadman", i, 10, False) for i in range(3)]
@@ -136,7 +137,7 @@ def test_the_cause_is_among_the_faults_that_a_replay_shows(monkeypatch: pytest.M
 @pytest.mark.parametrize("name", sorted(match_recording.NAMES))
 def test_every_fault_that_a_file_may_hold_is_shown(controls: Controls, name: str) -> None:
     arcade = Arcade(controls)
-    faults = ReplayFaults(replays.recorded(new_match(match_for("pitanks", "easy easy off off", 1.0))), Words("en"))
+    faults = ReplayFaults((), Words("en"))
     faults.faults = [match_recording.RecordedFault(name, 3, 9, True, 60.0)]
     faults.draw(arcade.screen, 20)
 
@@ -144,7 +145,8 @@ def test_every_fault_that_a_file_may_hold_is_shown(controls: Controls, name: str
 def test_a_match_without_people_ends_at_a_fault_that_needs_them(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    arcade.context.session = session = MatSession()  # type: ignore[assignment]
+    session = MatSession()  # type: ignore[assignment]
+    arcade.context.mat = Robots(arcade.context, session)
 
     def show(options: Options) -> int:
         """The arcade, in which somebody holds robot 1."""

@@ -11,8 +11,10 @@ from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.launch import Options
+from pigaming_app.scenes.mat.robots import Robots
+from pigaming_app.scenes.mat.session import session_of
+from pigaming_app.scenes.play.start_match import match_of
 from pigaming_app.scenes.robots.match_scene import RealMatch
-from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.start import run
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
@@ -30,7 +32,8 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
     calibrate(HERE)
     before = threads()
     arcade = Arcade(controls, "pt")
-    arcade.context.session = mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
+    mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
+    arcade.context.mat = Robots(arcade.context, mat)
     seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
     match = match_of(arcade.context, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
     assert isinstance(match, RealMatch)
@@ -71,14 +74,14 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
 
     def first(context: Context) -> RealMatch:
         contexts.append(context)
-        assert isinstance(context.session, EmulatedSession)
+        assert isinstance(session_of(context), EmulatedSession)
         seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
         return Failing(
             context,
             Setup("pitanks", "classic", seats, 0.1, 3, "plain"),
             [],
             (0, 1),
-            context.session,
+            session_of(context),
             partial(match_of, context),
         )
 

@@ -13,11 +13,13 @@ from pigaming_app.hardware.proof.things import distances
 from pigaming_app.hardware.scan.things import Layout, Outline, Thing, ThingKind
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout, things_in_play
+from pigaming_app.scenes.features.replays import decode, pack, replay_of, verify
 from pigaming_app.scenes.flow.stack import Scene
-from pigaming_app.scenes.real_replays import decode, pack, replay_of, verify
+from pigaming_app.scenes.mat.robots import Robots
+from pigaming_app.scenes.mat.session import session_of
+from pigaming_app.scenes.play.start_match import match_of
 from pigaming_app.scenes.robots.fault_page import FaultPage
 from pigaming_app.scenes.robots.match_scene import RealMatch
-from pigaming_app.scenes.robots.start_match import match_of
 from pigaming_app.scenes.things.arena_page import ArenaPage
 from pigaming_app.scenes.things.moved_page import MovedPage
 from pigaming_app.scenes.things.sweep_page import SweepPage
@@ -83,13 +85,13 @@ def cleared(mat: EmulatedSession):
 def simulated(controls: Controls) -> Arcade:
     """An arcade with a simulated mat, for what needs no camera."""
     arcade = Arcade(controls)
-    arcade.context.session = MatSession()  # type: ignore[assignment]
+    arcade.context.mat = Robots(arcade.context, MatSession())
     return arcade
 
 
 def keep(arcade: Arcade, *things: Thing) -> None:
-    assert arcade.context.session is not None
-    save_layout(arcade.context.session, Layout(things))
+    assert session_of(arcade.context) is not None
+    save_layout(session_of(arcade.context), Layout(things))
 
 
 def test_things_are_changed_on_screen_and_kept(simulated: Arcade) -> None:
@@ -106,7 +108,7 @@ def test_things_are_changed_on_screen_and_kept(simulated: Arcade) -> None:
     simulated.shown(ArenaPage)
     simulated.press(Button.BACK)
     assert simulated.stack.top is simulated.setup
-    assert [spec.use for spec in things_in_play(simulated.context.session)] == [Use.MUD]  # type: ignore[arg-type]
+    assert [spec.use for spec in things_in_play(session_of(simulated.context))] == [Use.MUD]  # type: ignore[arg-type]
 
 
 def test_an_arena_that_things_block_is_built_again_or_played_without_them(simulated: Arcade) -> None:

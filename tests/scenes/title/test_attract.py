@@ -19,7 +19,7 @@ from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
-from pigaming_app.scenes.recordings.highlights import KEPT, Highlights
+from pigaming_app.scenes.recordings.highlights import KEPT, Highlights, highlights
 from pigaming_app.scenes.results.high_score_tables import high_score_tables
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.start import run
@@ -137,7 +137,7 @@ def until_clip(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> tuple[Attract
 def test_a_highlight_follows_a_demonstration_match(
     arcade: Arcade, replays: dict[str, Replay], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    arcade.context.highlights.add(replays["pitanks"])
+    arcade.context.shared(highlights).add(replays["pitanks"])
     attract, clip = until_clip(arcade, monkeypatch)
     assert clip.runner is not None
     assert clip.runner.match.state.tick <= clip.start + 2
@@ -192,7 +192,7 @@ def test_saved_replays_are_shown_too_and_files_may_vanish(
     listed = [path, store.folder() / "noise.replay"]
     monkeypatch.setattr(store, "paths", lambda: listed)
     for _ in range(6):
-        assert arcade.context.highlights.next() is None
+        assert arcade.context.shared(highlights).next() is None
     arcade.wait(3.0)
 
 
@@ -203,6 +203,6 @@ def test_a_match_just_played_is_kept_for_attract_mode(arcade: Arcade) -> None:
     scene.match.series[0].append((0.5, 1))
     arcade.until(lambda: scene.match.over)
     arcade.frame()
-    (kept,) = arcade.context.highlights.played
+    (kept,) = arcade.context.shared(highlights).played
     assert kept.setup == scene.setup
     assert {moment.kind for moment in kept.moments} == {LAST}

@@ -1,22 +1,17 @@
 """Faults of real robots in a replay: a mark on the timeline, and a plate with icon and sentence when it happens."""
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import pygame
 
-from pigaming_app.games.replay import Replay
-from pigaming_app.scenes.real_replays import RealReplay
-from pigaming_app.scenes.views.fault_icons import sign
+from pigaming_app.hardware.control.match_recording import RecordedFault
+from pigaming_app.scenes.mat.fault_icons import sign
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, BODY, ICE, MIST, PLAYERS, THIN, GlowCanvas, badge, cut_box, text_width
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.caption import MARGIN, Caption
-
-if TYPE_CHECKING:
-    from pigaming_app.hardware.control.match_recording import RecordedFault
 
 SHOWN = 4 * HZ  # ticks for which a plate stays
 MOST, TOP, PITCH = 3, 206, 84  # plates at a time; px of the highest, and between two
@@ -25,11 +20,10 @@ MARK, BELOW = 8, 5  # px: half width of a mark, and its distance below the timel
 
 
 class ReplayFaults:
-    """The faults of a replay; none of a replay of simulated robots."""
+    """The faults of a replay."""
 
-    def __init__(self, replay: Replay, words: Words) -> None:
-        self.words = words
-        self.faults: Sequence[RecordedFault] = replay.recording.faults if isinstance(replay, RealReplay) else ()
+    def __init__(self, faults: Sequence[RecordedFault], words: Words) -> None:
+        self.faults, self.words = faults, words
 
     def draw(self, screen: pygame.Surface, tick: int) -> None:
         """Draw the plates of the faults that began within the last seconds before a tick.
