@@ -10,7 +10,6 @@ CORE = "core"
 ALLOWED = {
     ("ladder", "events"): "the rules of a climb, and the ratings of leagues",
     (CORE, "mat"): "lobby, match and replays know real robots; it is to be taken out next",
-    ("events", "mat"): "starts a match with real robots by the same function as the lobby",
 }
 
 

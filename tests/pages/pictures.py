@@ -24,10 +24,10 @@ from pigaming_app.ai.registry import BRAINS, new_match
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import make_setup
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.scenes.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.lab.progress import PETALS, Progress
 from pigaming_app.scenes.lab.scene import Lab
-from pigaming_app.scenes.robots.marker_discs import MarkerDiscs
+from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
+from pigaming_app.scenes.mat.robots.marker_discs import MarkerDiscs
 from pigaming_app.scenes.views.screenshot import Screenshot
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import HZ

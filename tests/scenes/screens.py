@@ -58,6 +58,7 @@ from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.operator.figures_page import FiguresPage
 from pigaming_app.scenes.operator.page import OperatorPage
 from pigaming_app.scenes.options import games_page
@@ -76,7 +77,6 @@ from pigaming_app.scenes.replays.page import ReplaysPage
 from pigaming_app.scenes.results.high_score_tables import high_score_tables
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.scene import Results
-from pigaming_app.scenes.robots.menu import RobotsMenu
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.day_log import Battery, PlayedMatch, ProgramEvent, Record
 from pigaming_app.storage.day_report import figures as day_figures
@@ -86,9 +86,9 @@ from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable
 from tests.scenes.arcade import KEYS, Arcade
-from tests.scenes.calibration import drawn as calibration_drawn
 from tests.scenes.events import drawn
-from tests.scenes.robots import drawn as robots_drawn
+from tests.scenes.mat.calibration import drawn as calibration_drawn
+from tests.scenes.mat.robots import drawn as robots_drawn
 
 FACTS = {
     "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},

@@ -17,7 +17,7 @@ from typing import Any
 from pigaming_app.hardware.proof.frame_feed import replace_cameras
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.tracking.tracker import Tracker
-from pigaming_app.scenes.robots.match_scene import RealMatch
+from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 
 ROOT = Path(__file__).resolve().parents[3]
 HELD = 2.0  # s for which the interpreter's lock is held

@@ -37,8 +37,8 @@ def run(arguments: Namespace) -> int:
         if arguments.emulate is None:
             raise Refusal("without a window only the emulated arena can be calibrated: add --emulate")
         return _prove(arguments)
-    from pigaming_app.scenes.calibration.setup_page import CalibrationPage
     from pigaming_app.scenes.launch import Options
+    from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
 
     first = lambda context: CalibrationPage(context, camera=arguments.camera)  # noqa: E731
     return show(

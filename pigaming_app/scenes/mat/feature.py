@@ -42,7 +42,7 @@ def service(context: Context, options: Options) -> Service | None:
 
 
 def mat(context: Context, options: Options) -> RobotMat:
-    from pigaming_app.scenes.mat.robots import opened
+    from pigaming_app.scenes.mat.mat import opened
 
     return opened(context, options)
 
@@ -54,7 +54,7 @@ def replays() -> ReplayKind:
 
 
 def page(context: Context) -> Scene:
-    from pigaming_app.scenes.robots.menu import RobotsMenu
+    from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 
     return RobotsMenu(context)
 
@@ -76,17 +76,17 @@ def sketch(ink: GlowCanvas, beat: int) -> None:
 
 FEATURE = Feature(
     "mat",
-    rooms=("hardware", "scenes.robots", "scenes.calibration", "scenes.things", "scenes.radio"),
+    rooms=("hardware",),
     options={"robots": OptionRow("", "ease", page, sketch)},
     service=service,
     mat=mat,
     replays=replays,
     board_pages=board_pages,
     preload=(
-        "pigaming_app.scenes.robots.menu",
-        "pigaming_app.scenes.calibration.drift_page",
-        "pigaming_app.scenes.calibration.setup_page",
-        "pigaming_app.scenes.calibration.corner_pin_page",
-        "pigaming_app.scenes.robots.fleet_page",
+        "pigaming_app.scenes.mat.robots.menu",
+        "pigaming_app.scenes.mat.calibration.drift_page",
+        "pigaming_app.scenes.mat.calibration.setup_page",
+        "pigaming_app.scenes.mat.calibration.corner_pin_page",
+        "pigaming_app.scenes.mat.robots.fleet_page",
     ),
 )

@@ -18,7 +18,7 @@ from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
 from pigaming_app.scenes.lobby.view import card_rect, level_words
-from pigaming_app.scenes.mat.robots import Robots
+from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
@@ -215,7 +215,7 @@ def test_returning_from_match_setup_resets_readiness(arcade: Arcade) -> None:
 
 
 def test_where_there_is_a_mat_everyone_chooses_a_real_robot_for_ones_own_seat(arcade: Arcade) -> None:
-    arcade.context.mat = Robots(arcade.context, EmulatedSession(live=False))
+    arcade.context.mat = SessionMat(arcade.context, EmulatedSession(live=False))
     arcade.context.settings.real = [2]
     arcade.open(Lobby(arcade.context, "pitanks"))
     arcade.press(Button.FIRE)
@@ -239,7 +239,7 @@ def test_where_there_is_a_mat_everyone_chooses_a_real_robot_for_ones_own_seat(ar
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_robot_on_a_cable_cannot_be_chosen_and_it_says_why(controls: Controls, home: Path, language: str) -> None:
     arcade = Arcade(controls, language)
-    arcade.context.mat = Robots(arcade.context, EmulatedSession(live=False))
+    arcade.context.mat = SessionMat(arcade.context, EmulatedSession(live=False))
     arcade.context.settings.radio, arcade.context.settings.real = "stock", [1]
     arcade.open(Lobby(arcade.context, "pitanks"))
     arcade.press(Button.FIRE)

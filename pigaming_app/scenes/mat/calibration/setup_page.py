@@ -1,0 +1,289 @@
+"""The calibration setup: display, camera and measurements, with a live camera preview."""
+
+import logging
+
+import pygame
+
+from pigaming_app.hardware.calibration.camera_task import SMALL, CameraPreview
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError
+from pigaming_app.hardware.calibration.quality import used_anyway
+from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements, RealCalibrationSite
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session import store
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
+from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
+from pigaming_app.scenes.mat.session import session_if_any
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
+from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.pixels import grey_surface
+from pigaming_app.ui.draw.text import fit_size, paragraph, text
+from pigaming_app.ui.i18n import english
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets import setting_row as dials
+from pigaming_app.ui.widgets.focus import Focus
+from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
+
+ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
+LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
+REPEAT_STEPS = ((40, 100), (14, 10), (0, 1))  # step in mm after this many auto-repeats
+DEFAULT_HEIGHT = 2500  # mm, initial height
+IDLE = 600.0  # seconds without input until the title
+SCAN_PERIOD = 2.0  # s between two scans for cameras
+SENTENCE_SECONDS = 5.0  # seconds for which a sentence is shown
+PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
+
+log = logging.getLogger("pigaming")
+
+
+def site_of(context: Context) -> CalibrationSite:
+    """The calibration site: of the emulated arena, if the arcade has one, else the real one."""
+    try:
+        session = session_if_any(context)
+        return session.site if session is not None else RealCalibrationSite()
+    except RobotsUnavailable:
+        return RealCalibrationSite()  # without OpenCV there is none; the page shows the reason
+
+
+class CalibrationPage:
+    """The page. `camera`: the initial one, else that of the settings."""
+
+    def __init__(self, context: Context, site: CalibrationSite | None = None, camera: int | None = None) -> None:
+        self.context, self.site = context, site or site_of(context)
+        self.number = context.settings.camera if camera is None else camera
+        self.measures = self._initial_measures()
+        self.preview: CameraPreview | None = None
+        self.cameras = self.site.cameras()
+        self.state, self.anyway = "", False  # of the calibration; saved despite its picture
+        self._state_of: tuple[int, int] = (0, 0)
+        self.since_scan = 0.0  # s since the last scan for cameras
+        self.repeats = 0
+        self._small: object = None
+        self._picture: pygame.Surface | None = None
+        self.focus = Focus(dials.spots(self._rows()))
+        hints = [(Button.RIGHT, "calibrate.hint_change"), (Button.FIRE, "calibrate.hint_ok")]
+        hints.append((Button.BACK, "calibrate.hint_back"))
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
+
+    def on_enter(self) -> None:
+        """Open the camera, also when a calibration returns here."""
+        self.cameras = self.site.cameras()
+        if self.site.name == "real" and self.cameras and self.number not in [camera.number for camera in self.cameras]:
+            self.number = self.cameras[0].number
+        self._open_camera()
+
+    def on_leave(self) -> None:
+        """Release the camera."""
+        if self.preview is not None:
+            self.preview.close()
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """Up and down select a row, left and right change it; the last row starts the calibration."""
+        event = self.navigation.prompts.as_button(event)
+        if turn := self.navigation.handle(event):
+            return turn
+        by = dials.step_of(event, self.focus, self._value(self.focus.name))
+        if by:
+            self.repeats = self.repeats + 1 if event.repeat else 0
+            self._change(self.focus.name, by)
+        elif self.focus.activated(event) is not None and event.button is not Button.CLICK:
+            return self._accept(self.focus.name)
+        elif event.button is Button.CLICK and self.focus.spot_at(event) == "begin":
+            return self._accept("begin")
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        self.since_scan += seconds
+        if self.since_scan > SCAN_PERIOD:
+            self.since_scan, self.cameras = 0.0, self.site.cameras()
+        self.site.advance(seconds)
+        if self.preview is not None:
+            self.preview.pump()
+            if self.preview.size != self._state_of:
+                self._load_state(self.preview.size)
+        return self.navigation.update(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words = self.context.words
+        screen.blit(backdrop(), (0, 0))
+        heading(words("calibrate.title"), self.state, right_color=FOCUS if self.anyway else MIST).draw(screen)
+        black_out(screen, dials.PANEL)
+        dials.draw(
+            screen, self.context.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
+        )
+        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
+        self._draw_camera(screen)
+        name = self.focus.name
+        text(words(f"calibrate.{name}"), LABEL, FOCUS, "head", "l", dials.PANEL.w - 40).draw(
+            screen, PICTURE.x, dials.PANEL.bottom - 216
+        )
+        for i, line in enumerate(paragraph(words(f"calibrate.{name}_line"), dials.PANEL.w - 40, 3, MIST)):
+            line.draw(screen, PICTURE.x, dials.PANEL.bottom - 156 + 50 * i)
+        if self.navigation.sentence:
+            call_to_action(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
+        self.navigation.prompts.draw(screen)
+
+    # ---- drawing
+
+    def _draw_camera(self, screen: pygame.Surface) -> None:
+        """The camera picture, or the reason for its absence."""
+        preview, words = self.preview, self.context.words
+        if preview is None:
+            return
+        room, below = dials.PANEL.w - 40, PICTURE.bottom + 30
+        if preview.fault is not None or preview.small is None:
+            sentence = preview.fault or OperatorMessage("yet")
+            lines = paragraph(words.sentence(sentence), room - 40, 5, align="c")
+            for i, line in enumerate(lines):
+                line.draw(screen, PICTURE.centerx, PICTURE.centery + 52 * i - 26 * (len(lines) - 1))
+            pygame.draw.rect(screen, (58, 76, 112), PICTURE, 2)
+            return
+        if preview.small is not self._small:
+            self._small, self._picture = preview.small, grey_surface(preview.small)
+        if self._picture is not None:
+            screen.blit(self._picture, self._picture.get_rect(center=PICTURE.center))
+        w, h = preview.size
+        caption = words("calibrate.rate", width=w, height=h, rate=round(preview.rate)) if preview.rate else f"{w} × {h}"
+        size = fit_size(caption, BODY, room, "body")
+        text(caption, size, MIST, "body", "l").draw(screen, PICTURE.x, below)
+        if preview.exposure.bound:
+            exposed = words("calibrate.exposed", time=exposure_text(words, preview.exposure))
+            text(exposed, size, MIST, "body", "l").draw(screen, PICTURE.x, below + 38)
+
+    def _load_state(self, size: tuple[int, int]) -> None:
+        """Show the state of the calibration for this camera and display."""
+        self._state_of, words = size, self.context.words
+        try:
+            file = store.calibration_file(self.site.name)
+            ground = store.load(file, self.context.canvas.projection, size)
+            self.state = words("calibrate.state", mean=f"{ground.mean_mm:.1f}", most=f"{ground.max_mm:.1f}")
+            self.anyway = ground.quality.anyway
+            if self.anyway:
+                self.state = words.sentence(used_anyway(ground.quality))
+        except CalibrationError as trouble:
+            log.warning("%s", english().long_sentence(trouble.message))
+            self.anyway = False
+            self.state = words.sentence(trouble.message)
+
+    # ---- rows
+
+    def _rows(self) -> tuple[str, ...]:
+        return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
+
+    def _value(self, name: str) -> SettingValue:
+        words, measures = self.context.words, self.measures
+        match name:
+            case "display":
+                return SettingValue("arrows", tuple(self.context.canvas.displays()), self.context.canvas.display)
+            case "camera":
+                return SettingValue("arrows", (self._camera(),))
+            case "by":
+                choice = (words("calibrate.ruler"), words("calibrate.robot"))
+                return SettingValue("toggle", choice, int(not measures.height))
+            case "begin":
+                return SettingValue("deed", (words("calibrate.start"),))
+        mm = {"width": measures.width, "lid": measures.lid, "height": measures.height}[name]
+        return SettingValue("arrows", (words("calibrate.mm", mm=f"{mm:.0f}"),))
+
+    def _camera(self) -> str:
+        words = self.context.words
+        if not self.cameras:
+            return words("calibrate.no_cameras")
+        name = next((camera.name for camera in self.cameras if camera.number == self.number), "")
+        return words("calibrate.camera_name", number=self.number, name=name) if name else str(self.number)
+
+    def _accept(self, name: str) -> StackOperation:
+        if name == "begin":
+            return self._begin()
+        if name in ("display", "camera", "by"):
+            self._change(name, 1, wrap=True)
+        return None
+
+    def _change(self, name: str, by: int, wrap: bool = False) -> None:
+        """Step a row's value."""
+        measures, canvas = self.measures, self.context.canvas
+        self.context.sounds.play("move")
+        match name:
+            case "display":
+                count = len(canvas.displays())
+                target = (canvas.display + by) % count if wrap else min(count - 1, max(0, canvas.display + by))
+                if target != canvas.display:
+                    self._show(target, canvas.fullscreen)
+            case "camera":
+                self._next_camera(by)
+            case "by":
+                robot = bool(measures.height) if wrap else by > 0
+                height = 0.0 if robot else measures.height or self.site.measures.height or DEFAULT_HEIGHT
+                self.measures = Measurements(measures.width, height, measures.lid)
+                self.focus.set_spots(dials.spots(self._rows()))
+            case "width" | "lid" | "height":
+                self._measure(name, by)
+        self._save()
+
+    def _measure(self, name: str, by: int) -> None:
+        """Step a length; faster, the longer the direction is held."""
+        low, high = LIMITS[name]
+        step = next(step for count, step in REPEAT_STEPS if self.repeats >= count)
+        values = {"width": self.measures.width, "lid": self.measures.lid, "height": self.measures.height}
+        values[name] = min(high, max(low, round(values[name] / step + by) * step))
+        self.measures = Measurements(values["width"], values["height"], values["lid"])
+
+    def _show(self, display: int, fullscreen: bool) -> None:
+        """Move the picture; the calibration depends on the display."""
+        canvas, settings = self.context.canvas, self.context.settings
+        canvas.show(display, fullscreen)
+        settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
+        self._state_of = (0, 0)
+
+    def _next_camera(self, by: int) -> None:
+        self.cameras = self.site.cameras()
+        numbers = [camera.number for camera in self.cameras] or [0]
+        here = numbers.index(self.number) if self.number in numbers else 0
+        self.number = numbers[(here + by) % len(numbers)]
+        self._open_camera()
+
+    # ---- actions
+
+    def _open_camera(self) -> None:
+        """Open the selected camera, after closing the previous one."""
+        self._state_of = (0, 0)
+        if session := session_if_any(self.context):
+            session.close()
+        self.on_leave()
+        self.preview = CameraPreview(self.site, self.number)
+        self.preview.begin()
+
+    def _begin(self) -> StackOperation:
+        """Start the calibration, full screen."""
+        self.context.sounds.play("accept")
+        self.on_leave()
+        canvas = self.context.canvas
+        if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
+            self._show(canvas.display, True)
+        self._save()
+        return Push(BoardsPage(self.context, self.site, self.number, self.measures))
+
+    def _initial_measures(self) -> Measurements:
+        settings = self.context.settings
+        if self.site.name != "real":
+            return self.site.measures
+        return Measurements(settings.arena_mm, settings.camera_mm, settings.lid_mm)
+
+    def _save(self) -> None:
+        """Save the choices, except for an emulated arena."""
+        settings, measures = self.context.settings, self.measures
+        if self.site.name != "real":
+            return
+        settings.camera = self.number
+        settings.arena_mm, settings.camera_mm, settings.lid_mm = measures.width, measures.height, measures.lid
+        try:
+            settings.save(folders().config)
+        except NotSaved as trouble:
+            log.warning("%s", trouble)
+            self.navigation.show_message(self.context.words("app.unsaved"))

@@ -1,0 +1,147 @@
+"""The robots of a running arcade: real, emulated, or those of a ROS network."""
+
+import logging
+import sys
+from collections.abc import Callable, Collection, Sequence
+from functools import partial
+from typing import Any
+
+import pygame
+
+from pigaming_app.games.arenas import load, with_things
+from pigaming_app.games.game import Setup
+from pigaming_app.games.rounds import Rounds
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.session.real import UDP, RealSession
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
+from pigaming_app.hardware.session.ros import RosSession
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.launch import Options
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.sim.arena import ArenaError
+from pigaming_app.sim.things.spec import ThingSpec
+from pigaming_app.ui.i18n import english
+from pigaming_app.ui.input.events import Device, StickState
+from pigaming_app.ui.window import Canvas
+
+log = logging.getLogger("pigaming")
+
+
+class SessionMat:
+    """A mat; see `RobotMat`. `watchers` get the state of each match with real robots."""
+
+    def __init__(self, context: Context, session: RobotSession) -> None:
+        self.context, self.session = context, session
+        self.watchers: list[Callable[[dict[str, Any]], None]] = []
+        if isinstance(session, RosSession):
+            self.watchers.append(session.publish)
+
+    @property
+    def available(self) -> bool:
+        return bool(self.session.emulated or not self.session.radio or self.context.settings.mat)
+
+    @property
+    def problem(self) -> OperatorMessage | None:
+        return settings_problem(self.context.settings) if self.session.radio else None
+
+    @property
+    def scans(self) -> bool:
+        return bool(self.session.radio)
+
+    @property
+    def things(self) -> tuple[ThingSpec, ...]:
+        from pigaming_app.hardware.session.things_on_mat import things_in_play
+
+        return () if self.context.settings.blocks else things_in_play(self.session)
+
+    def stick(self, seat: int, first: bool) -> StickState | None:
+        found = self.session.stick(seat, first) if isinstance(self.session, RosSession) else None
+        return StickState(*found) if found else None
+
+    def arena_page(self, devices: Callable[[], Sequence[Device | None]]) -> Scene:
+        from pigaming_app.scenes.mat.things.arena_page import ArenaPage
+
+        return ArenaPage(self.context, devices)
+
+    def match(
+        self,
+        setup: Setup,
+        devices: Sequence[Device | None],
+        real: Collection[int],
+        game_choice: Callable[..., Scene] | None = None,
+        rounds: Rounds | None = None,
+        things: Sequence[ThingSpec] | None = None,
+        after: Callable[..., Any] | None = None,
+    ) -> Scene:
+        from pigaming_app.scenes.mat.robots.match_scene import RealMatch
+        from pigaming_app.scenes.mat.robots.unavailable import UnavailablePage
+        from pigaming_app.scenes.mat.things.unplayable_page import UnplayablePage
+
+        context, again = self.context, partial(self.match, game_choice=game_choice, after=after)
+        real = [seat for seat in real if setup.seats[seat].brain != "off"]
+        if not real:
+            return MatchScene(context, setup, devices, game_choice=game_choice, rounds=rounds, after=after)
+        try:
+            if reason := self.problem:
+                raise RobotsUnavailable(reason)
+            if things is None:
+                things = self.things
+            arena = with_things(setup.game, load(setup.game, setup.arena), things) if things else None
+            match = RealMatch(context, setup, devices, real, self.session, again, game_choice, rounds, arena, after)
+            match.watchers = self.watchers
+            return match
+        except ArenaError as error:
+            log.warning("%s", error)
+            anew = partial(again, setup, devices, real, rounds=rounds)
+            return UnplayablePage(context, setup, devices, anew, partial(anew, things=()))
+        except RobotsUnavailable as error:
+            log.warning("%s", english().long_sentence(error.message))
+            return UnavailablePage(context, setup, devices, real, error.message, partial(again, rounds=rounds))
+
+    def stop(self) -> None:
+        self.session.close()
+
+    def end(self) -> None:
+        self.session.end()
+
+
+def opened(context: Context, options: Options) -> SessionMat:
+    """The robots that the options ask for. The emulator is imported late, so that the title appears at once."""
+    settings, canvas = context.settings, context.canvas
+    if options.ros_width is not None:
+        network = RosSession(options.ros_width)
+        _make_ready(network, context)
+        return SessionMat(context, network)
+    if options.emulator_seed is None:
+        return SessionMat(context, RealSession(settings, lambda: canvas.projection))
+    from pigaming_app.hardware.emulator.wifi.air import WifiChannel
+    from pigaming_app.hardware.session.emulated import EmulatedSession
+
+    wifi = WifiChannel() if settings.radio == UDP else None
+    live, things = options.step is None, options.emulated_things
+    session = EmulatedSession(options.emulator_seed, live, lambda: canvas.projection, wifi=wifi, things=things)
+    canvas.watchers.append(lambda window: session.show(lambda: _projected(canvas, window)))
+    print("PiGaming: the emulated arena is being set up.", file=sys.stderr)
+    _make_ready(session, context)
+    return SessionMat(context, session)
+
+
+def _make_ready(session: RobotSession, context: Context) -> None:
+    """Open a session whose robots every lobby offers, while no picture is waiting; the first match reopens it."""
+    context.settings.real = context.settings.real or [1, 2, 3, 4]
+    try:
+        session.open()
+        session.close()
+    except RobotsUnavailable as trouble:
+        print(f"PiGaming: {english().long_sentence(trouble.message)}", file=sys.stderr)
+
+
+def _projected(canvas: Canvas, window: pygame.Surface) -> object:
+    """The pixels projected onto the emulated mat: with bars cropped, or the whole window of a pinned picture.
+
+    A copy: a view that somebody keeps would lock the surface.
+    """
+    from pigaming_app.ui.draw.pixels import pixels_of
+
+    return pixels_of(window if canvas.corners else canvas.screen).copy()

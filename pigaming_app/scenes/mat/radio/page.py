@@ -1,0 +1,235 @@
+"""Page of arena and radio: the arena's number, channel and PAN of the XBees, and the kind of each robot."""
+
+import logging
+import secrets
+
+import pygame
+
+from pigaming_app.hardware.messages import OperatorError, OperatorMessage
+from pigaming_app.hardware.radio.packets import LAST_ARENA
+from pigaming_app.hardware.radio.serial_line import BAUD
+from pigaming_app.hardware.radio.xbee_frames import CHANNELS
+from pigaming_app.hardware.radio.xbee_setup import Network, Steps, XBeeSetup, network_of, parameters
+from pigaming_app.hardware.robot_files import set_up_command
+from pigaming_app.hardware.robot_kinds import KINDS
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.navigation import Navigation
+from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.mat.radio.sketches import sketch
+from pigaming_app.scenes.mat.session import session_of
+from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import folders
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL
+from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.i18n import english
+from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.widgets import setting_row as dials
+from pigaming_app.ui.widgets.focus import Focus
+from pigaming_app.ui.widgets.labels import black_out, frame, heading
+from pigaming_app.ui.widgets.setting_row import SettingValue
+
+XBEE_MODES = ("api2", "api1", "transparent")
+RADIO_ROWS = ("channel", "module", "write")
+KIND_ROWS = ("robot", "kind")
+IDLE = 600.0  # s without input before the return to the title
+MESSAGE_SECONDS = 12.0  # s, display time of a message
+FACT_X, FACT_Y = dials.spots(("",))[0].rect.x + 40, 830  # px, start of the line with the command or the network
+MESSAGE_Y, MESSAGE_PITCH = 796, 48  # px, of the message in its place
+
+log = logging.getLogger("pigaming")
+
+
+class RadioPage:
+    """The page. Robots and camera stay closed, so that the radio's port is free."""
+
+    def __init__(self, context: Context) -> None:
+        self.context, self.session = context, session_of(context)
+        own = () if self.session.emulated else ("arena",)  # emulated robots were flashed with their arena's number
+        xbees = RADIO_ROWS if context.settings.radio in XBEE_MODES else ()
+        self.focus = Focus(dials.spots((*own, *xbees, *KIND_ROWS)))
+        self.module = 0  # radio to be written: of the computer, or of robot 1 to 4
+        self.arena, self.robot = 0, 1  # robot whose kind is shown
+        self._steps: Steps[None] | None = None  # of the writing in progress
+        hints = [
+            (Button.RIGHT, "calibrate.hint_change"),
+            (Button.FIRE, "robots.hint_ok"),
+            (Button.BACK, "robots.hint_back"),
+        ]
+        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
+
+    def on_enter(self) -> None:
+        """Find the arena's number."""
+        try:
+            self.arena = self.session.arena_id
+        except RobotsUnavailable as error:
+            self._show(error.message)
+
+    def on_leave(self) -> None:
+        """Give up writing; the radio keeps what it has saved."""
+        if self._steps is not None:
+            self._steps.close()
+
+    @property
+    def network(self) -> Network:
+        """Channel and PAN of the settings, or those of the arena's number."""
+        return network_of(self.arena, self.context.settings.radio_channel, self.context.settings.radio_pan)
+
+    def handle(self, event: InputEvent) -> StackOperation:
+        """Up and down select, left and right change, FIRE runs; while a radio is written, only BACK counts."""
+        event = self.navigation.prompts.as_button(event)
+        if self._steps is not None and event.button is not Button.BACK:
+            return None
+        if turn := self.navigation.handle(event):
+            return turn
+        name = self.focus.name
+        if by := dials.step_of(event, self.focus, self._value(name)):
+            self._change(name, by)
+        elif self.focus.activated(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
+            self._run(name)
+        return None
+
+    def update(self, seconds: float) -> StackOperation:
+        """Advance the writing of a radio."""
+        self.session.advance(seconds)
+        if self._steps is not None:
+            try:
+                next(self._steps)
+            except StopIteration:
+                self._steps = None
+                self._say(f"{'own' if self.module == 0 else 'robot'}_written")
+                self.context.sounds.play("accept")
+            except OperatorError as error:
+                self._steps = None
+                self._show(error.message)
+                self.context.sounds.play("error")
+        return self.navigation.update(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        words, name = self.context.words, self.focus.name
+        screen.blit(backdrop(), (0, 0))
+        heading(words("arena_radio.title"), words("arena_radio.state", number=self.arena)).draw(screen)
+        black_out(screen, dials.PANEL)
+        values = {spot.name: self._value(spot.name) for spot in self.focus.spots}
+        dials.draw(screen, words, self.focus, "arena_radio", values)
+        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
+        sketch(name, (self.robot if name in KIND_ROWS else self.module) - 1).draw(screen, *dials.CENTRE)
+        dials.describe(screen, words(f"arena_radio.{name}"), words(f"arena_radio.{name}_line"))
+        sentence = words("arena_radio.writing") if self._steps is not None else self.navigation.sentence
+        if not sentence:
+            text(self._fact(), LABEL, ICE, "body", "l", dials.W - 80).draw(screen, FACT_X, FACT_Y)
+        for i, line in enumerate(paragraph(sentence, dials.W - 40, 3, FOCUS) if sentence else ()):
+            line.draw(screen, FACT_X, MESSAGE_Y + MESSAGE_PITCH * i)
+        self.navigation.prompts.draw(screen)
+
+    # ---- inside
+
+    def _fact(self) -> str:
+        """The command that sets up a robot, the network, or the size of a kind of robot."""
+        if (name := self.focus.name) == "arena":
+            return self._set_up(1)
+        if name == "module" and self.module:
+            return self._set_up(self.module)
+        if name in KIND_ROWS:
+            chosen = self.context.settings.kinds[self.robot - 1]
+            kind = next((kind for kind in KINDS if kind.key == chosen), None)
+            if kind is None:
+                return ""
+            words, mm = self.context.words, round(2 * kind.radius_mm)
+            return words("arena_radio.fact", name=kind.name, mm=mm, volts=f"{kind.warn_mv / 1000:.1f}")
+        return str(self.network)
+
+    def _set_up(self, robot: int) -> str:
+        settings = self.context.settings
+        return set_up_command(robot, self.arena, settings.radio, settings.kinds[robot - 1])
+
+    def _say(self, key: str) -> None:
+        self.navigation.show_message(
+            self.context.words(f"arena_radio.{key}", robot=self.module, network=str(self.network))
+        )
+
+    def _show(self, message: OperatorMessage) -> None:
+        log.warning("%s", english().long_sentence(message))
+        self.navigation.show_message(self.context.words.sentence(message))
+
+    # ---- rows
+
+    def _value(self, name: str) -> SettingValue:
+        words = self.context.words
+        if name == "write":
+            return SettingValue("deed", (words("arena_radio.begin"),))
+        if name == "arena":
+            return SettingValue("arrows", (str(self.arena),))
+        values, now = self._choices(name)
+        return SettingValue("arrows", tuple(values.values()), list(values).index(now))
+
+    def _choices(self, name: str) -> tuple[dict[object, str], object]:
+        """Options of a row, by stored value, and the current value."""
+        words, settings = self.context.words, self.context.settings
+        if name == "channel":
+            channels: dict[object, str] = {channel: f"{channel:X}" for channel in CHANNELS}
+            auto = words("arena_radio.auto", value=f"{network_of(self.arena).channel:X}")
+            return {0: auto, **channels}, settings.radio_channel
+        robots: dict[object, str] = {robot: words("mat.robot", robot=robot) for robot in range(1, ROBOTS + 1)}
+        if name == "module":
+            return {0: words("arena_radio.own"), **robots}, self.module
+        if name == "robot":
+            return robots, self.robot
+        kinds: dict[object, str] = {"": words("arena_radio.announced"), **{kind.key: kind.name for kind in KINDS}}
+        chosen = settings.kinds[self.robot - 1]
+        return kinds, chosen if chosen in kinds else ""
+
+    def _change(self, name: str, delta: int) -> None:
+        """Step a row's value by `delta`."""
+        settings = self.context.settings
+        if name == "write":
+            return
+        if name == "arena":
+            self._renumber(self.arena + delta)
+        else:
+            values, now = self._choices(name)
+            keys = list(values)
+            new = keys[max(0, min(len(keys) - 1, keys.index(now) + delta))]
+            if name in ("module", "robot"):
+                setattr(self, name, new)
+            elif name == "channel":
+                settings.choose("radio_channel", new)
+            else:
+                settings.kinds = [*settings.kinds]
+                settings.kinds[self.robot - 1] = str(new)
+        self._save()
+
+    def _renumber(self, number: int) -> None:
+        self.context.settings.choose("arena_id", (number - 1) % LAST_ARENA + 1)
+        self.arena = self.session.arena_id
+
+    def _run(self, name: str) -> None:
+        """Write the radio, draw another arena number, or step a row's value."""
+        if name == "arena":
+            self._renumber(1 + secrets.randbelow(LAST_ARENA))
+            self._save()
+        elif name == "write":
+            mode, baud = (
+                ("api2", BAUD) if self.session.emulated else (self.context.settings.radio, self.context.settings.baud)
+            )
+            try:
+                wanted = parameters(self.module, self.network, mode, baud)
+                self._steps = XBeeSetup(self.session.carrier(self.module), wanted, baud).steps()
+            except RobotsUnavailable as error:
+                self._show(error.message)
+            except ValueError:
+                self._say("no_rate")
+        else:
+            values, now = self._choices(name)
+            keys = list(values)
+            self._change(name, 1 if keys[-1] != now else -len(keys))
+
+    def _save(self) -> None:
+        self.context.sounds.play("move")
+        try:
+            self.context.settings.save(folders().config)
+        except NotSaved as error:
+            log.warning("%s", error)
+            self.navigation.show_message(self.context.words("app.unsaved"))

@@ -1,0 +1,84 @@
+"""The operator menu, opened from the options, and the marker sheet in the user's folder."""
+
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("cv2")
+
+from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.hardware.vision.markers import OpenCVMissing
+from pigaming_app.scenes.mat.calibration.corner_pin_page import CornerPinPage
+from pigaming_app.scenes.mat.calibration.drift_page import DriftPage
+from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
+from pigaming_app.scenes.mat.robots.menu import SHEET, RobotsMenu
+from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import LANGUAGES
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.window import Canvas
+from tests.scenes.arcade import Arcade
+
+
+@pytest.fixture
+def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    monkeypatch.setattr("pigaming_app.hardware.calibration.site.cameras", lambda: [])
+    arcade = Arcade(controls)
+    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+    arcade.open(OptionsPage(arcade.context))
+    go(arcade, OptionsPage, "robots")
+    arcade.press(Button.FIRE)
+    return arcade
+
+
+def go(arcade: Arcade, kind: type[OptionsPage] | type[RobotsMenu], name: str) -> None:
+    page = arcade.shown(kind)
+    while page.focus.name != name:
+        arcade.press(Button.DOWN)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"), [("calibrate", CalibrationPage), ("check", DriftPage), ("pin", CornerPinPage)]
+)
+def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, kind: type[CornerPinPage]) -> None:
+    go(arcade, RobotsMenu, name)
+    arcade.press(Button.FIRE)
+    arcade.shown(kind)
+    arcade.press(Button.BACK)
+    assert arcade.shown(RobotsMenu).focus.name == name
+    arcade.press(Button.BACK)
+    arcade.shown(OptionsPage)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, tmp_path: Path, language: str) -> None:
+    arcade.context.words.switch(language)
+    go(arcade, RobotsMenu, "sheet")
+    arcade.press(Button.FIRE)
+    written = tmp_path / "data" / SHEET
+    assert written.read_bytes().startswith(b"%PDF")
+    assert str(written) in arcade.shown(RobotsMenu).navigation.sentence
+
+
+def test_a_sheet_that_cannot_be_written_is_one_sentence(
+    arcade: Arcade, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "data" / SHEET).mkdir(parents=True)
+    go(arcade, RobotsMenu, "sheet")
+    arcade.press(Button.FIRE)
+    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("app.unsaved")
+
+    def none(**_: object) -> bytes:
+        raise OpenCVMissing(OperatorMessage("no_opencv"))
+
+    monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
+    arcade.press(Button.FIRE)
+    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("hardware.no_opencv")
+
+
+def test_children_in_a_kiosk_do_not_find_it(arcade: Arcade) -> None:
+    arcade.context.kiosk = True
+    assert "robots" not in OptionsPage(arcade.context).rows
+    assert "robots" in OptionsPage(arcade.context, operator=True).rows

@@ -1,5 +1,0 @@
-"""The emulated arena of the tests of robots, here with things on it."""
-
-from tests.scenes.robots.conftest import arcade, emulated, mat
-
-__all__ = ["arcade", "emulated", "mat"]
