@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.storage.messages import OperatorMessage
 
 Clock = Callable[[], float]  # s
 Image = NDArray[np.uint8]  # (height, width), grey

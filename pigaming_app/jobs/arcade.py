@@ -69,18 +69,11 @@ def ros_options(parser: ArgumentParser) -> None:
 
 def ros_width(arguments: Namespace) -> float | None:
     """Width of the arena of a ROS network, mm; None: it is not asked for. Raises Refusal without ROS."""
-    from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
-    from pigaming_app.hardware.session.ros import WIDTH_MM
-
-    if arguments.plant != "ros":
-        if arguments.width is not None:
-            raise Refusal("--width: only for --plant ros; `calibrate` measures a mat")
-        return None
-    if arguments.emulate is not None:
-        raise Refusal("--plant ros: goes without --emulate")
-    with refused(RosUnavailable):
-        require_roscore()
-    return float(arguments.width or WIDTH_MM)
+    if arguments.plant == "ros":
+        return float(module_of("mat.ros").arena_width(arguments))
+    if arguments.width is not None:
+        raise Refusal("--width: only for --plant ros; `calibrate` measures a mat")
+    return None
 
 
 def show(options: "Options") -> int:

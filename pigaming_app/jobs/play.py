@@ -36,7 +36,7 @@ from pigaming_app.jobs.terminal.options import (
     path,
     shared,
 )
-from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, require_for_brains
+from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require, require_for_brains
 from pigaming_app.scenes.files import save_replay
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import DrivetrainError, parse
@@ -197,9 +197,9 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
 
 def _check_radio(chosen: dict[str, Any]) -> None:
     """Raises Refusal for robots without a deadman, whether the command line or the settings name them."""
-    from pigaming_app.hardware.session.robot_session import settings_problem
     from pigaming_app.ui.i18n import english
 
+    settings_problem = module_of("mat.sessions").settings_problem
     settings, _ = Settings.load(folders().config)
     settings.radio = chosen.get("radio", settings.radio)
     if reason := settings_problem(settings):

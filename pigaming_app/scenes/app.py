@@ -16,12 +16,12 @@ import pygame
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.networks.onnx import failed
 from pigaming_app.ai.plugin_faults import blame, suspect
-from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.options.new_game import game_name
+from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.plugins.found import Plugin
 from pigaming_app.storage.plugins.parts import is_running, stopped
 from pigaming_app.storage.plugins.time_limit import TookTooLong, Watchdog
@@ -121,14 +121,12 @@ class App:
 
     def _pin(self) -> None:
         """Apply the corner pin of the settings."""
-        corners = self.context.settings.corners
-        if not corners:
+        corners, mat = self.context.settings.corners, self.context.mat
+        if not corners or mat is None:
             self.context.canvas.pin(None)
             return
-        from pigaming_app.hardware.calibration.corner_pin import CornerPin
-
         try:
-            self.context.canvas.pin(CornerPin(corners))
+            self.context.canvas.pin(mat.corner_pin(corners))
         except OperatorError as trouble:
             log.warning("%s", english().long_sentence(trouble.message))
             self.notices.add(self.context.words("app.pin"))

@@ -9,7 +9,6 @@ ROOMS |= dict.fromkeys(("pigaming_app.jobs.bench", "pigaming_app.scenes.walk"), 
 CORE = "core"
 ALLOWED = {
     ("ladder", "events"): "the rules of a climb, and the ratings of leagues",
-    (CORE, "mat"): "lobby, match and replays know real robots; it is to be taken out next",
 }
 
 

@@ -11,8 +11,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.features.registry import NAMES, features
 
 ROOT = Path(__file__).resolve().parents[2]
-CORE_FOR_NOW = {"mat"}  # match and lobby import its rooms
-ROOMS = {one.name: (f"scenes.{one.name}", *one.rooms) for one in features() if one.name not in CORE_FOR_NOW}
+ROOMS = {feature.name: (f"scenes.{feature.name}", *feature.rooms) for feature in features()}
 TILES = [*games(), "howto", "ladder", "events", "lab", "editor", "replays", "options"]
 NEEDED_BY = {"events": {"events", "ladder"}}
 
@@ -61,7 +60,7 @@ def test_jobs_of_the_core_run_and_those_of_features_are_refused(tmp_path: Path) 
     assert (played.returncode, played.stderr) == (0, "")
     examined = without(rooms, tmp_path, "doctor")
     assert examined.stdout.splitlines()[-1] == "All is well."
-    for words in (["--kiosk"], ["event", "new", "cup.json"], ["report"], ["autostart", "show"]):
+    for words in (["--kiosk"], ["event", "new", "cup.json"], ["report"], ["autostart", "show"], ["robots"], ["calibrate"]):
         refused = without(rooms, tmp_path, *words)
         assert (refused.returncode, refused.stdout) == (2, "")
         assert refused.stderr == f"PiGaming: {words[0].removeprefix('--')} is not part of this installation\n"

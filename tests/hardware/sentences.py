@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from pigaming_app.hardware.messages import OperatorError
+from pigaming_app.storage.messages import OperatorError
 from pigaming_app.ui.i18n import english
 
 

@@ -16,8 +16,8 @@ from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session.store import save_pairing
 from pigaming_app.hardware.signals import ExposureState
-from pigaming_app.jobs import fidelity, robots
-from pigaming_app.jobs.robots import radio_setup
+from pigaming_app.jobs.mat import fidelity, robots
+from pigaming_app.jobs.mat.robots import radio_setup
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from pigaming_app.storage.settings import Settings, folders
 from tests.hardware.mat import TRUE, Mat

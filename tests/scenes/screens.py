@@ -22,7 +22,6 @@ from pigaming_app.games.drawing.values import drawing_of, text_of
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.things import ThingKind
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.checker import Verdict
@@ -80,6 +79,7 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.day_log import Battery, PlayedMatch, ProgramEvent, Record
 from pigaming_app.storage.day_report import figures as day_figures
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable

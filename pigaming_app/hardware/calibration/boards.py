@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Points
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, Image
 from pigaming_app.hardware.vision.markers import CORNER_IDS, WEARERS, MarkerDetector, dictionary, opencv
 from pigaming_app.hardware.vision.sharpness import blur_of
+from pigaming_app.storage.messages import OperatorMessage
 
 CANVAS = (1920, 1080)
 ARENA_AT = (160.0, 140.0)  # px, the arena's top left corner on the canvas

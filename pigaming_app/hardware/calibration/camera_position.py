@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Points, project
 from pigaming_app.hardware.calibration.least_squares import least_squares
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import DetectedMarker
 from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.storage.messages import OperatorMessage
 
 LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera over a mat
 FOCAL = 0.3, 4.0  # limits, in picture widths: from a fish-eye to a telephoto lens

@@ -16,11 +16,11 @@ from pigaming_app.hardware.calibration.drift import DriftMonitor
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.quality import CameraQuality, assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKept, ExposureState, Image
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, OpenCVMissing, opencv
 from pigaming_app.hardware.vision.sharpness import blur_of, overexposed
 from pigaming_app.hardware.worker import BackgroundWorker, log
+from pigaming_app.storage.messages import OperatorMessage
 
 BLIND = 6.0  # s, timeout without a picture
 SMALL = (520, 292)  # px, maximum size of the preview

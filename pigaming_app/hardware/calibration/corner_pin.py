@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.ground_plane import project
 from pigaming_app.hardware.calibration.solver import homography
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 CANVAS = (1920, 1080)
 STRAIGHT = (0.0, 0.0, 1920.0, 0.0, 1920.0, 1080.0, 0.0, 1080.0)

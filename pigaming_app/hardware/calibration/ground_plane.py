@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.calibration.quality import CAUSES, CameraQuality
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import DetectedMarker, Fix
 from pigaming_app.hardware.vision.markers import WEARERS
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
 VERSION = 1

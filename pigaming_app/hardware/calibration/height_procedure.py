@@ -14,9 +14,9 @@ from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, CameraTask
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.procedure import LIT
 from pigaming_app.hardware.calibration.site import CalibrationSite
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector
+from pigaming_app.storage.messages import OperatorMessage
 
 PLACES = ((320.0, 220.0), (1280.0, 220.0), (1280.0, 680.0), (320.0, 680.0))  # arena px of the outlines
 NEAR = 90.0  # arena px, radius of an outline within which a robot counts as on it

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import MARKER
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, dictionary, opencv
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 PAGE = (210.0, 297.0)  # mm, A4
 POINT = 72.0 / 25.4  # PDF points per mm

@@ -16,8 +16,8 @@ from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Gro
 from pigaming_app.hardware.calibration.quality import assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import Residuals, solve, verify, with_verification
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.storage.messages import OperatorMessage
 
 QUEUED = 5  # outdated pictures in a driver's queue
 TIMEOUT = 90.0  # s, for the whole procedure

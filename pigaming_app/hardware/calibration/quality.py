@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from pigaming_app.hardware.calibration.detection import found_share
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import ExposureKept, ExposureState
 from pigaming_app.hardware.vision.exposure import LONGEST
 from pigaming_app.hardware.vision.markers import OLD_IDS, ROBOT_IDS, WEARERS
+from pigaming_app.storage.messages import OperatorMessage
 
 NEEDED = 0.95  # share of the pictures in which a marker must be found
 CAUSES = ("finds_blurred", "finds_smeared", "finds_small")  # of a weak prediction

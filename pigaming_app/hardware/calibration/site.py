@@ -7,12 +7,12 @@ from math import inf
 from typing import Any, Protocol
 
 from pigaming_app.hardware.calibration.ground_plane import LID
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, ExposureKept, ExposureState
 from pigaming_app.hardware.vision.camera import SETTLE, Camera
 from pigaming_app.hardware.vision.discovery import CameraInfo, cameras
 from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.storage.messages import OperatorMessage
 
 SETTLED = 2.6  # s after which a real camera has locked its exposure
 

@@ -14,8 +14,8 @@ from pigaming_app.hardware.calibration.boards import MIN_MARKERS, CalibrationBoa
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Points, project
 from pigaming_app.hardware.calibration.least_squares import least_squares
 from pigaming_app.hardware.calibration.lens import Lens
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.storage.messages import OperatorMessage
 
 MEAN_MM, MAX_MM = 1.5, 3.0  # upper limits of the errors on the held-out board
 OFF_CENTRE = 0.02  # of the width, standard deviation of the prior of the lens centre

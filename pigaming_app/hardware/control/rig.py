@@ -17,7 +17,6 @@ from pigaming_app.hardware.control.motion_check import MotionCheck
 from pigaming_app.hardware.control.motion_delay import network_delay
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
 from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
@@ -26,6 +25,7 @@ from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS
+from pigaming_app.storage.messages import OperatorMessage
 
 # A 3pi that was not measured: a typical deadband, and dead time (s) of tick, serial line and air.
 UNMEASURED = replace(

@@ -20,11 +20,11 @@ from pigaming_app.hardware.emulator.optics import Optics, TrueLens
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.emulator.things.random_scene import scene
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.procedure import Scan
 from pigaming_app.hardware.scan.things import Layout, Outline, Thing, ThingKind
 from pigaming_app.hardware.session.emulated import calibrated
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
+from pigaming_app.storage.messages import OperatorMessage
 
 TILTED = TrueLens(eye=(150.0, 1150.0, 2400.0), aim=(25.0, 50.0), focal=1830.0)  # 25 degrees off the vertical
 SMALL = (1280, 720)  # px

@@ -11,11 +11,11 @@ import threading
 from collections.abc import Sequence
 from typing import Self
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit, RadioProtocol
 from pigaming_app.hardware.radio.serial_line import OpenPort, SerialLine, radio_message
 from pigaming_app.hardware.signals import Clock, Telemetry, WheelCommand
+from pigaming_app.storage.messages import OperatorMessage
 
 BEAT = 0.02  # s between two transmissions
 PATIENCE = 0.1  # s without a new command after which the link sends stop

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import NamedTuple, Protocol, runtime_checkable
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import Clock, SerialPort
+from pigaming_app.storage.messages import OperatorMessage
 
 try:
     from termios import error as termios_error

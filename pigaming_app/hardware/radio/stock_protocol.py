@@ -7,9 +7,9 @@ Put the robot on blocks; for matches use our firmware (hardware/firmware/).
 
 from collections.abc import Mapping, Sequence
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit
 from pigaming_app.hardware.signals import Telemetry, WheelCommand
+from pigaming_app.storage.messages import OperatorMessage
 
 BAUD = 115200
 SIGNATURE, BATTERY = 0x81, 0xB1  # commands; the signature query also stops the motors

@@ -8,11 +8,11 @@ from collections.abc import Callable, Generator
 from contextlib import suppress
 from typing import NamedTuple, TypeVar
 
-from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.hardware.radio.serial_line import CANNOT_OPEN, FAILURES, failure_message, radio_message
 from pigaming_app.hardware.radio.xbee_frames import ATCommand, ATResponse, FrameDecoder, decode, encode, frame
 from pigaming_app.hardware.signals import Clock, SerialPort
+from pigaming_app.storage.messages import OperatorError
 
 FACTORY_BAUD = 9600
 BOTH, FIRST_OF_BOTH = 12, 0x0C  # channels that both take

@@ -11,7 +11,7 @@ from math import atan2, cos, sin
 from typing import Any
 from xmlrpc.client import Error, ServerProxy, Transport
 
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 SYSTEM = "/usr/lib/python3/dist-packages"  # where Debian installs rospy
 FRAME = "arena"

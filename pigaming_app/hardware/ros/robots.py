@@ -12,7 +12,6 @@ from math import isfinite
 
 import numpy as np
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.link import BEAT, FAREWELLS, PATIENCE
 from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.ros.node import Pose, RosNode
@@ -22,6 +21,7 @@ from pigaming_app.hardware.tracking.pose_filters import PoseFilters
 from pigaming_app.sim.drivetrain import Drivetrain, twist
 from pigaming_app.sim.plant import Twist
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.messages import OperatorMessage
 
 BATTERY = 0.0  # V: none is reported
 POSES = 20  # a second and robot, at least, for a share of 100 %

@@ -16,7 +16,6 @@ from pigaming_app.hardware.calibration.boards import CANVAS
 from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, CameraTask
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, size_mismatch
 from pigaming_app.hardware.calibration.site import CalibrationSite
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.expected import ExpectedLight
 from pigaming_app.hardware.scan.heights import Map, Rectified, Surface, surface
 from pigaming_app.hardware.scan.outlines import find_things, robot_shadows
@@ -26,6 +25,7 @@ from pigaming_app.hardware.scan.things import Layout, ProjectorPlace, Thing, lar
 from pigaming_app.hardware.signals import CameraFrame, Clock
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, opencv
 from pigaming_app.sim.robot import RADIUS
+from pigaming_app.storage.messages import OperatorMessage
 
 FRAMES = 3  # camera frames averaged for each picture
 SOONEST, FIRST = 0.06, 0.4  # s from drawing a picture, and the first one, to the earliest frame that may show it

@@ -10,10 +10,10 @@ import numpy as np
 
 from pigaming_app.hardware.calibration.boards import ARENA_AT, CANVAS
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.heights import Rectified, displacements
 from pigaming_app.hardware.scan.things import ProjectorPlace
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.storage.messages import OperatorMessage
 
 LID_RADIUS = 40.0  # mm, the part of a lid that is surely lid
 FEWEST, APART = 2, 400.0  # robots, and the distance of two of them, px

@@ -10,11 +10,11 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.scan.hull import hull
 from pigaming_app.sim.things.convex import contains, is_convex, signed_area
 from pigaming_app.sim.things.spec import CORNERS, MAX_MARGIN, MOST, ThingSpec, Use
 from pigaming_app.sim.toml_table import FieldError, TomlTable
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 
 VERSION = 1

@@ -4,9 +4,9 @@ from collections.abc import Callable
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of, new_rig
 from pigaming_app.sim.world import DT, HZ
+from pigaming_app.storage.messages import OperatorMessage
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane

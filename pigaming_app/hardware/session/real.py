@@ -7,9 +7,9 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of, new_rig
 from pigaming_app.sim.world import DT
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.settings import Settings
 
 if TYPE_CHECKING:

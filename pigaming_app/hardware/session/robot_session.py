@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from pigaming_app.hardware.control.safety import REMOTE
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane

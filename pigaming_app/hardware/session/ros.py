@@ -5,9 +5,9 @@ import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of
 from pigaming_app.sim.world import DT, ROBOTS
+from pigaming_app.storage.messages import OperatorMessage
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane

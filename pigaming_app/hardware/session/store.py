@@ -10,13 +10,13 @@ from pathlib import Path
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
 from pigaming_app.hardware.control.rig import UNMEASURED
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.scan.things import Layout, LayoutError
 from pigaming_app.hardware.scan.things import read as read_layout
 from pigaming_app.hardware.scan.things import to_toml as layout_to_toml
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.parsing import ParseError, describe_error, read_text
 from pigaming_app.storage.safe_files import NotSaved, write_with_backup
 from pigaming_app.storage.settings import Settings, folders

@@ -9,13 +9,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.recordings import Floats, Recording, RobotRecording
 from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, twist
 from pigaming_app.sim.plant import SimPlant
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 HORIZONS = (1.0, 2.0, 5.0)  # s
 BEFORE = 0.5  # s of fixes that place the start of a prediction

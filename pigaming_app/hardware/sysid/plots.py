@@ -5,10 +5,10 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.recordings import Recording
 from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Identification, predictions
 from pigaming_app.sim.drivetrain import NOMINAL
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.safe_files import write_atomic
 
 SHOWN = 6  # predictions drawn per robot

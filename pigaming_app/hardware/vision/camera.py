@@ -10,11 +10,11 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Self
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureKept, ExposureState, Image
 from pigaming_app.hardware.vision.discovery import unavailable_reason
 from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.storage.messages import OperatorMessage
 
 SETTLE = 2.0  # s after opening at which exposure, white balance, focus and gain are locked
 STALE = 1.0  # s without a frame after which the camera is reopened

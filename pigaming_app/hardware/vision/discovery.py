@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from pigaming_app.hardware.messages import OperatorMessage
+from pigaming_app.storage.messages import OperatorMessage
 
 DEVICES = Path("/sys/class/video4linux")
 NODES = Path("/dev")

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.signals import ExposureKept, ExposureState, Image
+from pigaming_app.storage.messages import OperatorMessage
 
 LONGEST = 1 / 60  # s; at 1/30 s, moving markers smear: 52-61 % of them are found
 TOLERANCE = 1.03  # drivers round

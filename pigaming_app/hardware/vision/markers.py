@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.signals import DetectedMarker, Image
 from pigaming_app.hardware.vision.subpixel import refined
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 ROBOT_IDS = (16, 17, 43, 45)  # of the robots 0 to 3: those missed least of all that blocks and corners leave free
 OLD_IDS = (0, 1, 2, 3)  # of the same robots with older sheets

@@ -8,8 +8,8 @@ from importlib.util import find_spec
 from typing import Any
 
 from pigaming_app import FROZEN, INSTALLED
-from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.links import installing
+from pigaming_app.storage.messages import OperatorError
 from pigaming_app.ui.i18n import english
 
 EXTRAS = {  # a module, and the package's name
@@ -39,7 +39,8 @@ def module_of(job: str) -> Any:
     except ModuleNotFoundError as missing:
         if not (missing.name or "").startswith("pigaming_app."):
             raise
-        raise Refusal(f"{job.partition('.')[0].replace('_', '-')} is not part of this installation") from None
+        name = job.removeprefix("mat.").partition(".")[0].replace("_", "-")
+        raise Refusal(f"{name} is not part of this installation") from None
 
 
 @contextmanager

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.flow.preload import Preloader
 from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.storage.day_log import DayLog, now
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words

@@ -76,7 +76,7 @@ def sketch(ink: GlowCanvas, beat: int) -> None:
 
 FEATURE = Feature(
     "mat",
-    rooms=("hardware",),
+    rooms=("hardware", "jobs.mat"),
     options={"robots": OptionRow("", "ease", page, sketch)},
     service=service,
     mat=mat,

@@ -11,7 +11,6 @@ import pygame
 from pigaming_app.games.arenas import load, with_things
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
 from pigaming_app.hardware.session.ros import RosSession
@@ -21,9 +20,10 @@ from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.things.spec import ThingSpec
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Device, StickState
-from pigaming_app.ui.window import Canvas
+from pigaming_app.ui.window import Canvas, Pin
 
 log = logging.getLogger("pigaming")
 
@@ -98,6 +98,11 @@ class SessionMat:
         except RobotsUnavailable as error:
             log.warning("%s", english().long_sentence(error.message))
             return UnavailablePage(context, setup, devices, real, error.message, partial(again, rounds=rounds))
+
+    def corner_pin(self, corners: Sequence[float]) -> Pin:
+        from pigaming_app.hardware.calibration.corner_pin import CornerPin
+
+        return CornerPin(corners)
 
     def stop(self) -> None:
         self.session.close()

@@ -5,10 +5,10 @@ import pytest
 from pigaming_app.hardware.emulator.arena import ARENA_ID, EmulatedArena
 from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
 from pigaming_app.hardware.emulator.xbee import Module
-from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
 from pigaming_app.hardware.radio.xbee_setup import Carrier, Network, XBeeSetup, network_of, parameters
+from pigaming_app.storage.messages import OperatorError
 from tests.hardware.sentences import sentence
 from tests.hardware.wire import Time
 

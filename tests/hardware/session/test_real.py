@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.real import SizedCamera
 from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.storage.messages import OperatorMessage
 from tests.hardware.grounds import nominal
 from tests.hardware.sentences import sentence
 

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.hardware.calibration.quality import assessed
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import SizedCamera
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable, camera_warning
 from pigaming_app.hardware.signals import ExposureKept, ExposureState
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
 from tests.hardware.sentences import sentence
 from tests.hardware.session.opened import HERE, calibrate, real_mat, soon, threads

@@ -8,11 +8,11 @@ import logging
 import pygame
 
 from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin
-from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import (

@@ -13,7 +13,6 @@ from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR, Groun
 from pigaming_app.hardware.calibration.quality import NEEDED, SMALL_EDGE, CameraQuality, used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import ExposureState, Image
 from pigaming_app.hardware.vision.exposure import warning_of
@@ -22,6 +21,7 @@ from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.calibration.residual_plot import AREA, SIDE, arrows, fact, figure
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL, Color
 from pigaming_app.ui.draw.layers import LitImage, backdrop

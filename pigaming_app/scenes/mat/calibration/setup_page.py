@@ -8,7 +8,6 @@ from pigaming_app.hardware.calibration.camera_task import SMALL, CameraPreview
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
 from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements, RealCalibrationSite
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
@@ -17,6 +16,7 @@ from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.session import session_if_any
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST

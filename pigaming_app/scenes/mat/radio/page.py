@@ -5,7 +5,6 @@ import secrets
 
 import pygame
 
-from pigaming_app.hardware.messages import OperatorError, OperatorMessage
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import BAUD
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
@@ -19,6 +18,7 @@ from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.mat.radio.sketches import sketch
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL

@@ -8,13 +8,13 @@ from typing import Any
 from pigaming_app.hardware.commissioning.latency import LatencyTest
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, PairingFinding
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import english
 

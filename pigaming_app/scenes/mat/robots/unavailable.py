@@ -5,13 +5,13 @@ from collections.abc import Collection, Sequence
 import pygame
 
 from pigaming_app.games.game import Setup
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
 from pigaming_app.scenes.mat.fault_icons import sign
 from pigaming_app.scenes.mat.robots.interrupted import MatchOf
 from pigaming_app.scenes.play.pause import sheet_title
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.draw import ALARM, ICE, MIST
 from pigaming_app.ui.draw.layers import Layer, backdrop
 from pigaming_app.ui.draw.text import write_lines

@@ -9,7 +9,6 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.scan.rig_scan import RigScan
 from pigaming_app.hardware.scan.things import Layout, LayoutError, Thing, ThingKind
 from pigaming_app.hardware.session.emulated import EmulatedSession
@@ -26,6 +25,7 @@ from pigaming_app.scenes.mat.things.steps import draw_steps
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.things.spec import MOST
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST
 from pigaming_app.ui.draw.text import text, wrap

@@ -24,7 +24,6 @@ from pigaming_app.hardware.calibration.ground_plane import CalibrationError
 from pigaming_app.hardware.calibration.quality import assessed, used_anyway
 from pigaming_app.hardware.emulator.camera import TRAITS
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.serial_line import ERRORS
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import ExposureState
@@ -33,6 +32,7 @@ from pigaming_app.scenes.mat.calibration.drift_page import DriftPage
 from pigaming_app.scenes.mat.calibration.height_page import HeightPage
 from pigaming_app.scenes.mat.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.i18n import Words, texts

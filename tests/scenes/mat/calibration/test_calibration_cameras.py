@@ -13,7 +13,6 @@ from pigaming_app.hardware.calibration import camera_task as looking
 from pigaming_app.hardware.calibration import procedure as calibrating
 from pigaming_app.hardware.calibration.site import Measurements, RealCalibrationSite
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision import camera
 from pigaming_app.hardware.vision import discovery as cameras
@@ -23,6 +22,7 @@ from pigaming_app.scenes.mat.calibration import boards_page as boards
 from pigaming_app.scenes.mat.calibration import setup_page as page
 from pigaming_app.scenes.mat.calibration.result_page import ResultPage
 from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls

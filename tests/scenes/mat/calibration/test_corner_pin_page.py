@@ -8,12 +8,12 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration.corner_pin import CornerPin
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision import markers
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.mat.calibration.corner_pin_page import CORNERS, MAX_OFFSET, CornerPinPage, handle
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import FOCUS

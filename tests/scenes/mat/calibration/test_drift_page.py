@@ -12,10 +12,10 @@ pytest.importorskip("cv2")
 
 from pigaming_app.hardware.calibration.camera_task import SPOT
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.scenes.mat.calibration.drift_page import DriftPage
 from pigaming_app.scenes.mat.calibration.height_page import DISC
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
 from pigaming_app.ui.input.controls import Controls
 from tests.scenes.mat.calibration.drawn import PICTURES

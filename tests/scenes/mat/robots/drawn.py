@@ -8,7 +8,6 @@ from typing import Any
 import pygame
 
 from pigaming_app.hardware.control.safety import REMOTE, RULES, Fault, SafetyRule
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import radio_message
 from pigaming_app.hardware.robot_kinds import KINDS
@@ -20,6 +19,7 @@ from pigaming_app.scenes.mat.radio.page import RadioPage
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 from pigaming_app.scenes.mat.things.unplayable_page import UnplayablePage
+from pigaming_app.storage.messages import OperatorMessage
 from tests.scenes.arcade import KEYS, Arcade, setup
 
 PAUSING = {rule.name: rule for rule in RULES if rule.pauses}

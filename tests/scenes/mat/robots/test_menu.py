@@ -6,13 +6,13 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.mat.calibration.corner_pin_page import CornerPinPage
 from pigaming_app.scenes.mat.calibration.drift_page import DriftPage
 from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
 from pigaming_app.scenes.mat.robots.menu import SHEET, RobotsMenu
 from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls

@@ -12,7 +12,6 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.features.replays import verify
@@ -28,6 +27,7 @@ from pigaming_app.scenes.play.start_match import match_of
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.day_log import Battery, DayLog, PlayedMatch, read_day
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.draw.pixels import pixels_of

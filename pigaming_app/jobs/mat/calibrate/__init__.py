@@ -5,10 +5,10 @@ import os
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import decimal, display, mat_settings, path, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import with_english
 
@@ -65,7 +65,7 @@ def _prove(arguments: Namespace) -> int:
     """Calibrate the emulated arena unattended."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
     from pigaming_app.hardware.vision.markers import opencv
-    from pigaming_app.jobs.calibrate.unattended import calibrate
+    from pigaming_app.jobs.mat.calibrate.unattended import calibrate
 
     with refused(OperatorError):
         opencv()

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
-from pigaming_app.jobs.sessions import new_session
+from pigaming_app.jobs.mat.sessions import new_session
 from pigaming_app.jobs.terminal.options import integer, mat_settings, path, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.storage.parsing import describe_error

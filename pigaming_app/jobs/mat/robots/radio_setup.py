@@ -4,14 +4,14 @@ import json
 from argparse import ArgumentParser, Namespace
 from typing import Any
 
-from pigaming_app.hardware.messages import OperatorError
 from pigaming_app.hardware.radio.packets import LAST_ARENA, ROBOTS
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
 from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
-from pigaming_app.jobs.sessions import new_session
+from pigaming_app.jobs.mat.sessions import new_session
 from pigaming_app.jobs.terminal.options import hexadecimal, integer
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
+from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings, folders
 

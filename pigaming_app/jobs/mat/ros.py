@@ -4,7 +4,7 @@ import time
 from argparse import ArgumentParser, Namespace
 
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable, settings_problem
-from pigaming_app.jobs.sessions import new_session
+from pigaming_app.jobs.mat.sessions import new_session
 from pigaming_app.jobs.terminal.options import decimal, mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.sim.world import DT, ROBOTS, WIDTH
@@ -54,3 +54,15 @@ def run(arguments: Namespace) -> int:
         if node is not None:
             node.close()
     return 0
+
+
+def arena_width(arguments: Namespace) -> float:
+    """Width of the arena of `--plant ros`, mm. Raises Refusal without ROS."""
+    from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
+    from pigaming_app.hardware.session.ros import WIDTH_MM
+
+    if arguments.emulate is not None:
+        raise Refusal("--plant ros: goes without --emulate")
+    with refused(RosUnavailable):
+        require_roscore()
+    return float(arguments.width or WIDTH_MM)

@@ -2,6 +2,7 @@
 
 from pigaming_app.hardware.session.real import UDP, RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession
+from pigaming_app.hardware.session.robot_session import settings_problem as settings_problem
 from pigaming_app.storage.settings import Settings, folders
 
 EXPOSURE_JITTER = 0.15  # size of the exposure steps of the emulated camera, as a share

@@ -5,14 +5,14 @@ import time
 from argparse import ArgumentParser, Namespace
 from typing import TYPE_CHECKING, Any
 
-from pigaming_app.hardware.messages import OperatorMessage
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, camera_warning
-from pigaming_app.jobs.robots import radio_setup, wifi_setup
-from pigaming_app.jobs.sessions import new_session
+from pigaming_app.jobs.mat.robots import radio_setup, wifi_setup
+from pigaming_app.jobs.mat.sessions import new_session
 from pigaming_app.jobs.terminal.options import mat_settings, shared
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
+from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
