@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from pigaming_app import FROZEN, INSTALLED, ROOT
 from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.storage.parsing import quote
 
 RUFF: dict[str, tuple[str, ...]] = {
     "ruff check": ("ruff", "check", "--quiet", "."),
@@ -47,6 +48,7 @@ def options(parser: ArgumentParser) -> None:
     selection = parser.add_mutually_exclusive_group()
     selection.add_argument("--quick", action="store_true", help=f"ruff and the unit tests: {', '.join(UNITS)}")
     selection.add_argument("--long", action="store_true", help="the long proofs: only the tests marked `long`")
+    selection.add_argument("--feature", metavar="NAME", help="all tests of one feature, such as events")
 
 
 def run(arguments: Namespace) -> int:
@@ -56,16 +58,37 @@ def run(arguments: Namespace) -> int:
     """
     if INSTALLED or FROZEN:
         raise Refusal("an installed program has no tests: run main.py test in a clone")
-    tools = {} if arguments.long else RUFF if arguments.quick else RUFF | MYPY
-    marked = ("-m", "long" if arguments.long else "not long")
     for_pytest = arguments.for_pytest
+    tools = {} if arguments.long or arguments.feature else RUFF if arguments.quick else RUFF | MYPY
+    marked: tuple[str, ...] = ("-m", "long" if arguments.long else "not long")
     units = UNITS if arguments.quick and not any(map(_is_path, for_pytest)) else ()
+    if arguments.feature:
+        marked, units = (), paths_of(arguments.feature)
     with ThreadPoolExecutor(1) as executor:
         results = executor.map(_run, tools.items())
         with _python(("pytest", *WORKERS, *marked, *for_pytest, *units)) as pytest:
             code = pytest.wait()
         failed = [_report(result) for result in results]
     return code or int(any(failed))
+
+
+def paths_of(name: str) -> tuple[str, ...]:
+    """The folders and files of the tests of a feature, which mirror its rooms. Raises Refusal."""
+    from pigaming_app.scenes.features.registry import NAMES, features
+
+    found = next((feature for feature in features() if feature.name == name), None)
+    if found is None:
+        raise Refusal(f"--feature: no feature {quote(name)}; there are {', '.join(NAMES)}")
+    rooms = (f"scenes.{name}", *found.rooms)
+    return tuple(path for room in rooms for path in _mirror(Path("tests", *room.split("."))))
+
+
+def _mirror(place: Path) -> tuple[str, ...]:
+    """The tests of a room: its folder, or files that are named after it."""
+    if (ROOT / place).is_dir():
+        return (place.as_posix(),)
+    files = (ROOT / place.parent).glob(f"test_{place.name}*.py")
+    return tuple(sorted(file.relative_to(ROOT).as_posix() for file in files))
 
 
 def _is_path(word: str) -> bool:

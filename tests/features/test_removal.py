@@ -60,7 +60,8 @@ def test_jobs_of_the_core_run_and_those_of_features_are_refused(tmp_path: Path) 
     assert (played.returncode, played.stderr) == (0, "")
     examined = without(rooms, tmp_path, "doctor")
     assert examined.stdout.splitlines()[-1] == "All is well."
-    for words in (["--kiosk"], ["event", "new", "cup.json"], ["report"], ["autostart", "show"], ["robots"], ["calibrate"]):
+    for line in ("--kiosk", "event new cup.json", "report", "autostart show", "robots", "calibrate", "fidelity"):
+        words = line.split()
         refused = without(rooms, tmp_path, *words)
         assert (refused.returncode, refused.stdout) == (2, "")
         assert refused.stderr == f"PiGaming: {words[0].removeprefix('--')} is not part of this installation\n"

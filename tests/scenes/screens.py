@@ -46,6 +46,8 @@ from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
+from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 from pigaming_app.scenes.lab.background import Background
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.ladder.choice import LadderChoice
@@ -58,8 +60,6 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
-from pigaming_app.scenes.operator.figures_page import FiguresPage
-from pigaming_app.scenes.operator.page import OperatorPage
 from pigaming_app.scenes.options import games_page
 from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.new_game import NewGame

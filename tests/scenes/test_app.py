@@ -20,8 +20,8 @@ from pigaming_app.scenes.app import MAX_FAILURES, App
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
+from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.launch import Options
-from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened, run
 from pigaming_app.scenes.title.scene import Title

@@ -8,13 +8,13 @@ from pigaming_app.ui.draw import FOCUS, ICE, LINE, STEEL, GlowCanvas, cut_box
 
 
 def service(context: Context, options: Options) -> Service:
-    from pigaming_app.scenes.operator.desk import OperatorDesk
+    from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 
     return OperatorDesk(context, options.scoreboard, not options.without_title)
 
 
 def page(context: Context) -> Scene:
-    from pigaming_app.scenes.operator.page import OperatorPage
+    from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 
     return OperatorPage(context)
 
@@ -28,7 +28,7 @@ def sketch(ink: GlowCanvas, beat: int) -> None:
 
 FEATURE = Feature(
     "kiosk",
-    rooms=("scenes.operator", "scenes.scoreboard", "jobs.kiosk", "jobs.autostart", "jobs.report"),
+    rooms=("jobs.kiosk", "jobs.autostart", "jobs.report"),
     options={"day": OptionRow("", "games", page, sketch)},
     service=service,
 )

@@ -18,9 +18,9 @@ from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.scoreboard.pages import Pages
 from pigaming_app.scenes.start import opened
 from pigaming_app.storage.settings import folders
 

@@ -19,7 +19,7 @@ QUICK = Limits(poll=0.02, start=120.0, hang=120.0, delays=(0.0,))
 KIOSK = """
 import os, signal, sys
 from pigaming_app import cli
-from pigaming_app.scenes.scoreboard import window
+from pigaming_app.scenes.kiosk.scoreboard import window
 
 def broken(*_):
     if sys.argv[1] == "kill":

@@ -8,9 +8,9 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes.operator.desk import OperatorDesk
-from pigaming_app.scenes.scoreboard.pages import Pages
-from pigaming_app.scenes.scoreboard.window import WINDOWED, ScoreboardWindow
+from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
+from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
+from pigaming_app.scenes.kiosk.scoreboard.window import WINDOWED, ScoreboardWindow
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.window import Canvas

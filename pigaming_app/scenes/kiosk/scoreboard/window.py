@@ -9,7 +9,7 @@ import pygame
 
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.flow.stack import Scene
-from pigaming_app.scenes.scoreboard.board import Board
+from pigaming_app.scenes.kiosk.scoreboard.board import Board
 
 PERIOD = 0.25  # s between two looks for changes
 SLICE_MS = 2.0  # of painting in a frame

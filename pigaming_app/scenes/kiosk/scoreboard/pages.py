@@ -5,8 +5,8 @@ from itertools import chain
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.scoreboard.score_page import ScorePage
-from pigaming_app.scenes.scoreboard.standby_page import StandbyPage
+from pigaming_app.scenes.kiosk.scoreboard.score_page import ScorePage
+from pigaming_app.scenes.kiosk.scoreboard.standby_page import StandbyPage
 
 
 class Pages:

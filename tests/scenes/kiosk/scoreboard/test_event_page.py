@@ -18,13 +18,13 @@ from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.features.board_page import Part
 from pigaming_app.scenes.flow.stack import Scene
-from pigaming_app.scenes.operator.desk import OperatorDesk
+from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
+from pigaming_app.scenes.kiosk.scoreboard.board import SIZE, Board
+from pigaming_app.scenes.kiosk.scoreboard.score_page import shown_match
+from pigaming_app.scenes.kiosk.scoreboard.standby_page import StandbyPage
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.snapshot import MatchSnapshot
-from pigaming_app.scenes.scoreboard.board import SIZE, Board
-from pigaming_app.scenes.scoreboard.score_page import shown_match
-from pigaming_app.scenes.scoreboard.standby_page import StandbyPage
 from pigaming_app.scenes.walk import second_screen
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES

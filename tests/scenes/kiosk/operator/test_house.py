@@ -8,9 +8,9 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.flow.match_choice import last_choice, playable_arenas
 from pigaming_app.scenes.flow.stack import Push
+from pigaming_app.scenes.kiosk.operator.page import ROWS, OperatorPage
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.lobby.scene import Lobby
-from pigaming_app.scenes.operator.page import ROWS, OperatorPage
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.title.attract import Attract

@@ -7,10 +7,10 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.flow.settings_page import IDLE
-from pigaming_app.scenes.operator.chart import OTHERS, bars_of, games_of, step_of
-from pigaming_app.scenes.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
-from pigaming_app.scenes.operator.figures_page import FOLDER, FiguresPage, _short
-from pigaming_app.scenes.operator.page import END_SECONDS, LIMITS, ROWS, SAFE_START, OperatorPage
+from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, games_of, step_of
+from pigaming_app.scenes.kiosk.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
+from pigaming_app.scenes.kiosk.operator.figures_page import FOLDER, FiguresPage, _short
+from pigaming_app.scenes.kiosk.operator.page import END_SECONDS, LIMITS, ROWS, SAFE_START, OperatorPage
 from pigaming_app.scenes.options.page import FOR_CHILDREN, OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title

@@ -11,15 +11,15 @@ import pygame
 from pigaming_app.scenes.features.feature import Service
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
-from pigaming_app.scenes.operator.group_limit import GroupLimit
-from pigaming_app.scenes.scoreboard.pages import Pages
+from pigaming_app.scenes.kiosk.operator.group_limit import GroupLimit
+from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.ui.draw import FOCUS, ICE
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.notices import MAX_WIDTH
 
 if TYPE_CHECKING:
-    from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
+    from pigaming_app.scenes.kiosk.scoreboard.window import ScoreboardWindow
 
 LOOK = 1.0  # s between two looks for displays
 WAITED = 60.0  # s without a press on the title, or in attract mode, until the house's choices return
@@ -124,7 +124,7 @@ class OperatorDesk(Service):
         if not number:
             return
         self.displays = pygame.display.get_desktop_sizes()
-        from pigaming_app.scenes.scoreboard.window import ScoreboardWindow
+        from pigaming_app.scenes.kiosk.scoreboard.window import ScoreboardWindow
 
         canvas = self.context.canvas
         self.window = ScoreboardWindow(number, canvas.display, self.board.pages, canvas.headless)
@@ -142,7 +142,7 @@ class OperatorDesk(Service):
         if there and self.arena_moved:
             canvas.show(canvas.display, canvas.fullscreen)
         self.arena_moved = not there
-        from pigaming_app.scenes.scoreboard.window import has_display
+        from pigaming_app.scenes.kiosk.scoreboard.window import has_display
 
         if has_display(self.number, canvas.display, canvas.headless):
             self._open(self.number)
@@ -174,7 +174,7 @@ class OperatorDesk(Service):
         self.notices.add(self.context.words(f"scoreboard.shows_{self.board.chosen}"))
 
     def _open_page(self, stack: Stack) -> None:
-        from pigaming_app.scenes.operator.page import OperatorPage
+        from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 
         if not any(isinstance(scene, OperatorPage) for scene in stack.scenes):
             self.context.sounds.play("accept")

@@ -9,7 +9,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Home, StackOperation
-from pigaming_app.scenes.operator.chart import OTHERS, bars_of, chart, games_of
+from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, chart, games_of
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.day_log import days, now
 from pigaming_app.storage.day_report import DayReport, report_of, to_csv

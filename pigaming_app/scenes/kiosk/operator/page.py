@@ -10,10 +10,10 @@ import pygame
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.settings_page import SettingsPage
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation, Swap
-from pigaming_app.scenes.operator import pictures
-from pigaming_app.scenes.operator.group_limit import InMatch
-from pigaming_app.scenes.operator.safe_start_notice import SafeStartNotice
-from pigaming_app.scenes.scoreboard.pages import Pages
+from pigaming_app.scenes.kiosk.operator import pictures
+from pigaming_app.scenes.kiosk.operator.group_limit import InMatch
+from pigaming_app.scenes.kiosk.operator.safe_start_notice import SafeStartNotice
+from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.setting_row import SettingValue
@@ -102,7 +102,7 @@ class OperatorPage(SettingsPage):
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         """Open the figures, agree to what became of failed starts, or begin to end all matches."""
         if name == "figures":
-            from pigaming_app.scenes.operator.figures_page import FiguresPage
+            from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
 
             self.context.sounds.play("accept")
             return Push(FiguresPage(self.context))

@@ -11,16 +11,16 @@ import pytest
 from pigaming_app.scenes.features import board_text as text
 from pigaming_app.scenes.features.board_page import Part
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
+from pigaming_app.scenes.kiosk.scoreboard.board import SIZE, Board, fit
+from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
+from pigaming_app.scenes.kiosk.scoreboard.score_page import ScorePage, match_parts
+from pigaming_app.scenes.kiosk.scoreboard.standby_page import StandbyPage, best_today
+from pigaming_app.scenes.kiosk.scoreboard.window import PERIOD, ScoreboardWindow
 from pigaming_app.scenes.mat.camera_page import CameraPage
-from pigaming_app.scenes.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.snapshot import sides, snapshot
-from pigaming_app.scenes.scoreboard.board import SIZE, Board, fit
-from pigaming_app.scenes.scoreboard.pages import Pages
-from pigaming_app.scenes.scoreboard.score_page import ScorePage, match_parts
-from pigaming_app.scenes.scoreboard.standby_page import StandbyPage, best_today
-from pigaming_app.scenes.scoreboard.window import PERIOD, ScoreboardWindow
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES, Words

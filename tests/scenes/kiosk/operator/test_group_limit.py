@@ -9,7 +9,7 @@ from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.flow.stack import Home
-from pigaming_app.scenes.operator.group_limit import FAREWELL, WARNED, GroupLimit
+from pigaming_app.scenes.kiosk.operator.group_limit import FAREWELL, WARNED, GroupLimit
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.ui.input.controls import Controls
