@@ -16,7 +16,7 @@ import pygame
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.networks.onnx import failed
 from pigaming_app.ai.plugin_faults import blame, suspect
-from pigaming_app.scenes.features.registry import features
+from pigaming_app.scenes.features.registry import corner_pin, features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.launch import Options
@@ -121,12 +121,9 @@ class App:
 
     def _pin(self) -> None:
         """Apply the corner pin of the settings."""
-        corners, mat = self.context.settings.corners, self.context.mat
-        if not corners or mat is None:
-            self.context.canvas.pin(None)
-            return
+        corners = self.context.settings.corners
         try:
-            self.context.canvas.pin(mat.corner_pin(corners))
+            self.context.canvas.pin(corner_pin(corners) if corners else None)
         except OperatorError as trouble:
             log.warning("%s", english().long_sentence(trouble.message))
             self.notices.add(self.context.words("app.pin"))

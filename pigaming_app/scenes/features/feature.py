@@ -19,6 +19,7 @@ from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
 from pigaming_app.scenes.launch import Options
 from pigaming_app.ui.draw import GlowCanvas
 from pigaming_app.ui.input.events import Device, InputEvent
+from pigaming_app.ui.window import Pin
 
 
 class MenuItem(NamedTuple):
@@ -123,5 +124,6 @@ class Feature:
     without_limit: Callable[[Sequence[Scene]], bool] | None = None  # the time limit of a group does not apply
     saved_brains: Callable[[], Sequence[Path]] | None = None  # files of PiTanks robots that visitors have trained
     mat: Callable[[Context, Options], RobotMat] | None = None
+    corner_pin: Callable[[Sequence[float]], Pin] | None = None  # warps to eight numbers, px; raises OperatorError
     replays: Callable[[], ReplayKind] | None = None  # a kind of its own
     preload: Sequence[str] = ()  # modules, loaded in the background in this order

@@ -12,6 +12,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.launch import Options
+from pigaming_app.ui.window import Pin
 
 PACKAGE = "pigaming_app"
 NAMES = ("howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
@@ -77,6 +78,11 @@ def saved_brains() -> list[Path]:
 def mat_of(context: Context, options: Options) -> RobotMat | None:
     """The mat with real robots that the options ask for, if there can be one."""
     return next((feature.mat(context, options) for feature in features() if feature.mat), None)
+
+
+def corner_pin(corners: Sequence[float]) -> Pin | None:
+    """The warp of the picture to these corners, if there can be one. Raises OperatorError."""
+    return next((feature.corner_pin(corners) for feature in features() if feature.corner_pin), None)
 
 
 def join_offer(context: Context) -> JoinOffer | None:

@@ -9,7 +9,6 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.input.events import Device, StickState
-from pigaming_app.ui.window import Pin
 
 
 class RobotMat(Protocol):
@@ -50,9 +49,6 @@ class RobotMat(Protocol):
         """The match with real robots on the seats `real`, or the page with the reason why not. `things`: on the mat;
         None: as they were scanned last, unless they are blocks. The rest: see `MatchScene`.
         """
-
-    def corner_pin(self, corners: Sequence[float]) -> Pin:
-        """The warp of the picture to these corners. Raises OperatorError."""
 
     def stop(self) -> None:
         """Stop all robots; a match may follow."""

@@ -12,6 +12,7 @@ from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.launch import Options
 from pigaming_app.ui.draw import FOCUS, ICE, LINE, GlowCanvas, cut_box
+from pigaming_app.ui.window import Pin
 
 
 class CameraView(Service):
@@ -47,6 +48,12 @@ def mat(context: Context, options: Options) -> RobotMat:
     return opened(context, options)
 
 
+def corner_pin(corners: Sequence[float]) -> Pin:
+    from pigaming_app.hardware.calibration.corner_pin import CornerPin
+
+    return CornerPin(corners)
+
+
 def replays() -> ReplayKind:
     from pigaming_app.scenes.mat.replays import RealReplays
 
@@ -80,6 +87,7 @@ FEATURE = Feature(
     options={"robots": OptionRow("", "ease", page, sketch)},
     service=service,
     mat=mat,
+    corner_pin=corner_pin,
     replays=replays,
     board_pages=board_pages,
     preload=(

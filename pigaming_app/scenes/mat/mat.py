@@ -23,7 +23,7 @@ from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Device, StickState
-from pigaming_app.ui.window import Canvas, Pin
+from pigaming_app.ui.window import Canvas
 
 log = logging.getLogger("pigaming")
 
@@ -98,11 +98,6 @@ class SessionMat:
         except RobotsUnavailable as error:
             log.warning("%s", english().long_sentence(error.message))
             return UnavailablePage(context, setup, devices, real, error.message, partial(again, rounds=rounds))
-
-    def corner_pin(self, corners: Sequence[float]) -> Pin:
-        from pigaming_app.hardware.calibration.corner_pin import CornerPin
-
-        return CornerPin(corners)
 
     def stop(self) -> None:
         self.session.close()

@@ -12,7 +12,7 @@ pytest.importorskip("cv2")
 
 from pigaming_app.cli import main
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def calibrate(home, *arguments):

@@ -19,7 +19,7 @@ pytestmark = [
     pytest.mark.skipif(shutil.which("Xvfb") is None, reason="no Xvfb: apt-get install xvfb"),
 ]
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[4]
 SIZES = ((640, 480), (1366, 768))  # px; SDL puts both at (0, 0), so a window's middle has to be on one of them only
 PATIENCE = 60.0  # s
 
