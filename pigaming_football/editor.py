@@ -25,7 +25,7 @@ from pigaming_app.scenes.editor.model.shapes import (
     whole,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
-from pigaming_app.scenes.editor.parts.starts import Start
+from pigaming_app.scenes.editor.parts.starts import Start, starts_of
 from pigaming_app.scenes.editor.parts.things import Thing
 from pigaming_app.scenes.editor.parts.walls import SHORT, SOLID_WALL, Wall, rock
 from pigaming_app.scenes.views.things.styles import NEON
@@ -46,53 +46,16 @@ CUT, CUTS = 130.0, (60.0, 440.0)  # px that a tap cuts off a corner along either
 NET = 0.6  # size of a goal's picture, which lies on the pitch here
 DEEP = 40.0  # px of it
 BEFORE = 60.0  # px from a goal's line to the end of a route
-EMPTY = """\
-[goal]
-width = 180
-
-[[start]]
-at = [300, 290]
-heading = 0
-
-[[start]]
-at = [1300, 610]
-heading = 180
-
-[[start]]
-at = [300, 610]
-heading = 0
-
-[[start]]
-at = [1300, 290]
-heading = 180
-
-[[drop]]
-at = [800, 450]
-
-[[drop]]
-at = [400, 450]
-
-[[drop]]
-at = [1200, 450]
-
-[[drop]]
-at = [800, 170]
-
-[[drop]]
-at = [800, 730]
-
-[[drop]]
-at = [400, 200]
-
-[[drop]]
-at = [1200, 200]
-
-[[drop]]
-at = [400, 700]
-
-[[drop]]
-at = [1200, 700]
-"""
+DROPS = (
+    (800, 450), (400, 450), (1200, 450), (800, 170), (800, 730), (400, 200), (1200, 200), (400, 700), (1200, 700),
+)  # fmt: skip
+EMPTY = Drawing(
+    (
+        Part("goal", (("width", 180),), several=False),
+        *starts_of((300, 290, 0), (1300, 610, 180), (300, 610, 0), (1300, 290, 180)),
+        *(part_of("drop", at=at) for at in DROPS),
+    )
+)
 
 
 class Goal(Shape):

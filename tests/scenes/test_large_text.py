@@ -29,7 +29,17 @@ from tests.scenes.measuring import faults, forget, measuring
 from tests.scenes.screens import SCREENS, seats
 from tests.scenes.test_layout import LISTS, relevant
 
-LARGE = ("options", "operator", "lobby", "robots menu", "ladder", "how to play", "setup")
+LARGE = (
+    "options",
+    "operator",
+    "lobby",
+    "robots menu",
+    "ladder",
+    "how to play",
+    "setup",
+    "calibration of",
+    "calibration t",
+)
 WITH_LARGE = [name for name in SCREENS if name.startswith(LARGE)]
 RULES = [(game, variant) for game in games() for variant in games()[game].variants]
 

@@ -171,14 +171,15 @@ class NextMatch:
     def prompts(self) -> ButtonPrompts:
         """The prompts of this match."""
         if self.quick:
-            return self.context.prompts([(Button.BACK, "events.hint_stop")])
+            return self.context.prompts([(Button.BACK, "events.hint_stop")], view.PROMPTS_Y)
         if self.seats.people:
             own = [(Button.START, "events.hint_begin"), (Button.X, "events.hint_skip"), (Button.Y, "events.hint_ai")]
         else:
             watch = Button.START if self.seats.stood_in else Button.FIRE
             own = [(watch, "events.hint_watch"), (Button.Y, "events.hint_quick"), (Button.X, "events.hint_skip")]
         late = [(Button.DOWN, "events.hint_late")] if self.running.accepts_late else []
-        return self.context.prompts([*own, (Button.UP, "events.hint_table"), *late, (Button.BACK, "events.hint_back")])
+        hints = [*own, (Button.UP, "events.hint_table"), *late, (Button.BACK, "events.hint_back")]
+        return self.context.prompts(hints, view.PROMPTS_Y)
 
     # ---- seats
 

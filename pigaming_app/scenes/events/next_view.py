@@ -43,7 +43,7 @@ from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 TOP, PITCH = 200, W + 24  # px
 NAME_Y, ROBOT_Y, SCALE, TABLE_R = 176, 350, 1.35, 92  # px; robot scale
 TAKEN, WANTED, AI = "taken", "wanted", "ai"  # states of a seat
-MESSAGE_Y, THEN_Y = 852, 916  # px
+MESSAGE_Y, THEN_Y, PROMPTS_Y = 846, 906, 988  # px
 
 
 def card_rect(index: int, count: int) -> pygame.Rect:

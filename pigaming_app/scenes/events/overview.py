@@ -34,7 +34,8 @@ class Overview:
 
     def stages(self, number: int) -> list[str]:
         """Headings of the columns of a page of the bracket."""
-        return [stage_name(self.words, column.stage, column.round) for column in self.bracket[number]]
+        drawn = {(column.stage, column.round) for page in self.bracket for column in page}
+        return [stage_name(self.words, column.stage, column.round, drawn) for column in self.bracket[number]]
 
 
 def overview(words: Words, event: Event, playing: int | None = None) -> Overview:

@@ -16,7 +16,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, PLAYERS, SUB, THIN, TIT
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
 from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_text, text, word
+from pigaming_app.ui.draw.text import fit_text, text, word, wrap
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 
@@ -25,6 +25,7 @@ VOLLEYS = (FIRST + 0.2, FIRST + 1.3, FIRST + 2.6, FIRST + 4.4)  # s, of confetti
 FOOT, NAME_Y = 800, 872  # px: foot of the podium, middle of the names
 REST, REST_X, REST_Y, REST_PITCH = 6, 1330, 290, 104  # places beside the podium; px
 FEWEST_BESIDE = 3
+LINE_H = 46  # px, of a name in two lines
 NAME_ROOM = STEP_W + APART - 20  # px
 SIGN_W = 72  # px, for the sign of an AI before its name
 
@@ -124,11 +125,13 @@ def draw_names(
     for i, row in enumerate(best):
         if i in shown:
             sign = SIGN_W if row.entrant in robots else 0
-            name, size = fit_text(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM - sign, "hero", BODY)
+            lines, size = name_lines(row.entrant, TITLE if i == 0 else SUB, NAME_ROOM - sign)
             x = dx + middle + (STEP_W + APART) * (ORDER.index(i) - 1)
-            word(name, size, FOCUS if i == 0 else ICE).draw(screen, x + sign / 2, dy + NAME_Y)
+            for k, line in enumerate(lines):
+                y = dy + NAME_Y + LINE_H * (k - (len(lines) - 1) / 2)
+                word(line, size, FOCUS if i == 0 else ICE).draw(screen, x + sign / 2, y)
             if sign:
-                robot_sign().draw(screen, x - text_width(name, size, "hero") / 2, dy + NAME_Y)
+                robot_sign().draw(screen, x - max(text_width(line, size, "hero") for line in lines) / 2, dy + NAME_Y)
     for i, row in enumerate(rest):
         x, y = dx + REST_X + 40, dy + REST_Y + REST_PITCH * i
         text(str(row.place), SUB, MIST, "head", "r").draw(screen, dx + REST_X, y)
@@ -137,6 +140,15 @@ def draw_names(
             x += SIGN_W
         name, size = fit_text(row.entrant, SUB, round(dx + RIGHT - x), "hero", BODY)
         text(name, size, ICE, "hero", "l").draw(screen, x, y)
+
+
+def name_lines(name: str, size: int, room: float) -> tuple[list[str], int]:
+    """A name in one line of `size` px or less, a long one in two at BODY size, and the size."""
+    line, fitting = fit_text(name, size, room, "hero", BODY)
+    if line == name:
+        return [name], fitting
+    first, *rest = wrap(name, BODY, room, "hero")
+    return [fit_text(part, BODY, room, "hero", BODY)[0] for part in (first, " ".join(rest)) if part], BODY
 
 
 @cached

@@ -20,7 +20,6 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
 from pigaming_app.events.spec import Fixture, Format, Standing
 from pigaming_app.scenes.events.overview import number
-from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
 from pigaming_app.ui.draw import Color, cut_box, font
@@ -216,8 +215,9 @@ def _bracket(page: pygame.Surface, event: Event, words: Words, matches: Sequence
     before: list[tuple[pygame.Rect, frozenset[str]]] = []  # boxes of the column before, and who goes on
     for i, fixtures in enumerate(rounds):
         x = MARGIN + wide * i
-        stage = fixtures[0].stage if fixtures[0].stage == knockout.FINAL else ""
-        _write(page, stage_name(words, stage, fixtures[0].round), 44, (x, 580), SOFT, room=wide - split)
+        final = fixtures[0].stage == knockout.FINAL
+        head = words("events.stage_final") if final else words("events.round", round=i + 1)
+        _write(page, head, 44, (x, 580), SOFT, room=wide - split)
         pitch = (FOOT - BRACKET_TOP) / len(fixtures)
         now: list[tuple[pygame.Rect, frozenset[str]]] = []
         for k, fixture in enumerate(fixtures):

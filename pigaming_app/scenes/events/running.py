@@ -2,7 +2,7 @@
 
 import contextlib
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -96,9 +96,15 @@ def progress_line(words: Words, event: Event) -> str:
     )
 
 
-def stage_name(words: Words, stage: str, number: int) -> str:
-    """The name of a stage, or of a round."""
+def stage_name(words: Words, stage: str, number: int, drawn: Iterable[tuple[str, int]]) -> str:
+    """The name of a round, counted within its stage; `drawn`: stage and round of all matches."""
+    number = len({one for one in drawn if one[0] == stage and one[1] <= number})
     return words(f"events.stage_{stage}", round=number) if stage else words("events.round", round=number)
+
+
+def round_name(words: Words, event: Event, fixture: Fixture) -> str:
+    """The name of the round of a match that is drawn."""
+    return stage_name(words, fixture.stage, fixture.round, ((one.stage, one.round) for one in event.fixtures))
 
 
 def lots_line(words: Words, event: Event, outcome: Outcome) -> str:

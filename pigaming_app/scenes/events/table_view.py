@@ -101,7 +101,8 @@ def table_row_steps(row: TableRow, w: int, h: int, columns: int) -> Steps[LitIma
     color = FOCUS if best else ICE
     layer.canvas.text(str(row.place), fit_size(str(row.place), size, PLACE_W - 12), PLACE_W, middle, MIST, "head", "r")
     cell, shown = CELL[columns], row.figures[: FIGURES[columns]]
-    x, room = PLACE_W + 32, w - PLACE_W - 32 - 40 - cell * len(shown)
+    last = text_width(shown[-1], round(size * 0.8)) if shown else 0  # the figure beside the name
+    x, room = PLACE_W + 32, w - PLACE_W - 32 - 28 - cell * (len(shown) - 1) - last - 40
     if row.mark:
         icon(layer.glow, "ai", x + size * 0.4, middle, size * 0.36, MIST, 4)
         x, room = x + round(size * 1.05), room - round(size * 1.05)

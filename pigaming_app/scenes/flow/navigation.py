@@ -5,11 +5,14 @@ from collections.abc import Callable, Sequence
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets.button_prompts import ROOM
 from pigaming_app.ui.widgets.focus import Focus
 
 
 class Navigation:
-    """Part of a page. `idle`: seconds without input until the title; `stay`: seconds for which a sentence is shown."""
+    """Part of a page. `idle`: seconds without input until the title; `stay`: seconds for which a sentence is shown;
+    `room`: px for the prompts.
+    """
 
     def __init__(
         self,
@@ -19,9 +22,10 @@ class Navigation:
         idle: float,
         stay: float = 0.0,
         device: Callable[[], Device] | None = None,
+        room: int = ROOM,
     ) -> None:
         self.context, self.focus, self.idle, self.stay = context, focus, idle, stay
-        self.prompts = context.prompts(hints, device=device)
+        self.prompts = context.prompts(hints, room=room, device=device)
         self._sentence, self._remaining = "", 0.0
 
     @property

@@ -25,22 +25,22 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import SMALLEST, fit_size
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button
 
 W, H = span(0, 3)[1], 340
 STICK, REACH = (112, 188), 58  # px: centre of the stick, and reach of its knob
 KEY = 70
 KEYS = {
-    Button.UP: pygame.Rect(104, 28, KEY, KEY),
-    Button.LEFT: pygame.Rect(26, 106, KEY, KEY),
-    Button.DOWN: pygame.Rect(104, 106, KEY, KEY),
-    Button.RIGHT: pygame.Rect(182, 106, KEY, KEY),
-    Button.FIRE: pygame.Rect(26, 204, 176, KEY),
-    Button.LEAVE_SEAT: pygame.Rect(212, 204, 176, KEY),
+    Button.UP: pygame.Rect(104, 2, KEY, KEY),
+    Button.LEFT: pygame.Rect(26, 80, KEY, KEY),
+    Button.DOWN: pygame.Rect(104, 80, KEY, KEY),
+    Button.RIGHT: pygame.Rect(182, 80, KEY, KEY),
+    Button.FIRE: pygame.Rect(26, 158, 226, 58),
+    Button.LEAVE_SEAT: pygame.Rect(26, 224, 226, 58),
 }
-ROBOT, PAD_ROBOT = (326, 106), (320, 70)  # px: the robot on a card
-STYLE, PAD_STYLE = (138, 308), (238, 314)  # px: the picture of the driving style
+ROBOT, PAD_ROBOT = (322, 100), (320, 70)  # px: the robot on a card
+STYLE, PAD_STYLE = (47, 314), (238, 314)  # px: the picture of the driving style
 DIAMOND = {Button.FIRE: (296, 262), Button.BACK: (352, 206), Button.X: (240, 206), Button.Y: (296, 150)}
 START = pygame.Rect(28, 286, 168, 40)
 START_LINE = cut_box(START.x, START.y, START.w, START.h, 10)
@@ -101,9 +101,9 @@ def style(text: str, picture: str) -> LitImage:
 @cached
 def keypad(name: str) -> LitImage:
     """The picture of the keypad and its name, beside the upper key of its card."""
-    layer = Layer(0, 0, W, 100)
-    icon(layer.glow, "keypad", 58, 58, 34, MIST, 3)
-    layer.canvas.body(name, W - 4, 18, MIST, "r", fit_size(name, 32, W - 187, "body"))
+    layer = Layer(0, 0, W, 80)
+    icon(layer.glow, "keypad", 58, 36, 32, MIST, 3)
+    layer.canvas.body(name, W - 4, 14, MIST, "r", fit_size(name, 32, W - 187, "body"))
     return layer.render()
 
 
@@ -115,7 +115,9 @@ def knob() -> LitImage:
 
 @cached
 def cap(label: str, w: int, h: int, down: bool) -> LitImage:
-    """A key, pressed or not."""
+    """A key, pressed or not; a wide one is wider than `w` px if its name takes more."""
+    if w > KEY:
+        w = max(w, min(round(text_width(label, BODY)) + 40, W - 52))
     layer = Layer(0, 0, w, h)
     edge = FOCUS if down else STEEL
     if down:
@@ -125,12 +127,7 @@ def cap(label: str, w: int, h: int, down: bool) -> LitImage:
     if label in ARROWS:
         icon(layer.glow, ARROWS[label], w / 2, h / 2, 18, color, LINE)
     else:
-        is_long = text_width(label, BODY) > (w - 20) / 0.8
-        lines = label.split(" ") if is_long else [label]
-        size = min(fit_size(line, SMALLEST if is_long else BODY, w - 20) for line in lines)
-        for i, line in enumerate(lines):
-            middle = h / 2 + 30 * (i - (len(lines) - 1) / 2)
-            layer.canvas.crisp.text(line, size, w / 2, middle, color, "head", "c")
+        layer.canvas.crisp.text(label, fit_size(label, BODY, w - 20), w / 2, h / 2, color, "head", "c")
     return layer.render()
 
 

@@ -16,6 +16,7 @@ from pigaming_app.scenes.flow.access import OWNER_SECONDS, Access, PauseAccess
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.play.device_table import DeviceTable
+from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.ui.draw import (
@@ -35,7 +36,7 @@ from pigaming_app.ui.draw import (
 )
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, word
+from pigaming_app.ui.draw.text import fit_size, fit_text, word
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
@@ -48,6 +49,7 @@ ITEM_W = 620
 NEED_CONFIRMATION = ("restart", "end")  # items that need a confirming press
 CONFIRM_SECONDS = 3.0  # seconds for the confirming press
 EXPLAIN_SECONDS = 2.0  # seconds for which a rejected press is explained
+NAME_ROOM = 460  # px, of a name at LABEL size
 RING = X + W - 112, Y + 116
 
 
@@ -56,6 +58,7 @@ class PausedMatch(Protocol):
 
     context: Context
     devices: list[Device | None]
+    names: Sequence[str]
     restart_allowed: bool
 
     @property
@@ -189,7 +192,7 @@ class Pause:
         """The reason for which a press was rejected."""
         if self.player is None or not self.access.owned:
             return self.context.words("pause.wait")
-        return self.context.words("pause.wait_for", player=self.player + 1)
+        return player_line(self.match, "pause.wait_for", self.player)
 
     def _do(self, name: str) -> StackOperation:
         self.context.sounds.play("back" if name == "continue" else "accept")
@@ -208,12 +211,20 @@ class Pause:
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
-        text = words("pause.paused") if self.player is None else words("pause.by", player=self.player + 1)
+        text = words("pause.paused") if self.player is None else player_line(self.match, "pause.by", self.player)
         sheet_title(layer, self.player, text, ICE, RING[0] - 80)
         if self.match.things:
             layer.canvas.body(things_line(words, len(self.match.things)), X + 72, HEAD - 24, MIST, "l", 34)
         for spot in self.focus.spots:
             layer.canvas.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+
+
+def player_line(match: PausedMatch, key: str, seat: int) -> str:
+    """The text of `key` about who plays on a seat: an entrant by name, anybody else by number."""
+    words = match.context.words
+    if name := name_of(match.names, seat):
+        return words(f"{key}_name", name=fit_text(name, LABEL, NAME_ROOM, "head", LABEL)[0])
+    return words(key, player=seat + 1)
 
 
 def things_line(words: Words, count: int) -> str:

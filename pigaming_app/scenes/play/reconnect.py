@@ -9,7 +9,7 @@ from typing import Protocol
 import pygame
 
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
-from pigaming_app.scenes.play.pause import Pause, PausedMatch, sheet_title
+from pigaming_app.scenes.play.pause import Pause, PausedMatch, player_line, sheet_title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
 from pigaming_app.ui.draw.layers import Layer, LitImage
@@ -113,7 +113,7 @@ class Reconnect:
 
     def _paint(self, layer: Layer) -> None:
         words, ink = self.context.words, layer.glow
-        sheet_title(layer, self.seat, words("pause.reconnect", player=self.seat + 1), ICE)
+        sheet_title(layer, self.seat, player_line(self.match, "pause.reconnect", self.seat), ICE)
         x, y = PAD
         if self.phone:
             icon(ink, "phone", x, y + 10, 110, PLAYERS[self.seat], LINE)

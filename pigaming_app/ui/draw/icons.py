@@ -100,12 +100,11 @@ def _keys(pen: Pen) -> None:
 
 def _keypad(pen: Pen) -> None:
     """Three rows of keys above a wide one."""
-    for row in range(4):
-        for column in range(3):
-            x, y = -0.78 + 0.56 * column, -0.98 + 0.5 * row
-            if row < 3 or column == 2:
-                pen.line(*cut_box(x, y, 0.44, 0.4, 0.06), closed=True)
-    pen.line(*cut_box(-0.78, 0.52, 1.0, 0.4, 0.06), closed=True)
+    pen.line(*cut_box(-0.66, -0.74, 1.32, 1.48, 0.14), closed=True)
+    for y in (-0.42, -0.1, 0.22):
+        for x in (-0.34, 0.0, 0.34):
+            pen.dot(x, y, 0.1)
+    pen.line((-0.32, 0.5), (0.32, 0.5))
 
 
 def _ai(pen: Pen) -> None:

@@ -49,7 +49,8 @@ def mouse(controls: Controls) -> Mouse:
 
 def opened(artist: Artist, game: str, arena: str = "") -> Editor:
     """The editor with an arena of ours, or an empty one."""
-    drawing = drawing_of(load(game, arena).source if arena else EDITORS[game].empty)
+    drawing = drawing_of(load(game, arena).source) if arena else EDITORS[game].empty
+    assert drawing
     artist.arcade.open(Editor(artist.arcade.context, game, "new-1", titled(drawing, "NEW")))
     return artist.editor
 
@@ -157,7 +158,7 @@ def test_football(artist: Artist) -> None:
     assert bench.history.now.of("goal")[0].get("width") == 320
     for _ in range(6):
         artist.choose("undo")
-    assert bench.history.now == titled(drawing_of(EDITORS["football"].empty), "NEW")
+    assert bench.history.now == titled(EDITORS["football"].empty, "NEW")
     verdict = checked(artist).bench.verdict
     assert not verdict.problems
     assert len(verdict.routes) == 6
@@ -250,7 +251,7 @@ def test_a_course_over_itself_is_marked_at_the_crossing(mouse: Mouse) -> None:
 def test_whole_parts_stay_in_the_arena(game: str) -> None:
     """Slots, people and robots too, wherever a part is moved, when it is turned there, and as an image."""
     tools = EDITORS[game]
-    drawing = drawing_of(tools.empty or load(game, tools.template).source)
+    drawing = tools.empty or drawing_of(load(game, tools.template).source)
     for item in tools.items(drawing):
         shape, part = tools.shapes[item.kind], tools.part(drawing, item)
         for dx, dy in ((-WIDTH, -HEIGHT), (WIDTH, -HEIGHT), (-WIDTH, HEIGHT), (WIDTH, HEIGHT)):

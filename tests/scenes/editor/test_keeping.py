@@ -43,7 +43,7 @@ def mouse(controls: Controls) -> Mouse:
 
 def empty(game: str) -> Drawing:
     tools = EDITORS[game]
-    return store.titled(drawing_of(tools.empty or load(game, tools.template).source), "NEW")
+    return store.titled(tools.empty or drawing_of(load(game, tools.template).source), "NEW")
 
 
 def verdict_on(game: str, drawing: Drawing) -> Verdict:

@@ -14,17 +14,21 @@ from pigaming_app.scenes.events.names import places_line
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
+from pigaming_app.scenes.play.pause import Pause
+from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.headline import EndedMatch, headline
 from pigaming_app.ui.draw import BODY, readable, text_width
 from pigaming_app.ui.draw.glow import GlowCanvas
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Device
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import setting_row
+from pigaming_app.ui.widgets.dialog import FOOT, HEAD
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.cache import empty_cache
 from tests.scenes.events.drawn import running
+from tests.scenes.measuring import faults, measuring
 
 NAMES = ("Ana", "Maximilian v. Hohenstein", "HAL", "Wolfgang Wimmersbacher")
 
@@ -73,6 +77,23 @@ def test_the_hud_has_the_name_of_everybody(
         assert any(is_short_for(said, name) and size >= 34 for said, size in hud), (name, hud)
         assert any(is_short_for(said.split("  ·  ")[0], name) for said in captions), (name, captions)
     assert not {"P1", "You"} & {*captions, *(said for said, _ in hud)}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_pages_over_a_match_name_those_who_play(arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str) -> None:
+    """Who paused, who chooses first, and whose pad is gone."""
+    arcade.context.words.switch(language)
+    scene = a_match(arcade, "pitanks", 4, "party")
+    seat = scene.names.index("Maximilian v. Hohenstein")
+    paused, rejected = Pause(scene, KEYS[seat]), Pause(scene, KEYS[seat])
+    rejected.handle(InputEvent(Button.FIRE, KEYS[(seat + 1) % 4]))
+    for page in (paused, rejected, Reconnect(scene, seat)):
+        with measuring(monkeypatch) as screen:
+            page.draw(screen)
+        named = [mark for mark in screen.texts if "Maximilian" in mark.text]
+        assert (named[0].box[1] < HEAD, len(named)) == (True, 1 + (page is rejected))
+        assert named[-1].box[1] > FOOT or page is not rejected
+        assert [fault for fault in faults(screen) if "Maximilian" in fault] == []
 
 
 def is_short_for(said: str, name: str) -> bool:

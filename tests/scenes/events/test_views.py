@@ -72,6 +72,25 @@ def test_the_bracket_shows_every_round_before_the_first_match(count: int, seats:
     assert shown_matches(event) == after
 
 
+@pytest.mark.parametrize(("count", "seats"), [(4, 2), (8, 2), (13, 2), (16, 4)])
+def test_each_side_of_the_bracket_counts_its_own_rounds(count: int, seats: int) -> None:
+    """1, 2, 3 … without a gap, although the winners pause while the losers play."""
+    shown = overview(Words("en"), new_event(Format.KNOCKOUT, count, seats=seats))
+    heads = list(dict.fromkeys(head for number in range(len(shown.bracket)) for head in shown.stages(number)))
+    for side in ("Winners", "Second chance"):
+        rounds = [head for head in heads if head.startswith(side)]
+        assert rounds == [f"{side} {number}" for number in range(1, len(rounds) + 1)]
+    assert [head for head in heads if not head[-1].isdigit()] == ["Grand final"]
+
+
+def test_a_row_of_two_columns_has_room_for_sixteen_letters(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    row = table_view.TableRow(12, "Maximilian v. Hohenstein", ("0,3", "1"))
+    with measuring(monkeypatch) as screen:
+        table_view.draw_table(screen, [row] * 12, ("Points", "Wins"), 0, 9.0)
+    assert [mark.text for mark in screen.texts if mark.text.startswith("Maximilian v. Ho")]
+    assert faults(screen) == []
+
+
 def test_names_are_known_as_soon_as_the_matches_before_are_decided() -> None:
     """Worked by hand for eight of whom the better seed wins: 1 – 8, 4 – 5, 2 – 7, 3 – 6, then 1 – 4."""
     event = new_event(Format.KNOCKOUT, 8)

@@ -10,9 +10,13 @@ from pigaming_app.scenes.options import controls_test as padtest
 from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.robot import LAG
+from pigaming_app.ui.draw import BODY
+from pigaming_app.ui.draw.theme import CAPITALS
+from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.measuring import measuring
 from tests.ui.input.virtual_pad import VirtualPad
 
 
@@ -31,7 +35,7 @@ def light(arcade: Arcade, x: int, y: int, w: int, h: int) -> int:
 
 
 def test_a_held_key_is_lit_until_it_is_let_go(arcade: Arcade) -> None:
-    box = (96 + 104, padtest.KEYS_Y + 28, 70, 70)  # W
+    box = (96 + 104, padtest.KEYS_Y + 2, 70, 70)  # W
     dark = light(arcade, *box)
     pygame.event.post(pygame.Event(pygame.KEYDOWN, scancode=pygame.KSCAN_W, key=0, mod=0))
     arcade.frame()
@@ -39,6 +43,23 @@ def test_a_held_key_is_lit_until_it_is_let_go(arcade: Arcade) -> None:
     pygame.event.post(pygame.Event(pygame.KEYUP, scancode=pygame.KSCAN_W, key=0, mod=0))
     arcade.frame()
     assert light(arcade, *box) == dark
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_names_of_keys_are_set_in_the_usual_size(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    """Also LEERTASTE: its cap is wider."""
+    arcade.context.words.switch(language)
+    controls = arcade.context.controls
+    labels = [controls.label(device, button) for device in KEYS for button in (Button.FIRE, Button.LEAVE_SEAT)]
+    with measuring(monkeypatch) as screen:
+        arcade.stack.top.draw(screen)
+    for label in labels:
+        name = arcade.context.words.key_name(label.removeprefix("NUM "))
+        (mark,) = (mark for mark in screen.texts if mark.text == name)
+        assert mark.box[3] - mark.box[1] == round(CAPITALS * BODY), name
+        assert any(a < mark.box[0] and mark.box[2] < c for a, b, c, d in (one.box for one in screen.frames)), name
 
 
 def test_a_pad_appears_when_it_is_plugged_in_and_its_button_lights_up(arcade: Arcade) -> None:

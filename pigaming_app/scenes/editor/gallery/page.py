@@ -165,7 +165,7 @@ class Gallery:
 
     def _new(self) -> StackOperation:
         tools = EDITORS[self.game]
-        return self._begin(drawing_of(tools.empty or load_cached(self.game, tools.template).source))
+        return self._begin(tools.empty or drawing_of(load_cached(self.game, tools.template).source))
 
     def _surprise(self) -> StackOperation:
         """Open a made-up arena, as soon as it is made."""

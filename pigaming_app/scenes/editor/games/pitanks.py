@@ -3,31 +3,16 @@
 from collections.abc import Mapping
 from typing import ClassVar
 
+from pigaming_app.games.drawing.values import Drawing
 from pigaming_app.scenes.editor.model.routes import legs
 from pigaming_app.scenes.editor.model.shapes import Routes, Shape, Tools
-from pigaming_app.scenes.editor.parts.starts import Start
+from pigaming_app.scenes.editor.parts.starts import Start, starts_of
 from pigaming_app.scenes.editor.parts.things import MUD, Thing
 from pigaming_app.scenes.editor.parts.walls import ROCK_TOOL, WALL, Wall
 from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.sim.arena import Arena
 
-EMPTY = """\
-[[start]]
-at = [100, 100]
-heading = 45
-
-[[start]]
-at = [1500, 800]
-heading = 225
-
-[[start]]
-at = [100, 800]
-heading = 315
-
-[[start]]
-at = [1500, 100]
-heading = 135
-"""
+EMPTY = Drawing(starts_of((100, 100, 45), (1500, 800, 225), (100, 800, 315), (1500, 100, 135)))
 
 
 class PiTanksTools(Tools):

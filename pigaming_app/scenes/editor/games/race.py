@@ -49,30 +49,10 @@ RAIL = 26.0  # px from the middle of a line to its rails
 MOST, LEAST = 24, 3  # corners
 EARTH = dim(BROWN, 0.5)
 CLODS = 420
-EMPTY = """\
-[track]
-lines = [0.05, 0.3, 0.55, 0.8]
 
-[[corner]]
-at = [150, 150]
-radius = 200
-width = 180
 
-[[corner]]
-at = [1450, 150]
-radius = 200
-width = 180
-
-[[corner]]
-at = [1450, 750]
-radius = 200
-width = 180
-
-[[corner]]
-at = [150, 750]
-radius = 200
-width = 180
-"""
+def _corner(at: Point) -> Part:
+    return part_of("corner", at=whole(*at), radius=200, width=WIDE)
 
 
 class ControlPoint(Shape):
@@ -123,7 +103,12 @@ class RaceTools(Tools):
     game = "race"
     shapes: ClassVar[Mapping[str, Shape]] = {"thing": Thing(ROAD), "line": StartLine(), "corner": ControlPoint()}
     palette = (Tool("corner", "corner", lambda a, b: _corner(a), MOST), MUD)
-    empty = EMPTY
+    empty = Drawing(
+        (
+            Part("track", (("lines", (0.05, 0.3, 0.55, 0.8)),), several=False),
+            *(_corner(at) for at in ((150, 150), (1450, 150), (1450, 750), (150, 750))),
+        )
+    )
 
     def items(self, drawing: Drawing) -> list[Item]:
         """The lines lie between mud and control points."""
@@ -243,10 +228,6 @@ def _spec(part: Part) -> Corner:
     x, y = point_of(part, "at")
     width = number_of(part, "width", WIDE, NARROWEST, WIDEST)
     return Corner(x, y, number_of(part, "radius", TIGHTEST, TIGHTEST, 2000), width)
-
-
-def _corner(at: Point) -> Part:
-    return part_of("corner", at=whole(*at), radius=200, width=WIDE)
 
 
 def _with_corners(drawing: Drawing, corners: Sequence[Part]) -> Drawing:

@@ -132,7 +132,7 @@ class Tools:
     game = ""
     shapes: ClassVar[Mapping[str, Shape]] = {}  # by kind, those below others first
     palette: Sequence[Tool] = ()
-    empty = ""  # text of the arena file to begin with; empty: that of `template`
+    empty: Drawing | None = None  # to begin with; None: that of `template`
     template = ""  # the name of an arena that comes with the game
     pictures: ClassVar[Mapping[str, Callable[[Pen], None]]] = {}  # of tools and dials, by name, where they have none
 

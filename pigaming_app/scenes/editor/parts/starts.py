@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import atan2, cos, degrees, radians, sin
 
 from pigaming_app.games.drawing.values import Part
-from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape, number_of, point_of, square
+from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape, number_of, part_of, point_of, square
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.sim.robot import RADIUS
@@ -12,6 +12,11 @@ from pigaming_app.ui.draw import PLAYERS, Point, regular_polygon
 
 NOSE = 90.0  # px from a robot to the grip by which it is turned
 STEP = 15  # degrees
+
+
+def starts_of(*poses: tuple[int, int, int]) -> tuple[Part, ...]:
+    """A start for each (x, y, heading), px and degrees."""
+    return tuple(part_of("start", at=(x, y), heading=heading) for x, y, heading in poses)
 
 
 class Start(Shape):

@@ -14,7 +14,7 @@ from pigaming_app.events.spec import WALKOVER, Fixture, Outcome
 from pigaming_app.scenes.events.manage.event_page import HOLD_IN_KIOSK
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.names import places_line, places_of, shortened
-from pigaming_app.scenes.events.running import RunningEvent, decided_by, stage_name
+from pigaming_app.scenes.events.running import RunningEvent, decided_by, round_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
@@ -109,7 +109,7 @@ class ResultsList:
         black_out(screen, *(row_box(i) for i in range(len(self.shown))))
         for i, fixture in enumerate(self.shown):
             outcome = result_of(event, fixture)
-            where = stage_name(words, fixture.stage, fixture.round)
+            where = round_name(words, event, fixture)
             how = decided_by(words, event, fixture.number)
             room = RESULT_ROOM - text_width(how, BODY) - 40
             line = f"{places_line(outcome, room)}   {how}"
@@ -221,7 +221,7 @@ class Correction:
     def draw(self, screen: pygame.Surface) -> None:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
-        heading(words("events.correct"), stage_name(words, self.fixture.stage, self.fixture.round)).draw(screen)
+        heading(words("events.correct"), round_name(words, self.running.event, self.fixture)).draw(screen)
         black_out(screen, setting_row.PANEL)
         glow_bar(screen, self.focus.box)
         for spot in self.focus.spots:

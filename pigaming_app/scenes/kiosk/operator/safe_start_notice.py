@@ -7,7 +7,7 @@ from pigaming_app.storage.safe_mode import is_safe
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.i18n import Words
 
-MOST = 3  # names
+MOST = 2  # names, which the panel has room for in every language
 
 
 class SafeStartNotice:
@@ -45,5 +45,6 @@ def setting_name(words: Words, name: str) -> str:
     """The name of a setting on its page; that of one without a page is the one in the file."""
     if name.startswith("games."):
         return game_title(words, name.split(".")[1])
+    name = "phones" if name.startswith("phones") else name
     keys = f"operator.{name}", "options.added" if name == "plugins" else f"options.{name}"
     return next((words(key) for key in keys if key in words), name)

@@ -9,7 +9,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.background import Background
 from pigaming_app.scenes.play.pause import sheet_title
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, STEEL, THIN, cut_box
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, STEEL, THIN, Color, cut_box
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import paragraph
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -35,6 +35,10 @@ class FetchPage:
     def state(self) -> str:
         """The state that is shown."""
         return FETCHING if self.fetch.state == DONE else self.fetch.state
+
+    @property
+    def _color(self) -> Color:
+        return ICE if self.state in (FETCHING, RESTART) else ALARM
 
     @property
     def prompts(self) -> ButtonPrompts:
@@ -65,8 +69,7 @@ class FetchPage:
     def draw(self, screen: pygame.Surface) -> None:
         state, words = self.state, self.context.words
         if self.picture is None or self.picture[0] != state:
-            color = ICE if state == FETCHING else ALARM
-            self.picture = state, overlay(self.behind(), color, self._paint, (words.language, state, id(self)))
+            self.picture = state, overlay(self.behind(), self._color, self._paint, (words.language, state, id(self)))
         screen.blit(self.picture[1], (0, 0))
         for i, line in enumerate(paragraph(words(f"lab.fetch_{state}"), ROOM, 3)):
             line.draw(screen, X + 80, TEXT_Y + PITCH * i)
@@ -76,6 +79,6 @@ class FetchPage:
 
     def _paint(self, layer: Layer) -> None:
         state, words = self.state, self.context.words
-        sheet_title(layer, None, words("lab.fetch_title"), ICE if state == FETCHING else ALARM)
+        sheet_title(layer, None, words("lab.fetch_title"), self._color)
         if state == FETCHING:
             layer.glow.line(cut_box(BAR.x, BAR.y, BAR.w, BAR.h, 10), STEEL, THIN, True)

@@ -35,6 +35,7 @@ from pigaming_app.ui.widgets.labels import black_out, chip, heading
 HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
 GAUGE = 146  # px, pitch of the gauges
+PROMPTS_ROOM = 2 * (SIDE.x - 960) - 48  # px, left of the warning beside the plot
 SENTENCE_SECONDS = 6.0  # seconds for which a sentence is shown
 IDLE = 600.0  # seconds without input until the title
 
@@ -79,7 +80,7 @@ class ResultPage:
         self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
         self.arrows: tuple[LitImage, int] | None = None
         hints = [(Button.FIRE, "calibrate.hint_ok"), (Button.BACK, "calibrate.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
+        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS, room=PROMPTS_ROOM)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
