@@ -5,7 +5,7 @@ well, so that they are not mistaken for dead time; moments at which the robot wa
 """
 
 from collections.abc import Iterable, Sequence
-from math import cos, exp, inf, sin
+from math import exp, inf
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +23,7 @@ FEWEST = 20  # fixes
 OUTLIER = 3.0  # px, error of a way from which the robot was pushed or held
 FITS = 2  # fits without outliers
 UNSURE = 0.3  # share of the ways, in squares, that may stay unexplained
+SURE = 0.004  # s, standard deviation of a measurement that counts
 TINY = 1e-9  # against division by zero: of a wheel that stood
 
 Floats = NDArray[np.float64]
@@ -34,6 +35,20 @@ class MotionDelay(NamedTuple):
     seconds: float
     error: float
     lag: float
+
+
+class Motion(NamedTuple):
+    """What a robot was commanded, s and px/s of left and right wheel, and its fixes, by the camera's own stamps."""
+
+    robot: int
+    sent: Sequence[tuple[float, float, float]]
+    seen: Sequence[Fix]
+    base: float  # px between the wheels
+
+    def delay(self) -> float | None:
+        """Delay from commands to seen motion, s; None if the robot hardly drove."""
+        found = motion_delay(self.sent, self.seen, self.base)
+        return found.seconds if found.error < SURE else None
 
 
 NONE = MotionDelay(0.0, inf, 0.0)
@@ -62,7 +77,9 @@ def motion_delay(
         gone = way[BAND:] - way[:-BAND]
         rolled += float(gone @ gone)
         for cost, lag in zip(costs, lags, strict=True):
-            cost += _unexplained(gone, *(_between(_low_pass(each, lag), at, part) for each in (speeds, np.sign(speeds))))
+            cost += _unexplained(
+                gone, *(_between(_low_pass(each, lag), at, part) for each in (speeds, np.sign(speeds)))
+            )
     least = costs.min(axis=0)
     best = int(least.argmin())
     if not 0 < best < len(DELAYS) - 1 or least[best] > UNSURE * rolled:

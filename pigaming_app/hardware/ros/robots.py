@@ -98,14 +98,8 @@ class RosPoses(PoseFilters):
         return None
 
     @property
-    def camera_delay(self) -> float:
-        return 0.0
-
-    def learn_delay(self, networks: Sequence[float]) -> None:
-        """No effect: the network's nodes stamp their poses."""
-
-    def lengthen_delay(self, seconds: float) -> None:
-        """No effect, as above."""
+    def delay(self) -> None:
+        """None: the network's nodes stamp their poses."""
 
     def close(self) -> None:
         """Leave the topics."""
