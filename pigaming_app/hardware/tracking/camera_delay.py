@@ -15,12 +15,13 @@ from pigaming_app.hardware.tracking.ekf import PoseFilter
 from pigaming_app.sim.plant import Twist
 
 LONGEST = 0.12  # s
-NEGLIGIBLE = 0.010  # s, a delay that counts as none: robots' own delays differ as much
-NOTABLE = 0.003  # s, least correction of a delay
+NEGLIGIBLE, BEGINS = 0.010, 0.015  # s, a delay that counts as none, as robots' own differ as much; until there is one
+NOTABLE = 0.002  # s, least correction of a delay
 STEP = 0.006  # s, largest correction at once: predicted places jump by as much
 PERIOD, WINDOW, LEAD = 0.5, 8.0, 0.6  # s between two measurements; s of fixes in one, and of commands before them
 APART = 0.025  # s between two fixes that are used
-SHARE = 0.4  # of a measurement, in place of as much of the former ones
+FEW, MANY = 3, 8  # measurements of a robot from which it counts, and over which they are averaged
+JUMP = 0.020  # s, a difference after which the mean begins anew
 STALE = 6.0  # s after which a robot has not driven lately
 
 
@@ -34,6 +35,7 @@ class CameraDelay:
         self._seen = [deque[Fix]() for _ in filters]
         self._late: dict[int, float] = {}  # s, of camera and robot together
         self._driven: dict[int, float] = {}  # s, when that was measured
+        self._count = [0] * len(filters)  # of measurements in that mean
         self._next, self._turn = 0.0, 0
 
     def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None:
@@ -65,21 +67,24 @@ class CameraDelay:
     def learn(self, robot: int, delay: float, network: float, now: float) -> None:
         """Use a measurement of a robot that drives; `network`: s by which commands reach it later than usual."""
         late = delay - self._filters[robot].drivetrain.dead_time - network
-        change = SHARE * (late - self._late.get(robot, late))
+        difference = late - self._late.get(robot, late)
+        self._count[robot] = 1 if abs(difference) > JUMP else min(MANY, self._count[robot] + 1)
+        change = difference / self._count[robot]
         self._late[robot] = self._late.get(robot, late) + change
         self._driven[robot] = now
         standing = [other for other, time in self._driven.items() if now - time > STALE]
         for other in standing:
             self._late[other] += change / (len(self._driven) - len(standing))
         wanted = self._common() - self.seconds
-        if abs(wanted) > NOTABLE:
+        sure = all(self._count[other] >= FEW for other in self._driven.keys() - set(standing))
+        if sure and abs(wanted) > NOTABLE:
             self._add(min(STEP, max(-STEP, wanted)))
 
     def measured(self, delays: Mapping[int, float], now: float) -> None:
         """Set the delay by measurements of these robots at once: s from commands to motion by corrected stamps."""
         for robot, delay in delays.items():
             self._late[robot] = delay + self.seconds - self._filters[robot].drivetrain.dead_time
-            self._driven[robot] = now
+            self._driven[robot], self._count[robot] = now, FEW
         self._add(self._common() - self.seconds)
 
     def begin(self, seconds: float) -> None:
@@ -89,7 +94,7 @@ class CameraDelay:
     def _common(self) -> float:
         """The delay by all measurements, s."""
         common = common_delay(self._late.values())
-        return common if common > (0.5 if self.seconds else 1.0) * NEGLIGIBLE else 0.0
+        return common if common > (NEGLIGIBLE if self.seconds else BEGINS) else 0.0
 
     def _add(self, seconds: float) -> None:
         """Lengthen the delay, within its limits, of all fixes so far, too; robots then act so much sooner."""
