@@ -126,6 +126,7 @@ class Mat:
         return {}
 
     delay = wrong_size = None
+    wait = 0.015
 
     def quality(self, robot):
         return LinkQuality(1.0, None, None)

@@ -119,7 +119,7 @@ class Pairing:
         seen = [fix for fix in self._seen if fix.robot == robot]
         fit = motion_delay(self._sent, seen, self.rig.kinematics[robot].drivetrain.base)
         if fit.error < inf:
-            self._delays[robot] = fit.seconds - network_delay(self.rig.link.quality(channel).echo)
+            self._delays[robot] = fit.seconds - network_delay(self.rig.link.quality(channel).echo, self.rig.link.wait)
 
     def _watch(self, counts: bool) -> None:
         """Accumulate the turn of every marker."""

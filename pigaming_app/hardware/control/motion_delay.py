@@ -17,7 +17,7 @@ STEP = 0.005  # s, resolution of the model
 DELAYS = np.arange(60)  # search grid, in STEP; between its values by a parabola
 LAGS = np.arange(0.05, 0.115, 0.01)  # s, search grid: time constants of motors
 ANY_LAG = np.arange(0.02, 0.20, 0.01)  # s
-USUAL_ECHO = 0.050  # s, of a radio within the dead time of an unmeasured robot
+USUAL_ECHO, USUAL_WAIT = 0.050, 0.015  # s, of a radio within the dead time of an unmeasured robot
 BAND = 4  # fixes between the two ends of a way
 FEWEST = 20  # fixes
 OUTLIER = 3.0  # px, error of a way from which the robot was pushed or held
@@ -101,9 +101,9 @@ def common_delay(delays: Iterable[float], spread: float = 0.010) -> float:
     return sum(alike) / len(alike) if alike else 0.0
 
 
-def network_delay(echo: float | None) -> float:
-    """Delay of a command in a slow network beyond the usual one, s, by the echo of the radio."""
-    return max(0.0, 0.5 * ((echo or 0.0) - USUAL_ECHO))
+def network_delay(echo: float | None, wait: float) -> float:
+    """Delay of a command beyond the usual one, s, by the echo of the radio and by how long commands wait for it."""
+    return max(0.0, 0.5 * ((echo or 0.0) - USUAL_ECHO)) + wait - USUAL_WAIT
 
 
 def _rolled(seen: Sequence[Fix], base: float) -> tuple[Floats, tuple[Floats, Floats]]:

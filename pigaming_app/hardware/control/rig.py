@@ -100,6 +100,8 @@ class LinkPort(Protocol):
     @property
     def boards(self) -> Mapping[int, int]: ...
 
+    wait: float  # s, recent mean from posting a command to its transmission
+
     def misfit(self, robot: int) -> Misfit | None: ...
 
     def quality(self, robot: int) -> LinkQuality: ...
@@ -263,7 +265,7 @@ class Rig:
 
     def network_delay(self, robot: int) -> float:
         """Time by which commands reach a robot later than by a usual radio, s."""
-        return network_delay(self.link.quality(self.channels[robot]).echo)
+        return network_delay(self.link.quality(self.channels[robot]).echo, self.link.wait)
 
     def health(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:
         """Health of the robots in `outside` (s outside the arena, by robot).

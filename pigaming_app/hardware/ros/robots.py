@@ -119,6 +119,8 @@ class RosPoses(PoseFilters):
 class RosLink:
     """Commands to topics: LinkPort of a rig."""
 
+    wait = 0.0  # s, they are published at once
+
     def __init__(self, node: RosNode, poses: RosPoses, drivetrains: Sequence[Drivetrain]) -> None:
         self.node, self.poses, self.drivetrains = node, poses, drivetrains
         self._mail: tuple[float, Sequence[WheelCommand | None]] = (float("-inf"), (None,) * ROBOTS)

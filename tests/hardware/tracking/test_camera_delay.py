@@ -65,5 +65,6 @@ def test_a_camera_that_becomes_later_after_pairing_is_followed():
 def test_slow_robots_and_slow_networks_are_not_the_cameras():
     assert common_delay([0.05, 0.052, 0.09, 0.2]) == pytest.approx(0.051)
     assert common_delay([]) == 0.0
-    assert network_delay(0.17) == pytest.approx(0.06)
-    assert network_delay(0.04) == network_delay(None) == 0.0
+    assert network_delay(0.17, 0.015) == pytest.approx(0.06)
+    assert network_delay(0.04, 0.015) == network_delay(None, 0.015) == 0.0
+    assert network_delay(0.04, 0.02) == pytest.approx(0.005)
