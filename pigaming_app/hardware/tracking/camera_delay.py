@@ -15,12 +15,14 @@ from pigaming_app.hardware.tracking.ekf import PoseFilter
 from pigaming_app.sim.plant import Twist
 
 LONGEST = 0.12  # s
-NEGLIGIBLE, BEGINS = 0.010, 0.015  # s, a delay that counts as none, as robots' own differ as much; until there is one
+OWN = 0.004  # s by which a robot is likely to be later than its dead time
+NEGLIGIBLE = 0.013  # s, a delay in common that is the robots' own
+NOTICED = 0.020  # s, least delay that is noticed while robots drive: measured with larger errors than by pairing
 NOTABLE = 0.002  # s, least correction of a delay
-STEP = 0.006  # s, largest correction at once: predicted places jump by as much
+STEP = 0.010  # s, largest correction at once: predicted places jump by as much
 PERIOD, WINDOW, LEAD = 0.5, 8.0, 0.6  # s between two measurements; s of fixes in one, and of commands before them
 APART = 0.025  # s between two fixes that are used
-FEW, MANY = 3, 8  # measurements of a robot from which it counts, and over which they are averaged
+FEW, MANY = 2, 8  # measurements of a robot from which it counts, and over which they are averaged
 JUMP = 0.020  # s, a difference after which the mean begins anew
 STALE = 6.0  # s after which a robot has not driven lately
 
@@ -75,7 +77,7 @@ class CameraDelay:
         standing = [other for other, time in self._driven.items() if now - time > STALE]
         for other in standing:
             self._late[other] += change / (len(self._driven) - len(standing))
-        wanted = self._common() - self.seconds
+        wanted = self._common(NEGLIGIBLE if self.seconds else NOTICED) - self.seconds
         sure = all(self._count[other] >= FEW for other in self._driven.keys() - set(standing))
         if sure and abs(wanted) > NOTABLE:
             self._add(min(STEP, max(-STEP, wanted)))
@@ -85,16 +87,16 @@ class CameraDelay:
         for robot, delay in delays.items():
             self._late[robot] = delay + self.seconds - self._filters[robot].drivetrain.dead_time
             self._driven[robot], self._count[robot] = now, FEW
-        self._add(self._common() - self.seconds)
+        self._add(self._common(NEGLIGIBLE) - self.seconds)
 
     def begin(self, seconds: float) -> None:
         """Begin with the delay of an earlier session."""
         self._add(seconds - self.seconds)
 
-    def _common(self) -> float:
-        """The delay by all measurements, s."""
+    def _common(self, least: float) -> float:
+        """The delay by all measurements, s; 0 if it is less than `least`."""
         common = common_delay(self._late.values())
-        return common if common > (NEGLIGIBLE if self.seconds else BEGINS) else 0.0
+        return common - OWN if common > least else 0.0
 
     def _add(self, seconds: float) -> None:
         """Lengthen the delay, within its limits, of all fixes so far, too; robots then act so much sooner."""
