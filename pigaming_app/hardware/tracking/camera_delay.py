@@ -16,8 +16,8 @@ from pigaming_app.sim.plant import Twist
 
 LONGEST = 0.12  # s
 OWN = 0.004  # s by which a robot is likely to be later than its dead time
-NEGLIGIBLE = 0.013  # s, a delay in common that is the robots' own
-NOTICED = 0.020  # s, least delay that is noticed while robots drive: measured with larger errors than by pairing
+MEASURED, NEGLIGIBLE = 0.011, 0.012  # s, a delay in common that is the robots' own: by pairing, and while they drive
+NOTICED = 0.017  # s, least delay that is noticed while robots drive: measured with larger errors than by pairing
 NOTABLE = 0.002  # s, least correction of a delay
 STEP = 0.010  # s, largest correction at once: predicted places jump by as much
 PERIOD, WINDOW, LEAD = 0.5, 8.0, 0.6  # s between two measurements; s of fixes in one, and of commands before them
@@ -87,7 +87,7 @@ class CameraDelay:
         for robot, delay in delays.items():
             self._late[robot] = delay + self.seconds - self._filters[robot].drivetrain.dead_time
             self._driven[robot], self._count[robot] = now, FEW
-        self._add(self._common(NEGLIGIBLE) - self.seconds)
+        self._add(self._common(MEASURED) - self.seconds)
 
     def begin(self, seconds: float) -> None:
         """Begin with the delay of an earlier session."""
