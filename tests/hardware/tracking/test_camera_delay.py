@@ -14,6 +14,11 @@ from pigaming_app.hardware.signals import Fix
 from tests.hardware.tracking.blind_bed import BlindBed, rms
 
 UNEQUAL, SLOW = (0.0, 0.02, 0.04, 0.01), (0.01,) * 4  # s
+UNPAIRED = (
+    (0.05, (0.0,) * 4, 2.0),
+    pytest.param(0.05, SLOW, 3.5, marks=pytest.mark.long),
+    pytest.param(0.0, SLOW, 1.0, marks=pytest.mark.long),
+)
 
 
 def paired(late, seed, dead=(0.0,) * 4):
@@ -37,7 +42,7 @@ def test_paired_robots_are_where_the_tracker_predicts_them_however_late_the_stam
 @pytest.mark.long
 @pytest.mark.parametrize("dead", [(0.0,) * 4, UNEQUAL, (0.01, 0.03, 0.05, 0.09)])
 @pytest.mark.parametrize("late", [0.0, 0.02, 0.05, 0.08])
-@pytest.mark.parametrize("seed", [4, 6])
+@pytest.mark.parametrize("seed", [4, pytest.param(6, marks=pytest.mark.again)])
 def test_that_holds_for_other_delays_and_robots(late, dead, seed):
     """Robots that are 0 to 90 ms slower than usual, 120 ms in all."""
     bed = paired(late, seed, dead)
@@ -45,7 +50,7 @@ def test_that_holds_for_other_delays_and_robots(late, dead, seed):
     assert rms(bed.drive(3.0)) < (3.0 if late else 1.0)
 
 
-@pytest.mark.parametrize(("late", "dead", "most"), [(0.05, (0.0,) * 4, 2.0), (0.05, SLOW, 3.5), (0.0, SLOW, 1.0)])
+@pytest.mark.parametrize(("late", "dead", "most"), UNPAIRED)
 def test_without_pairing_the_delay_is_learnt_while_robots_drive(late, dead, most):
     bed = BlindBed(late, 16, dead)
     bed.drive(1.0)
@@ -55,7 +60,7 @@ def test_without_pairing_the_delay_is_learnt_while_robots_drive(late, dead, most
     assert rms(bed.drive(3.0)) < most
 
 
-@pytest.mark.parametrize(("before", "after"), [(0.0, 0.05), (0.05, 0.0)])
+@pytest.mark.parametrize(("before", "after"), [(0.0, 0.05), pytest.param(0.05, 0.0, marks=pytest.mark.long)])
 def test_a_camera_that_becomes_later_or_earlier_after_pairing_is_followed(before, after):
     bed = paired(before, 4)
     bed.drive(5.0)
@@ -66,6 +71,7 @@ def test_a_camera_that_becomes_later_or_earlier_after_pairing_is_followed(before
     assert rms(bed.drive(3.0)) < 3.0
 
 
+@pytest.mark.long
 def test_robots_that_stand_are_held_or_pushed_do_not_spoil_it():
     """Two drive and are held down a quarter of the time at first; the others are held, turned and pushed about."""
     bed, random = BlindBed(0.05, 31), Random(5)
