@@ -125,13 +125,8 @@ class Mat:
     def old_markers(self):
         return {}
 
-    camera_delay, wrong_size = 0.0, None
-
-    def learn_delay(self, networks):
-        pass
-
-    def lengthen_delay(self, seconds):
-        self.camera_delay += seconds
+    delay = wrong_size = None
+    wait = 0.015
 
     def quality(self, robot):
         return LinkQuality(1.0, None, None)

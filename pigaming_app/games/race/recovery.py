@@ -11,7 +11,7 @@ from typing import Any
 
 from pigaming_app.games.race.course import distance_ahead, point_at, segment_at
 from pigaming_app.games.race.laps import stretch, way_driven
-from pigaming_app.games.race.passages import clear_aside, in_passage
+from pigaming_app.games.race.passages import BESIDE, clear_aside, in_passage
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, STUCK, WRONG_WAY
 from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import is_free
@@ -26,7 +26,6 @@ STICK = 0.3  # deflection from which the stick drives
 BACK = 80.0  # px from the place where the robot left the course to the requested pose
 MARGIN = 15.0  # px, least distance past the last line, as far as the robot has driven it
 STEP, STEPS = 24.0, 10  # px between tried poses, and their number, while robots stand there
-BESIDE = 90.0  # px from the edge of the course, within which a robot in the mud still drives along it
 ARRIVED = 60.0  # px from the requested pose, within which a robot that drives there has arrived
 
 

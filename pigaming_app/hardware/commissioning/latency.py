@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pigaming_app.hardware.control.motion_delay import motion_delay
+from pigaming_app.hardware.control.motion_delay import ANY_LAG, motion_delay
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.sim.plant import Sighting
@@ -38,7 +38,8 @@ class LatencyTest:
     def __init__(self, rig: Rig, robot: int) -> None:
         self.rig, self.robot = rig, robot
         self._sent: list[tuple[float, float, float]] = []
-        self._seen: list[tuple[float, float, float]] = []
+        self._seen: list[Fix] = []
+        self._pictures: list[float] = []  # s from exposure to the processed frame
         self._ticks = 0
         rig.recorder = self
 
@@ -64,11 +65,10 @@ class LatencyTest:
         """The fitted latency; None if the robot was hardly seen or did not move."""
         if len(self._seen) < FEWEST:
             return None
-        captured, arrived, headings = np.array(self._seen).T
-        if np.ptp(np.unwrap(headings)) < 0.3:
+        if np.ptp(np.unwrap([fix.heading for fix in self._seen])) < 0.3:
             return None
-        fit = motion_delay(self._sent, [(stamp, heading) for stamp, _, heading in self._seen])
-        return Latency(fit.seconds, float(np.mean(arrived - captured)), fit.lag)
+        fit = motion_delay(self._sent, self._seen, self.rig.kinematics[self.robot].drivetrain.base, ANY_LAG)
+        return Latency(fit.seconds, float(np.mean(self._pictures)), fit.lag)
 
     def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
         """Recorder: commands were sent."""
@@ -77,7 +77,9 @@ class LatencyTest:
 
     def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
         """Recorder: a frame was processed."""
-        self._seen += [(fix.captured, now, fix.heading) for fix in fixes if fix.robot == self.robot]
+        mine = [fix for fix in fixes if fix.robot == self.robot]
+        self._seen += mine
+        self._pictures += [now - fix.captured for fix in mine]
 
     def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
         """Recorder: predictions are not used."""

@@ -7,10 +7,10 @@ operator.
 
 from collections.abc import Sequence
 from enum import StrEnum
-from math import hypot
+from math import hypot, inf
 from typing import NamedTuple
 
-from pigaming_app.hardware.control.motion_delay import USUAL_LAGS, common_delay, motion_delay, network_delay
+from pigaming_app.hardware.control.motion_delay import motion_delay, network_delay
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.sim.angles import turn_to
@@ -23,7 +23,6 @@ TURNED = 1.2  # rad; a spinning robot's marker turns more than this
 STILL = 0.4  # rad; every other marker turns less than this
 ASTRAY = 25.0  # px; a robot that moves farther is driving off
 SEEN = 0.3  # s, largest age of a usable fix
-FEWEST = 20  # fixes of a spin that measure its delay
 
 
 class PairingCase(StrEnum):
@@ -64,7 +63,7 @@ class Pairing:
         self._astray: int | None = None  # a robot that drives off instead of spinning
         self._sent: list[tuple[float, float, float]] = []  # s, shares of both wheels, of this spin
         self._seen: list[Fix] = []
-        self._delays: list[float] = []  # s by which robots moved later than expected
+        self._delays: dict[int, float] = {}  # s from commands to seen motion without the network's, by robot
         rig.recorder = self
 
     @property
@@ -102,8 +101,7 @@ class Pairing:
             self._began, self._astray, self._sent, self._seen = {}, None, [], []
             if not self._todo:
                 self.rig.recorder = None
-                if self._delays:
-                    self.rig.lengthen_camera_delay(common_delay(self._delays))
+                self.rig.measure_camera_delay(self._delays)
         return not self._todo
 
     def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
@@ -117,12 +115,11 @@ class Pairing:
         """Recorder: predictions are not used."""
 
     def _measure(self, channel: int, robot: int) -> None:
-        """Note how much later than expected a robot moved."""
-        seen = [(fix.captured, fix.heading) for fix in self._seen if fix.robot == robot]
-        if len(seen) >= FEWEST:
-            fit = motion_delay(self._sent, seen, USUAL_LAGS)
-            expected = self.rig.kinematics[robot].drivetrain.dead_time
-            self._delays.append(fit.seconds - expected - network_delay(self.rig.link.quality(channel).echo))
+        """Note how much later than commanded a robot moved."""
+        seen = [fix for fix in self._seen if fix.robot == robot]
+        fit = motion_delay(self._sent, seen, self.rig.kinematics[robot].drivetrain.base)
+        if fit.error < inf:
+            self._delays[robot] = fit.seconds - network_delay(self.rig.link.quality(channel).echo, self.rig.link.wait)
 
     def _watch(self, counts: bool) -> None:
         """Accumulate the turn of every marker."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from pigaming_app.hardware.control.kinematics import Kinematics
 from pigaming_app.hardware.control.motion_check import MotionCheck
-from pigaming_app.hardware.control.motion_delay import network_delay
+from pigaming_app.hardware.control.motion_delay import Motion, network_delay
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
@@ -42,6 +42,20 @@ GREETING = 0.5  # s after which every robot in range has received a command and 
 log = logging.getLogger("pigaming")
 
 
+class DelayPort(Protocol):
+    """The camera's delay, as a tracker estimates it."""
+
+    seconds: float
+
+    def due(self, now: float) -> Motion | None: ...
+
+    def learn(self, robot: int, delay: float, network: float, now: float) -> None: ...
+
+    def measured(self, late: Mapping[int, float], now: float) -> None: ...
+
+    def begin(self, seconds: float) -> None: ...
+
+
 class TrackerPort(Protocol):
     """The subset of a tracker that a rig uses."""
 
@@ -57,7 +71,7 @@ class TrackerPort(Protocol):
     def wrong_size(self) -> float | None: ...
 
     @property
-    def camera_delay(self) -> float: ...
+    def delay(self) -> DelayPort | None: ...
 
     expected: set[int]  # robots worth searching for
 
@@ -73,10 +87,6 @@ class TrackerPort(Protocol):
 
     def wheel_correction(self, robot: int) -> WheelCorrection: ...
 
-    def learn_delay(self, networks: Sequence[float]) -> None: ...
-
-    def lengthen_delay(self, seconds: float) -> None: ...
-
 
 class LinkPort(Protocol):
     """The subset of a link that a rig uses."""
@@ -89,6 +99,8 @@ class LinkPort(Protocol):
 
     @property
     def boards(self) -> Mapping[int, int]: ...
+
+    wait: float  # s, recent mean from posting a command to its transmission
 
     def misfit(self, robot: int) -> Misfit | None: ...
 
@@ -234,19 +246,26 @@ class Rig:
         """The latest report of a robot, or None."""
         return self.link.telemetry.get(self.channels[robot])
 
-    def lengthen_camera_delay(self, seconds: float) -> None:
-        """Correct the camera's delay by a measurement: so much more, s."""
+    def begin_camera_delay(self, seconds: float) -> None:
+        """Begin with a delay of the camera that was kept, s."""
         with self._lock:
-            self.tracker.lengthen_delay(seconds)
+            if self.tracker.delay is not None:
+                self.tracker.delay.begin(seconds)
+
+    def measure_camera_delay(self, delays: Mapping[int, float]) -> None:
+        """Set the camera's delay by the delays of these robots from commands to seen motion, s, less the network's."""
+        with self._lock:
+            if self.tracker.delay is not None:
+                self.tracker.delay.measured(delays, self.clock())
 
     @property
     def camera_delay(self) -> float:
         """Time by which the camera's stamps are later than the exposure, s."""
-        return self.tracker.camera_delay
+        return self.tracker.delay.seconds if self.tracker.delay is not None else 0.0
 
     def network_delay(self, robot: int) -> float:
         """Time by which commands reach a robot later than by a usual radio, s."""
-        return network_delay(self.link.quality(self.channels[robot]).echo)
+        return network_delay(self.link.quality(self.channels[robot]).echo, self.link.wait)
 
     def health(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:
         """Health of the robots in `outside` (s outside the arena, by robot).
@@ -345,15 +364,24 @@ class Rig:
             return  # a driver that repeats a picture: real ones differ by noise
         with self._lock:
             fixes = self.tracker.process(frame)
-            self.tracker.learn_delay([self.network_delay(robot) for robot in range(ROBOTS)])
             self.motion_check.record_fixes(fixes)
             for robot, kinematics in enumerate(self.kinematics):
                 kinematics.correction = self.tracker.wheel_correction(robot)
                 self.motion_check.expect_lateness(robot, _late(kinematics))
             if self.recorder:
                 self.recorder.record_fixes(self.clock(), frame.captured, fixes)
+            motion = self.tracker.delay.due(self.clock()) if self.tracker.delay is not None else None
         for view in tuple(self.viewers):
             view(frame)
+        if motion is not None:
+            self._learn_delay(motion)
+
+    def _learn_delay(self, motion: Motion) -> None:
+        """Correct the camera's delay by the motion of a robot; correlating it takes several milliseconds."""
+        delay = motion.delay()
+        with self._lock:
+            if delay is not None and self.tracker.delay is not None:
+                self.tracker.delay.learn(motion.robot, delay, self.network_delay(motion.robot), self.clock())
 
 
 def _late(kinematics: Kinematics) -> float:

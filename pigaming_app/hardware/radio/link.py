@@ -21,6 +21,7 @@ BEAT = 0.02  # s between two transmissions
 PATIENCE = 0.1  # s without a new command after which the link sends stop
 FAREWELLS = 5  # stop commands sent when the link ends
 HEARD = 1.0  # s for which a report counts
+RECENT = 0.01  # share of the newest command in the mean of the waits
 NOBODY: tuple[WheelCommand | None, ...] = (None,) * ROBOTS
 
 
@@ -34,6 +35,8 @@ class Link:
         self._protocol = protocol
         self._clock = clock
         self._mail: tuple[float, Sequence[WheelCommand | None]] = (float("-inf"), NOBODY)
+        self.wait = 0.75 * BEAT  # s, recent mean from posting a command to its transmission
+        self._posted = float("-inf")  # s, when the last command transmitted was posted
         self._due = float("-inf")  # s, time of the next transmission
         self._listened = float("-inf")  # s, time of the last read; silence since then is not the radio's fault
         self._thread: threading.Thread | None = None
@@ -91,6 +94,9 @@ class Link:
         if now >= self._due:
             self._due = self._due + BEAT if now < self._due + BEAT else now + BEAT
             posted, wheels = self._mail
+            if posted > self._posted:
+                self._posted = posted
+                self.wait += RECENT * (now - posted - self.wait)
             self._line.write(self._protocol.command(wheels if now - posted <= PATIENCE else NOBODY, now))
 
     def start(self) -> Self:

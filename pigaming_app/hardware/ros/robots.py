@@ -98,14 +98,8 @@ class RosPoses(PoseFilters):
         return None
 
     @property
-    def camera_delay(self) -> float:
-        return 0.0
-
-    def learn_delay(self, networks: Sequence[float]) -> None:
-        """No effect: the network's nodes stamp their poses."""
-
-    def lengthen_delay(self, seconds: float) -> None:
-        """No effect, as above."""
+    def delay(self) -> None:
+        """None: the network's nodes stamp their poses."""
 
     def close(self) -> None:
         """Leave the topics."""
@@ -124,6 +118,8 @@ class RosPoses(PoseFilters):
 
 class RosLink:
     """Commands to topics: LinkPort of a rig."""
+
+    wait = 0.0  # s, they are published at once
 
     def __init__(self, node: RosNode, poses: RosPoses, drivetrains: Sequence[Drivetrain]) -> None:
         self.node, self.poses, self.drivetrains = node, poses, drivetrains

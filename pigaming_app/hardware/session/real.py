@@ -85,7 +85,7 @@ class RealSession:
                 raise RobotsUnavailable(OperatorMessage("robots_file", detail=error)) from error
             rig.channels = tuple(radio - 1 for radio in self.settings.radios)
             if self.settings.camera_delay >= 0:
-                rig.lengthen_camera_delay(self.settings.camera_delay / 1000.0)
+                rig.begin_camera_delay(self.settings.camera_delay / 1000.0)
             self.mm, self.quality, self.ground, self._rig = ground.mm, ground.quality, ground, rig.start()
         return self._rig
 

@@ -6,7 +6,7 @@ filter keeps the pose at the newest correction and the commands sent since.
 
 from collections import deque
 from collections.abc import Iterator, Sequence
-from math import cos, hypot, inf, pi, sin, sqrt, tau
+from math import cos, hypot, inf, pi, sin, tau
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,11 +101,6 @@ class PoseFilter:
         self._seen, self._motion = fix.captured, motion
         self._update(fix, flow @ self._covariance @ flow.T + WALK * dt)
         return True
-
-    @property
-    def lateness_error(self) -> float:
-        """Standard deviation of the estimated lateness, s."""
-        return sqrt(float(self._covariance[6, 6]))
 
     def shift(self, seconds: float) -> None:
         """Take all fixes so far for `seconds` later."""

@@ -26,7 +26,7 @@ from pigaming_app.hardware.vision.markers import (
     mean_edge,
 )
 from pigaming_app.sim.drivetrain import Drivetrain
-from pigaming_app.sim.plant import Sighting
+from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 
@@ -53,7 +53,7 @@ class Tracker(PoseFilters):
         self.ground, self.clock = ground, clock
         self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
         self.last_captured = -inf  # s, capture time of the newest processed frame
-        self.delay = CameraDelay()
+        self.delay = CameraDelay(self.filters)
         self.drift = drift  # gets the same frames, for the corner markers
         self._markers = MarkerDetector(WEARERS)
         self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
@@ -82,6 +82,7 @@ class Tracker(PoseFilters):
                 self._rejections[robot, "duplicate"] = captured
             elif fixes and pose_filter.correct(fixes[0]):
                 accepted.append(fixes[0])
+                self.delay.record_fix(fixes[0])
         return accepted
 
     @property
@@ -107,18 +108,9 @@ class Tracker(PoseFilters):
         """
         return dict(self._lately())
 
-    def learn_delay(self, networks: Sequence[float]) -> None:
-        """Learn the delay of the camera; `networks`: s by which commands reach each robot later than usual."""
-        self.delay.learn(self.filters, networks, self.clock())
-
-    @property
-    def camera_delay(self) -> float:
-        """Time by which stamps are later than the exposure, s."""
-        return self.delay.seconds
-
-    def lengthen_delay(self, seconds: float) -> None:
-        """Correct the delay of the camera by a measurement."""
-        self.delay.measured(seconds, self.filters)
+    def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None:
+        super().record_commands(time, twists)
+        self.delay.record_commands(time, twists)
 
     def _lately(self) -> list[tuple[int, str]]:
         now = self.clock()

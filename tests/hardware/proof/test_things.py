@@ -7,6 +7,7 @@ import pytest
 
 pytest.importorskip("cv2")
 
+from pigaming_app.hardware.emulator import renderer
 from pigaming_app.hardware.emulator.things.prism import TAPE, box
 from pigaming_app.hardware.proof.things import ThingsBed, compare, distances, trial
 from pigaming_app.hardware.proof.things_watch import BETWEEN, WatchedMatch
@@ -56,6 +57,22 @@ def test_a_dark_glossy_phone_is_one_thing_and_what_differs_by_28_percent_is_foun
         kinds = [replace(thing, height=20.0 if tall else TAPE) for tall in (True, False)]
         worst = min(min(compare(found, [kind], bed).worsts, default=99.0) for kind in kinds)
         assert worst < 6.0, thing
+
+
+@pytest.mark.long
+def test_white_things_on_a_grey_mat_are_found(monkeypatch):
+    """A mat that reflects half the light; of the flat ones, one is brighter and one darker by a third."""
+    cloth = renderer._cloth
+    monkeypatch.setattr(renderer, "_cloth", lambda random: np.float32(0.5 / 0.85) * cloth(random))
+    bed = ThingsBed(2)
+    true = [box(-500, -250, 200, 120, 60.0, 0.3, 0.9), box(300, -250, 180, 140, 120.0, 1.0, 0.75)]
+    true += [box(-450, 220, 200, 140, TAPE, 0.2, 0.66), box(500, 200, 200, 140, TAPE, 0.2, 0.34)]
+    true += [box(-150, 200, 150, 100, 15.0, 0.5, 0.9), box(100, 0, 150, 100, TAPE, 0.7, 0.95)]
+    bed.furnish(true, [(200.0, 150.0, 0.0), (1400.0, 750.0, 1.0), (1400.0, 150.0, 2.0), (200.0, 750.0, 3.0)])
+    found = bed.scan().layout.things
+    assert len(found) == len(true)
+    for thing in true:
+        assert max(compare(found, [thing], bed).worsts, default=99.0) < 6.0, thing
 
 
 @pytest.mark.long
