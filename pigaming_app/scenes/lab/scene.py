@@ -295,7 +295,7 @@ class Lab:
             self.page.update(seconds)
         now.matches, now.knowing, now.measures = moment.matches, moment.knowing, trainer.progress.measures
         self._celebrate(trainer.progress)
-        now.kind, now.networks = self.kind, self.network.available
+        now.kind, now.networks = self.kind, self.network.available or self.network.fetchable
         now.speed, now.focus, now.held = trainer.speed, self.focus.name, self.held
         now.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = trainer.progress.plan
