@@ -4,14 +4,13 @@ import pytest
 
 from tests.bench.presses import Usage, growth
 
-LEVEL = [(9, 1, 143.5), (9, 1, 151.0), (9, 1, 152.2), (9, 1, 160.0), (9, 1, 151.4), (9, 1, 152.6)]  # some comes and goes
+# Files, threads and MB of a soak without a leak: some memory comes and goes.
+LEVEL = [(9, 1, 143.5), (9, 1, 151.0), (9, 1, 152.2), (9, 1, 160.0), (9, 1, 151.4), (9, 1, 152.6)]
 
 
 def usages(files: int = 0, threads: int = 0, mb: float = 0.0, cached: float = 72.0) -> list[Usage]:
     """The level ones with so much more in each round."""
-    return [
-        Usage(1700 * i, a + i * files, b + i * threads, c + i * mb, cached) for i, (a, b, c) in enumerate(LEVEL, 1)
-    ]
+    return [Usage(1700 * i, a + i * files, b + i * threads, c + i * mb, cached) for i, (a, b, c) in enumerate(LEVEL, 1)]
 
 
 def test_what_is_level_is_told_from_what_comes_and_goes() -> None:
