@@ -91,7 +91,7 @@ def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
     context.start_compilers()
     title.lab = lab = Lab(context)
     pages = {**SCREENS, "match": match, "attract": lambda arcade: Attract(context), "lab": lambda arcade: lab}
-    for module in (*MODULES, "cv2"):
+    for module in (*MODULES, "cv2", "pigaming_app.ui.input.phones.server"):  # libraries that few presses lead to
         import_module(module)
     encoded(drawn(event(Format.ROUND_ROBIN, 4, 2, 1).event, Words("en")), Path("poster.pdf"))  # loads a library
     try:
