@@ -12,10 +12,12 @@ from contextlib import contextmanager
 from copy import deepcopy
 from dataclasses import dataclass
 from importlib import import_module
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.events.spec import Format
 from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.events.poster import drawn, encoded
@@ -94,6 +96,8 @@ def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
     for module in (*MODULES, "cv2", "pigaming_app.ui.input.phones.server"):  # libraries that few presses lead to
         import_module(module)
     encoded(drawn(event(Format.ROUND_ROBIN, 4, 2, 1).event, Words("en")), Path("poster.pdf"))  # loads a library
+    for kind in chain.from_iterable(kinds.values() for kinds in BRAINS.values()):
+        kind.weights(False)  # the tables of q1 and q2 take 12 MB from their first match on
     try:
         while made < presses:
             for make in pages.values():
