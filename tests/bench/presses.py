@@ -39,7 +39,7 @@ from tests.scenes.screens import SCREENS, event, match
 
 BUTTONS = sorted(set(Button) - {Button.POINT, Button.CLICK, Button.FOUND, Button.LOST}, key=lambda button: button.name)
 IDLE = (sys.executable, "-c", "input()")  # in place of the compilers, which work for minutes
-MOST_MB, SETTLED = 2.5, 5  # growth; four times as much where there are fewer rounds than SETTLED: rare code still loads
+MOST_MB, SETTLED = 4.0, 5  # growth; thrice as much where there are fewer rounds than SETTLED: rare code still loads
 MOST_CACHED_MB = RESTING / 2**20 + 8.0  # sprites on the title; 8: painted since it has released the others
 
 
@@ -159,7 +159,7 @@ def growth(found: Sequence[Usage]) -> list[str]:
     half = max(1, len(kept) // 2)
     changes = {"open files": kept[-1].files - kept[0].files, "threads": kept[-1].threads - kept[0].threads}
     more_mb = min(one.mb for one in kept[-half:]) - min(one.mb for one in kept[:half])
-    most_mb = MOST_MB if len(found) >= SETTLED else 4 * MOST_MB
+    most_mb = MOST_MB if len(found) >= SETTLED else 3 * MOST_MB
     cached = max(one.cached_mb for one in found)
     return [
         *(f"{more} more {name}" for name, more in changes.items() if more > 0),
