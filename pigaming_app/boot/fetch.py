@@ -26,11 +26,12 @@ DONE, RESTART = "done", "restart"  # RESTART: packages that the arcade has loade
 OFFLINE, FULL, FOREIGN, FAILED = "offline", "full", "foreign", "failed"
 UNITS = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9}
 EVERY = 0.2  # s between two lines
+EXPECTED = 60e6  # bytes of the extra "train": pip announces a large file only once it has fetched the small one before
 LAST = 0.95  # share at which everything is fetched, and still to be unpacked
 
 
 class Progress:
-    """Prints the share that is fetched: bytes in the folder of pip's temporary files, of those announced by pip."""
+    """Prints the share that is fetched: bytes in the folder of pip's temporary files, of all expected."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.announced, self.most, self._over = folder, 0.0, 0.0, Event()
@@ -52,7 +53,7 @@ class Progress:
     def _print(self) -> None:
         while not self._over.wait(EVERY):
             there = sum(_size(Path(place, name)) for place, _, names in os.walk(self.folder) for name in names)
-            share = min(1.0, there / self.announced) if self.announced else 0.0
+            share = min(1.0, there / max(self.announced, EXPECTED))
             self.most = max(self.most, LAST * share)
             say(f"{self.most:.3f}")
 

@@ -17,7 +17,7 @@ import pytest
 
 from main import too_old
 from pigaming_app.boot import environment as install
-from pigaming_app.boot import interpreter, start
+from pigaming_app.boot import fetch, interpreter, start
 
 ROOT = Path(__file__).resolve().parents[2]
 BARE = sys._base_executable
@@ -404,6 +404,18 @@ def test_an_extra_that_cannot_be_fetched_leaves_the_environment_ready(furnished,
     assert fetched(furnished, MOOD=mood) == reason
     assert groups_of(furnished) == {"arcade"}
     assert started(furnished).stdout == f"{furnished / '.venv'}\n"
+
+
+def test_the_bar_is_not_full_after_a_small_file_with_a_large_one_to_come(tmp_path):
+    with fetch.Progress(tmp_path) as progress:
+        for name, size, least, most in (("numba", 3.8, 0.05, 0.07), ("llvmlite", 56.0, 0.94, fetch.LAST)):
+            before = progress.most
+            progress.announce(name, "1.0", f"{size} MB")
+            with (tmp_path / name).open("wb") as file:
+                file.truncate(int(size * 1e6))
+            while progress.most == before:
+                time.sleep(0.01)
+            assert least <= progress.most <= most
 
 
 def test_an_environment_of_somebody_else_is_left_alone(furnished):

@@ -112,7 +112,7 @@ class Seats:
         """The cards, one by one."""
         fixture = self.fixture
         for seat, name in enumerate(fixture.entrants if fixture else ()):
-            if self.fixture is not fixture:
+            if self.fixture != fixture:
                 return  # another match has become the next one
             brain = self.running.brain(name)
             yield partial(view.frame, seat, name, *self._driver(seat, brain), view.AI if brain else view.WANTED)

@@ -139,8 +139,9 @@ class Lab:
             warming(words("lab.warming" if self.kind == TABLE else "lab.preparing")).draw(screen)
 
     def on_leave(self) -> None:
-        """Pause the training when the scene is removed."""
+        """Pause the training when the scene is removed, and release its pictures, 13 MB: the title keeps the Lab."""
         self.trainer.close()
+        self.page = None
 
     # ---- interface for the pages above
 
@@ -297,7 +298,7 @@ class Lab:
             self.page.update(seconds)
         now.matches, now.knowing, now.measures = moment.matches, moment.knowing, trainer.progress.measures
         self._celebrate(trainer.progress)
-        now.kind, now.networks = self.kind, self.network.available
+        now.kind, now.networks = self.kind, self.network.available or self.network.fetchable
         now.speed, now.focus, now.held = trainer.speed, self.focus.name, self.held
         now.values = {name: self._value(name) for name in KNOB_NAMES}
         plan = trainer.progress.plan

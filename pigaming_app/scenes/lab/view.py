@@ -81,7 +81,7 @@ class LabState:
     knowing: float = 0.0  # 0: only explores, 1: only exploits
     values: Mapping[str, int] = field(default_factory=dict)  # knob values
     kind: str = TABLE
-    networks: bool = True  # networks can learn here
+    networks: bool = True  # networks can learn here, perhaps after a fetch
     speed: int = 0  # index into SPEEDS
     focus: str = ""
     held: str = ""  # knob being adjusted

@@ -6,7 +6,7 @@ Colour identifies players (Okabe-Ito, brightened for a projector); everything el
 import math
 import re
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, lru_cache
 from io import BytesIO
 
 import pygame
@@ -38,6 +38,7 @@ _FACES = {
     "hero": "oxanium-latin-800-normal.woff2",
     "body": "lexend-latin-500-normal.woff2",
 }
+MAX_FONTS = 48  # loaded ones; each keeps the glyphs it has rendered, 1 MB at 200 px
 
 
 class _Reading:
@@ -79,9 +80,10 @@ def font(face: str, size: int) -> pygame.font.Font:
     return _loaded(face, size)
 
 
-@cache
+@lru_cache(maxsize=MAX_FONTS)
 def _loaded(face: str, size: int) -> pygame.font.Font:
-    pygame.register_quit(_loaded.cache_clear)  # fonts become invalid in pygame.quit
+    if not _loaded.cache_info().currsize:
+        pygame.register_quit(_loaded.cache_clear)  # fonts become invalid in pygame.quit
     return pygame.font.Font(BytesIO(_file(face)), size)
 
 

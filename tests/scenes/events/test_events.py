@@ -24,6 +24,7 @@ from pigaming_app.scenes.events.podium_page import PodiumPage, robots_of
 from pigaming_app.scenes.events.poster import drawn
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
+from pigaming_app.scenes.events.seats import Seats
 from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import SENTENCE_ROOM, EntrantsPage
@@ -291,6 +292,28 @@ def test_people_take_the_seats_of_their_names_and_the_result_is_on_disk_at_once(
     arcade.wait(1.2)
     arcade.press(Button.FIRE)
     assert arcade.shown(NextMatch).fixture != fixture
+
+
+@pytest.mark.parametrize("then", ["people", "AIs", "nothing"])
+@pytest.mark.parametrize("seats", [2, 4])
+def test_another_match_may_become_the_next_one_while_cards_are_prepared(arcade: Arcade, seats: int, then: str) -> None:
+    for prepared in range(seats + 2):
+        run = running(an_event(seats=seats, count=8), f"{prepared}")
+        page = NextMatch(arcade.context, run)
+        for _ in range(prepared):
+            page.prewarm(0.0)  # one part
+        run.event = played(run.event, 10_000 if then == "nothing" else 1)
+        for name in run.event.open[0].entrants if then == "AIs" else ():
+            run.event = run.event.substitute(name, "level3")
+        assert page.prewarm(10_000.0)
+
+
+def test_cards_are_prepared_to_the_last_although_the_file_is_read_anew(arcade: Arcade) -> None:
+    run = running(an_event(seats=4))
+    jobs = Seats(arcade.context, run).jobs()
+    next(jobs)
+    run.event = saved(run)
+    assert len(list(jobs)) == 3
 
 
 def test_an_ai_that_wins_for_somebody_absent_is_called_one(arcade: Arcade) -> None:

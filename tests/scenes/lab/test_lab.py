@@ -1,5 +1,7 @@
 """The Lab: training, knobs, challenge matches, and training resumed afterwards."""
 
+import gc
+import weakref
 from itertools import combinations
 from pathlib import Path
 
@@ -8,7 +10,7 @@ import pytest
 
 from pigaming_app.ai.qlearning.rewards import RECIPES
 from pigaming_app.scenes.brain.rose import PETALS
-from pigaming_app.scenes.flow.stack import Stack
+from pigaming_app.scenes.flow.stack import Home, Pop, Stack, StackOperation
 from pigaming_app.scenes.lab import progress, scene
 from pigaming_app.scenes.lab import trainer as trainer
 from pigaming_app.scenes.lab import view as page
@@ -73,6 +75,18 @@ def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcad
         arcade.press(Button.BACK)
     assert lab_of(arcade).table.training.match.tick > 0
     assert lab_of(arcade).table.join()
+
+
+@pytest.mark.parametrize("way", [Pop(), Home()], ids=["back", "home"])
+def test_its_pictures_go_when_it_is_left(arcade: Arcade, way: StackOperation) -> None:
+    here = lab(arcade)
+    picture = weakref.ref(here.page)
+    arcade.stack.apply(way)
+    gc.collect()
+    assert picture() is None
+    arcade.open(here)
+    arcade.wait(0.1, draw=True)
+    assert lab(arcade).page
 
 
 def lab_of(arcade: Arcade) -> Lab:

@@ -219,7 +219,7 @@ def test_without_numba_the_switch_fetches_it_and_tells_what_to_do(
     arcade.wait(0.5)
     switch(arcade)
     assert here.kind == TABLE
-    assert not here.shown.networks
+    assert here.shown.networks, "not dimmed: it can be chosen"
     page = arcade.shown(FetchPage)
     until(lambda: page.state == "offline")
     arcade.shown(FetchPage)

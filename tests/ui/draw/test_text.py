@@ -2,6 +2,7 @@
 
 import os
 import sys
+import weakref
 
 import pytest
 
@@ -55,3 +56,8 @@ def test_fonts_of_many_sizes_keep_no_file_open() -> None:
     fonts = [font(face, size) for face in ("head", "hero", "body") for size in range(301, 331)]
     assert len({letters.render("Ag", True, "white").get_size() for letters in fonts}) > 30
     assert len(os.listdir("/proc/self/fd")) == before
+
+
+def test_not_all_fonts_are_kept() -> None:
+    fonts = [weakref.ref(font("body", size)) for size in range(10, 210)]
+    assert 20 < sum(letters() is not None for letters in fonts) < 60

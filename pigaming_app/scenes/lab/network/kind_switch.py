@@ -32,7 +32,9 @@ def kind_at(x: float, words: Words) -> str:
 
 @cached
 def kind_switch(language: str, chosen: str, networks: bool) -> LitImage:
-    """Both kinds, the chosen one lit; top left at (0, 0). `networks`: they can learn here."""
+    """Both kinds, the chosen one lit; top left at (0, 0). `networks`: they can learn here, perhaps after a
+    fetch.
+    """
     words = Words(language)
     w, h = kind_rect(words).size
     layer = Layer(0, 0, w, h)
