@@ -13,8 +13,8 @@ from tests.bench.detection import Sample
 from tests.bench.figures import as_markdown, on_page, pattern, robots, write
 from tests.bench.figures.derived import bundles, where_to_get_it
 from tests.bench.figures.registry import DERIVED, MEASURED
-from tests.bench.figures.seeds import BINS, READINGS, compared, counted
-from tests.bench.reproduce_table import Result, Row
+from tests.bench.figures.seeds import READINGS, compared, counted
+from tests.bench.reproduce_table import BINS, Result, Row
 from tests.pages.commands import PAGES, ROOT
 
 SMALL = 0.01  # share of the work
@@ -53,13 +53,13 @@ def test_a_measured_block_has_the_rows_and_columns_of_its_program(name: str) -> 
 
 
 def test_the_histogram_counts_every_seed_once() -> None:
-    one, two = [0, 0, 1, 20, 100], [21, 55, 99, 80, 41]
-    head, *body = counted(one, two)
+    wins = zip([0, 0, 1, 20, 100], [21, 55, 99, 80, 41], strict=True)
+    found = [Row(0, Result(one, 100 - one, 0), Result(two, 100 - two, 0), Result(0, 100, 0)) for one, two in wins]
+    head, *body = counted(found)
     assert [int(row[1]) for row in body] == [2, 2, 0, 0, 0, 0, 1]
     assert [int(row[3]) for row in body] == [0, 0, 1, 2, 1, 1, 0]
-    assert BINS[0][0] == 0
-    assert BINS[-1][1] == 100
-    assert all(high + 1 == low for (_, high), (low, _) in pairwise(BINS))
+    assert [len(row[2]) for row in body] == [20, 20, 0, 0, 0, 0, 10]
+    assert sorted(wins for low, high in BINS for wins in range(low, high + 1)) == [*range(101)]
     assert outline(on_page(MEASURED["seeds"].page, "seeds")) == outline(as_markdown([head, *body]))
 
 

@@ -1,12 +1,9 @@
 """Tables of networks against others."""
 
-from pathlib import Path
-
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.race.start import VARIANTS
-from pigaming_app.games.registry import games
 from tests.bench import network_football, network_races, network_wins
 from tests.bench.figures.duels import LEAST
 
@@ -15,24 +12,24 @@ EACH = 100  # matches or races of a kind
 
 
 def wins(share: float) -> list[list[str]]:
-    """Fewest wins of the network of PiTanks by rule set and kind of match, of EACH, and the limits that it misses."""
+    """Fewest wins of the network of PiTanks, of EACH, by rule set and kind of match."""
     matches, minutes = (EACH, network_wins.MINUTES) if share == 1.0 else (1, LEAST)
     rivals = network_wins.RIVALS if share == 1.0 else network_wins.RIVALS[:1]
     network, seeds = find_brain("pitanks", "net"), range(10001, 10001 + matches)
-    found = [*network_wins.results(network, seeds, rivals, minutes=minutes)]
-    kinds = {
-        "duels, arenas of the arcade": lambda one: one.arena in arenas("pitanks"),
-        f"duels, {' and '.join(Path(one).stem for one in network_wins.UNSEEN)}": lambda one: (
-            one.arena in network_wins.UNSEEN
-        ),
-        "pairs against `hand3`": lambda one: one.kind == "pairs",
-        "one against three `hand3`": lambda one: one.kind == "four",
-    }
-    rules = [*games()["pitanks"].variants]
-    rows = [["fewest wins", *(f"`{one}`" for one in rules)]]
-    for name, fits in kinds.items():
-        rows.append([name, *(str(min(one.won for one in found if one.variant == r and fits(one))) for r in rules)])
-    return rows
+    fewest: dict[str, dict[str, int]] = {}
+    for one in network_wins.results(network, seeds, rivals, minutes=minutes):
+        row = fewest.setdefault(kind_of(one), {})
+        row[one.variant] = min(one.won, row.get(one.variant, matches))
+    rules = network_wins.VARIANTS
+    rows = [[name, *(str(row[one]) for one in rules)] for name, row in fewest.items()]
+    return [["fewest wins", *(f"`{one}`" for one in rules)], *rows]
+
+
+def kind_of(one: network_wins.Result) -> str:
+    """The row of a result."""
+    if one.kind != "duel":
+        return f"{network_wins.WORDS[one.kind]} `{one.rival}`"
+    return "duels, arenas never seen in training" if one.arena in network_wins.UNSEEN else "duels, arenas of the arcade"
 
 
 def races(share: float) -> list[list[str]]:
@@ -54,10 +51,9 @@ def football(share: float) -> list[list[str]]:
     """Wins of the network of Robot Football against the levels, of all matches on all pitches, and its mean lead."""
     count, minutes = (60, None) if share == 1.0 else (1, LEAST)
     rows = [["wins, mean lead", *(f"`{one}`" for one in LEVELS)]]
-    for title in network_football.SIZES:
-        rows.append([title])
-    for title, _, pitches in network_football.results("net", "standard", range(30001, 30001 + count), minutes):
+    for title, level, pitches in network_football.results("net", "standard", range(30001, 30001 + count), minutes):
         won, lead = sum(one.wins for one in pitches), sum(one.lead for one in pitches) / len(pitches)
-        row = next(one for one in rows if one[0] == title)
-        row.append(f"{won} of {count * len(pitches)}, {lead:+.1f}".replace("-", "−"))
+        if level == LEVELS[0]:
+            rows.append([title])
+        rows[-1].append(f"{won} of {count * len(pitches)}, {lead:+.1f}".replace("-", "−"))
     return rows

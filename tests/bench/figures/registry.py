@@ -18,16 +18,18 @@ MEASURED = {
     "speed": Measured("README.md", f"{MAIN} bench pitanks", speed.table, 3),
     "steps": Measured(OPPONENTS, f"{MAIN} league GAME {FIVE} --variant V", duels.steps, 25),
     "against hand2": Measured(
-        OPPONENTS, f"{MAIN} duel pitanks NAME hand2 --matches 200 [--variant party]", duels.against_hand2, 4
+        OPPONENTS, f"{MAIN} duel pitanks NAME hand2 --matches 200 --variant V", duels.against_hand2, 4
     ),
-    "pairs": Measured(OPPONENTS, f"{MAIN} duel pitanks LEFT RIGHT --matches 400", duels.pairs, 3),
-    "ties": Measured(OPPONENTS, f"{MAIN} duel pitanks LEFT RIGHT --matches 200 --arena islands", duels.ties, 5),
+    "pairs": Measured(OPPONENTS, f"{MAIN} duel pitanks LEFT RIGHT --matches 400 --variant V", duels.pairs, 3),
+    "ties": Measured(
+        OPPONENTS, f"{MAIN} duel pitanks LEFT RIGHT --matches 200 --arena A --variant pickups", duels.ties, 5
+    ),
     "fair tanks": Measured(OPPONENTS, f"{FAIR} pitanks --variant V --brains {LEVEL3}", fairness.pitanks, 5),
     "factory": Measured(OPPONENTS, f"{MAIN} league factory random hand1 hand2 hand3 --matches 40", duels.factory, 2),
     "fair factory": Measured(
-        OPPONENTS, f"{FAIR} factory --variant V --matches 600 --brains {LEVEL3}", fairness.factory, 10
+        OPPONENTS, f"{FAIR} factory --variant V --matches 600 --brains B,B,B,B", fairness.factory, 10
     ),
-    "fair race": Measured(OPPONENTS, f"{FAIR} race --variant V --matches N --brains {LEVEL3}", fairness.race, 5),
+    "fair race": Measured(OPPONENTS, f"{FAIR} race --variant V --matches N --brains B,B,B,B", fairness.race, 5),
     "football": Measured(
         FOOTBALL, f"{MAIN} league football {FIVE} net --variant party --matches 200 --seed 60001", duels.football, 6
     ),
@@ -37,7 +39,7 @@ MEASURED = {
     ),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),
-    "seeds": Measured("docs/qlearning.md", SEEDS, seeds.histogram, 13),
+    "seeds": Measured("docs/qlearning.md", SEEDS, seeds.table, 13),
     "verdict": Measured(THESIS, f"{SEEDS} [--set in_sight=0 --set exposure=0]", seeds.verdict, 13),
     "shipped": Measured(THESIS, SEEDS, seeds.shipped, 1),
     "detection": Measured(HARDWARE, "python3 -X pigaming -m tests.bench.detection", robots.detected, 2),

@@ -12,10 +12,9 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.sim.kernel import can_compile
 from tests.bench import reproduce_table
 from tests.bench.figures.duels import LEAST
-from tests.bench.reproduce_table import MEASURE_SEED, MEASURED, NAMED, PUBLISHED, Result, Row
+from tests.bench.reproduce_table import MEASURE_SEED, MEASURED, NAMED, PUBLISHED, Result, Row, bar, histogram
 
 FIRST, LAST = 25, 224  # of the seeds to which nothing was fitted
-BINS = ((0, 0), (1, 20), (21, 40), (41, 60), (61, 80), (81, 99), (100, 100))  # wins of 100
 READINGS = {"": (), ", thesis's reading": ("in_sight=0", "exposure=0")}  # settings
 
 
@@ -27,25 +26,18 @@ def trained(settings: tuple[str, ...], share: float) -> list[Row]:
     return [*reproduce_table.rows(recipes, seeds, can_compile())]
 
 
-def histogram(share: float) -> list[list[str]]:
+def table(share: float) -> list[list[str]]:
     """Seeds by their wins of 100 matches against `classic`, for each reward."""
-    found = trained((), share)
-    return counted([row.one.wins for row in found], [row.two.wins for row in found])
+    return counted(trained((), share))
 
 
-def counted(one: Sequence[int], two: Sequence[int]) -> list[list[str]]:
+def counted(found: Sequence[Row]) -> list[list[str]]:
     """The table of the wins of both rewards."""
+    one, two = histogram([row.one.wins for row in found]), histogram([row.two.wins for row in found])
     rows = [["wins of 100", "seeds with reward 1", "", "seeds with reward 2", ""]]
-    for low, high in BINS:
-        name = str(low) if low == high else f"{low} to {high}"
-        counts = [sum(low <= wins <= high for wins in column) for column in (one, two)]
-        rows.append([name, *(cell for n in counts for cell in (str(n), bar(n, len(one))))])
+    for name in one:
+        rows.append([name, *(cell for n in (one[name], two[name]) for cell in (str(n), bar(n, len(found))))])
     return rows
-
-
-def bar(count: int, seeds: int) -> str:
-    """A bar with a block for each 2 % of the seeds."""
-    return "█" * round(50 * count / seeds)
 
 
 def verdict(share: float) -> list[list[str]]:
