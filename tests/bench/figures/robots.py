@@ -40,7 +40,7 @@ def proof(share: float) -> list[list[str]]:
     found, rows = measure(), [["", "measured", "limit"]]
     for name, (title, unit, factor) in PROOF.items():
         sign = "≥" if name == "frames_complete" else "≤"
-        value = f"{factor * found[name]:.2f} {unit}" if name in found else "not measured"
+        value = f"{factor * found[name]:.3g} {unit}" if name in found else "not measured"
         rows.append([title, value.strip(), f"{sign} {factor * TARGETS[name]:g} {unit}".strip()])
     return rows
 
