@@ -16,7 +16,12 @@ DERIVED = {
 }
 MEASURED = {
     "speed": Measured("README.md", f"{MAIN} bench pitanks", speed.table, 3),
-    "steps": Measured(OPPONENTS, f"{MAIN} league GAME {FIVE} --variant V", duels.steps, 25),
+    "steps": Measured(
+        OPPONENTS,
+        f"{MAIN} league GAME {FIVE} --variant V --matches {duels.STEPS_MATCHES} --seed {duels.STEPS_SEED}",
+        duels.steps,
+        15,
+    ),
     "against hand2": Measured(
         OPPONENTS, f"{MAIN} duel pitanks NAME hand2 --matches 200 --variant V", duels.against_hand2, 4
     ),
