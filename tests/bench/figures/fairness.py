@@ -11,8 +11,8 @@ from tests.bench.trial import Trial
 Table = Mapping[str, Mapping[str, Any]]
 PITANKS = ("ties", "most hits wins", "overtime", "standing still, median", "camping", "hits a match")
 FOOTBALL = (
-    *("ties", "points, a match", "goals, a match", "decided in overtime", "won without more goals"),
-    *("own goals, of all", "assists, of all goals", "passes, a match", "ball at rest", "drops, a match"),
+    *("ties", "wins of the left", "wins of the right", "points, a match", "goals, a match", "decided in overtime"),
+    *("won without more goals", "own goals, of all", "assists, of all goals", "passes, a match", "ball at rest"),
 )
 FACTORY = ("seconds, mean", "ties", "standing still, median", "stolen, a match")
 LEVELS = ("level1", "level3", "level5")  # of four
