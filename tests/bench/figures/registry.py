@@ -32,7 +32,7 @@ MEASURED = {
     "fair tanks": Measured(OPPONENTS, f"{FAIR} pitanks --variant V --brains {LEVEL3}", fairness.pitanks, 5),
     "factory": Measured(OPPONENTS, f"{MAIN} league factory random hand1 hand2 hand3 --matches 40", duels.factory, 2),
     "fair factory": Measured(
-        OPPONENTS, f"{FAIR} factory --variant V --matches 300 --brains B,B,B,B", fairness.factory, 10
+        OPPONENTS, f"{FAIR} factory --variant V --matches 600 --brains B,B,B,B", fairness.factory, 10
     ),
     "fair race": Measured(OPPONENTS, f"{FAIR} race --variant V --matches N --brains B,B,B,B", fairness.race, 5),
     "football": Measured(
