@@ -38,6 +38,7 @@ PLACEHOLDERS = (
     Placeholder(r"--variant V\b", "--variant party", NAME),
     Placeholder(r"--arena A\b", "--arena islands", NAME),
     Placeholder(r"\bB,B,B,B\b", "level3,level3,level3,level3", NAME),
+    Placeholder(r"--seed S\b", "--seed 1", NAME),
     Placeholder(r"--matches N\b", "--matches 400", NAME),
     Placeholder(r"\bevent run (FILE|(?=--headless))", "event run cup.json ", NAME),
     Placeholder(r"\breplay FILE", "replay match.replay", NAME),

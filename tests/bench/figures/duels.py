@@ -10,11 +10,13 @@ AGAINST_HAND2 = ("q1", "hand3", "q2", "hand2", "fsm", "hand1", "classic")
 PAIRS = (("hand3", "hand2"), ("hand2", "hand1"), ("hand1", "random"))
 RULES = ("pickups", "party")
 STEPS = (
-    ("PiTanks", "pitanks", ("party", "pickups")),
-    ("Robot Factory", "factory", ("standard", "party")),
-    ("Robot Race", "race", ("standard", "party")),
+    ("PiTanks", "pitanks", "pickups", 1000, 92001),
+    ("PiTanks", "pitanks", "party", 1000, 92001),
+    ("Robot Factory", "factory", "standard", 600, 93001),
+    ("Robot Factory", "factory", "party", 600, 93001),
+    ("Robot Race", "race", "standard", 200, 64001),
+    ("Robot Race", "race", "party", 200, 64001),
 )
-STEPS_MATCHES, STEPS_SEED = 400, 92001  # a pair
 LEAST = 0.05  # minutes of a match in a small run
 
 
@@ -60,14 +62,16 @@ def percent(count: int, result: list[str]) -> str:
 
 def steps(share: float) -> list[list[str]]:
     """Rating steps from level to level, and ties of neighbours."""
-    rows = [["", *(f"{low[-1]} to {up[-1]}" for low, up in pairwise(LEVELS)), "ties"]]
-    count, minutes = some(STEPS_MATCHES, share)
-    for title, game, rules in ((title, game, one) for title, game, variants in STEPS for one in variants):
-        found = league(game, LEVELS, count, STEPS_SEED, minutes, variant=rules)
+    rows = [["", "matches a pair", *(f"{low[-1]} to {up[-1]}" for low, up in pairwise(LEVELS)), "ties"]]
+    for title, game, rules, matches, seed in STEPS:
+        count, minutes = some(matches, share)
+        found = league(game, LEVELS, count, seed, minutes, variant=rules)
         rating = {row.brain: row.rating.rating for row in found.standings}
         climb = [f"{rating[up] - rating[low]:.0f}" for low, up in pairwise(LEVELS)]
         level = [d.ties / d.matches for d in found.duels if int(d.right[-1]) - int(d.left[-1]) == 1]
-        rows.append([f"{title}, `{rules}`", *climb, ", ".join(f"{100 * one:.0f}" for one in level) + " %"])
+        rows.append(
+            [f"{title}, `{rules}`", f"{matches:,}", *climb, ", ".join(f"{100 * one:.0f}" for one in level) + " %"]
+        )
     return rows
 
 

@@ -43,7 +43,7 @@ def factory(share: float) -> list[list[str]]:
     rows = [["", *FACTORY, f"wins of Ice: {', '.join(floors)}"]]
     for rules in ("standard", "party"):
         for brain in LEVELS:
-            found = measured("factory", rules, brain, 600, share)["equal teams"]
+            found = measured("factory", rules, brain, 300, share)["equal teams"]
             wins = listed(found[floor]["wins of Ice"] for floor in floors)
             rows.append([f"`{rules}`, `{brain}`", *(cell(name, found["all"][name]) for name in FACTORY), wins])
     return rows

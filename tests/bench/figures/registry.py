@@ -16,12 +16,7 @@ DERIVED = {
 }
 MEASURED = {
     "speed": Measured("README.md", f"{MAIN} bench pitanks", speed.table, 3),
-    "steps": Measured(
-        OPPONENTS,
-        f"{MAIN} league GAME {FIVE} --variant V --matches {duels.STEPS_MATCHES} --seed {duels.STEPS_SEED}",
-        duels.steps,
-        15,
-    ),
+    "steps": Measured(OPPONENTS, f"{MAIN} league GAME {FIVE} --variant V --matches N --seed S", duels.steps, 25),
     "against hand2": Measured(
         OPPONENTS, f"{MAIN} duel pitanks NAME hand2 --matches 200 --variant V", duels.against_hand2, 4
     ),
@@ -32,7 +27,7 @@ MEASURED = {
     "fair tanks": Measured(OPPONENTS, f"{FAIR} pitanks --variant V --brains {LEVEL3}", fairness.pitanks, 5),
     "factory": Measured(OPPONENTS, f"{MAIN} league factory random hand1 hand2 hand3 --matches 40", duels.factory, 2),
     "fair factory": Measured(
-        OPPONENTS, f"{FAIR} factory --variant V --matches 600 --brains B,B,B,B", fairness.factory, 10
+        OPPONENTS, f"{FAIR} factory --variant V --matches 300 --brains B,B,B,B", fairness.factory, 10
     ),
     "fair race": Measured(OPPONENTS, f"{FAIR} race --variant V --matches N --brains B,B,B,B", fairness.race, 5),
     "football": Measured(
