@@ -43,7 +43,7 @@ def factory(share: float) -> list[list[str]]:
     rows = [["", *FACTORY, f"wins of Ice: {', '.join(floors)}"]]
     for rules in ("standard", "party"):
         for brain in LEVELS:
-            found = measured("factory", rules, brain, 300, share)["equal teams"]
+            found = measured("factory", rules, brain, 900, share)["equal teams"]
             wins = listed(found[floor]["wins of Ice"] for floor in floors)
             rows.append([f"`{rules}`, `{brain}`", *(cell(name, found["all"][name]) for name in FACTORY), wins])
     return rows
@@ -68,7 +68,7 @@ def football(share: float) -> list[list[str]]:
     columns = {
         f"`{rules}`, {kind}": found[kind]["all"]
         for rules in ("party", "standard")
-        for found in [measured("football", rules, "level5", 240, share)]
+        for found in [measured("football", rules, "level5", 960, share)]
         for kind in ("two against two", "one against one")
     }
     return [["", *columns], *([name, *(cell(name, found[name]) for found in columns.values())] for name in FOOTBALL)]

@@ -27,7 +27,7 @@ MEASURED = {
     "fair tanks": Measured(OPPONENTS, f"{FAIR} pitanks --variant V --brains {LEVEL3}", fairness.pitanks, 5),
     "factory": Measured(OPPONENTS, f"{MAIN} league factory random hand1 hand2 hand3 --matches 40", duels.factory, 2),
     "fair factory": Measured(
-        OPPONENTS, f"{FAIR} factory --variant V --matches 300 --brains B,B,B,B", fairness.factory, 10
+        OPPONENTS, f"{FAIR} factory --variant V --matches 900 --brains B,B,B,B", fairness.factory, 10
     ),
     "fair race": Measured(OPPONENTS, f"{FAIR} race --variant V --matches N --brains B,B,B,B", fairness.race, 5),
     "football": Measured(
@@ -35,7 +35,7 @@ MEASURED = {
     ),
     "football network": Measured(FOOTBALL, f"{BENCH}network_football net --matches 60", networks.football, 4),
     "fair football": Measured(
-        FOOTBALL, f"{FAIR} football --variant V --matches 240 --brains {LEVEL5}", fairness.football, 4
+        FOOTBALL, f"{FAIR} football --variant V --matches 960 --brains {LEVEL5}", fairness.football, 4
     ),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),
