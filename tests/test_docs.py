@@ -67,8 +67,8 @@ CONSTANTS = {  # by section of docs/games.md, the modules in which its constants
 }
 
 ROOT = Path(__file__).resolve().parent.parent
-GAMES_PAGE, OPPONENTS_PAGE, NETWORKS_PAGE, QLEARNING_PAGE, THESIS_PAGE = (
-    ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "networks", "qlearning", "thesis")
+GAMES_PAGE, OPPONENTS_PAGE, NETWORKS_PAGE, THESIS_PAGE = (
+    ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "networks", "thesis")
 )
 PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
 PAGES += sorted((ROOT / "docs").glob("*.md"))
@@ -270,13 +270,6 @@ def quoted():
 def test_the_page_on_the_thesis_says_of_this_program_what_is_so():
     page = THESIS_PAGE.read_text(encoding="utf-8")
     assert [text for text in quoted() if text not in page] == []
-
-
-def test_the_page_on_the_thesis_has_the_results_of_the_page_on_qlearning():
-    triple = re.compile(r"\d+ / \d+ / \d+")
-    thesis, qlearning = (triple.findall(page.read_text(encoding="utf-8")) for page in (THESIS_PAGE, QLEARNING_PAGE))
-    assert thesis == qlearning
-    assert len(thesis) == 4
 
 
 def tables(page):

@@ -8,6 +8,7 @@ The matches are spread evenly over the arenas; each has its own seed. A robot st
 
 import argparse
 import json
+import re
 import sys
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -23,6 +24,7 @@ MEASURES: Mapping[str, Callable[[Trial], Mapping[str, Any]]] = {
     "race": fairness_race.measure,
     "football": fairness_football.measure,
 }
+MEANS = r"a match|a race|seconds|score|lead"  # in the names of all measures that are no shares
 
 
 def main() -> int:
@@ -67,16 +69,14 @@ def print_table(table: Mapping[str, Mapping[str, float]]) -> None:
     lines = list(next(iter(table.values())))
     print(f"{'':26}" + "".join(f"{name:>12}" for name in table))
     for line in lines:
-        print(f"{line:26}" + "".join(f"{cell(column.get(line)):>12}" for column in table.values()))
+        print(f"{line:26}" + "".join(f"{cell(line, column.get(line)):>12}" for column in table.values()))
 
 
-def cell(value: float | None) -> str:
-    """A number for the table: counts as they are, shares in %, others with one digit."""
-    if value is None:
-        return ""
-    if isinstance(value, int):
-        return str(value)
-    return f"{100 * value:.1f} %" if value <= 1.0 else f"{value:.1f}"
+def cell(name: str, value: float | None) -> str:
+    """The value of a measure for the table: counts as they are, means with one digit, shares in %."""
+    if value is None or isinstance(value, int):
+        return "" if value is None else str(value)
+    return f"{value:.1f}" if re.search(MEANS, name) else f"{100 * value:.1f} %"
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ def company(trial: Trial) -> Mapping[str, Mapping[str, float]]:
     standing, camping, grudges = StandingStill(batch), StandingStill(batch), Grudges(trial.matches)
     present = of_robots(batch, "present") == 1
     for _ in played(trial, batch):
-        standing.sample(batch, live(batch)[:, None] & present & (_tanks(batch, "knocked_out") == 0))
+        standing.sample(batch, live(batch)[:, None] & present & (of_tanks(batch, "knocked_out") == 0))
         camping.sample(batch, unseen(batch, standing.since > 0))
         grudges.sample(batch)
     ends = batch.ended()
@@ -105,7 +105,8 @@ def _compiled_search() -> Any:
     return compiled(search)
 
 
-def _tanks(batch: Any, name: str) -> Any:
+def of_tanks(batch: Any, name: str) -> Any:
+    """A number, or the powers, of every tank, (n, ROBOTS, ...)."""
     if batch.fast:
         return batch.matches["tanks"][name]
     return np.array([[getattr(tank, name) for tank in match.tanks] for match in batch.matches])

@@ -16,13 +16,12 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai.experiments.league import duel, league
-from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.games.pitanks.state import RICOCHET
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.world import ROBOTS
-from tests.bench.fairness_pitanks import unseen
+from tests.bench.fairness_pitanks import of_tanks, unseen
 from tests.bench.trial import StandingStill, Trial, live, of_robots, played
 
 STEP, MOST_TIES, LEAST_WINS = (120.0, 220.0), 0.10, 0.95
@@ -61,13 +60,13 @@ def manners(trial: Trial) -> dict[str, float]:
     shots, blind, fired = np.zeros(trial.matches, int), 0, 0
     hidden = np.zeros(trial.matches, bool)
     for _ in played(trial, batch):
-        free = live(batch)[:, None] & present & (_of_tanks(batch, "knocked_out") == 0)
+        free = live(batch)[:, None] & present & (of_tanks(batch, "knocked_out") == 0)
         standing.sample(batch, free)
         camping.sample(batch, unseen(batch, standing.since > 0))
         before, hidden = hidden, unseen(batch, first)[:, 0]
-        new = np.array(_of_tanks(batch, "shots")[:, 0]) - shots
+        new = np.array(of_tanks(batch, "shots")[:, 0]) - shots
         shots += new
-        bounces = np.array([match["tanks"]["powers"][0, RICOCHET] > 0 for match in batch.matches])
+        bounces = of_tanks(batch, "powers")[:, 0, RICOCHET] > 0
         fired += int(new[~bounces].sum())
         blind += int(new[hidden & before & ~bounces].sum())
     return {
@@ -96,10 +95,6 @@ def misses(table: Mapping[str, Mapping[str, float]]) -> list[str]:
 
 def _neighbours(left: str, right: str, levels: list[str]) -> bool:
     return levels.index(right) - levels.index(left) == 1
-
-
-def _of_tanks(batch: Batch, name: str) -> Any:
-    return batch.matches["tanks"][name]
 
 
 def main() -> int:

@@ -11,10 +11,11 @@ import argparse
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.experiments.cast import Cast
-from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.league import MIN_COMPILED_MATCHES, wilson
 from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, find_brain
 from pigaming_app.games.arenas import arenas
@@ -27,8 +28,26 @@ from pigaming_app.sim.world import HZ
 GAME = "pitanks"
 RIVALS = ("hand1", "hand2", "hand3", "classic", "q1", "q2")
 UNSEEN = tuple(str(path) for path in sorted(Path(__file__).parent.parent.joinpath("data", "arenas").glob("*.toml")))
-DUELS, PAIRS, FOUR = 0.97, 0.95, 0.90  # least shares of wins
+PLACES, VARIANTS = (*arenas(GAME), *UNSEEN), tuple(games()[GAME].variants)
+LEAST = {"duel": 0.97, "pairs": 0.95, "four": 0.90}  # share of wins
+WORDS = {"duel": "duel against", "pairs": "pairs against", "four": "one against three"}
 MINUTES = 2.0
+
+
+class Result(NamedTuple):
+    """Matches of one kind; `arena`: its name or path, "" for all."""
+
+    variant: str
+    kind: str
+    arena: str
+    rival: str
+    won: int
+    matches: int
+
+    @property
+    def reached(self) -> bool:
+        """True if the lower end of the interval reaches the limit."""
+        return wilson(self.won, self.matches)[0] >= LEAST[self.kind]
 
 
 def line_ups(network: BrainKind, rival: BrainKind, kind: str) -> Iterator[tuple[list[BrainKind], tuple[int, ...]]]:
@@ -44,27 +63,62 @@ def line_ups(network: BrainKind, rival: BrainKind, kind: str) -> Iterator[tuple[
             yield [network if k == seat else rival for k in range(4)], (0, 1, 2, 3)
 
 
-def wins(network: BrainKind, rival: BrainKind, kind: str, setups: Sequence[tuple[str, str, int]], cast: Cast) -> int:
+def wins(
+    network: BrainKind,
+    rival: BrainKind,
+    kind: str,
+    setups: Sequence[tuple[str, str, int]],
+    cast: Cast,
+    minutes: float = MINUTES,
+) -> int:
     """Matches won by the network. `setups`: arena, variant and seed of each."""
     ways, won = [*line_ups(network, rival, kind)], 0
     for way, (brains, teams) in enumerate(ways):
         seats = [Seat("ai" if seat < len(brains) else "off", teams[seat]) for seat in range(4)]
         one, two, three, four = seats
         mine = [
-            Setup(GAME, arena, (one, two, three, four), MINUTES, seed, variant)
+            Setup(GAME, arena, (one, two, three, four), minutes, seed, variant)
             for arena, variant, seed in setups[way :: len(ways)]
         ]
         if not mine:
             continue
         batch = Batch(mine, brains, cast.fast, cast)
         overtime = max(variant.overtime for variant in games()[GAME].variants.values())
-        batch.play(round((MINUTES * 60 + overtime) * HZ))
+        batch.play(round((minutes * 60 + overtime) * HZ))
         own = {seat for seat, brain in enumerate(brains) if brain is network}
         won += sum(
             bool(winners) and {*winners} <= own
             for winners in (standings(games()[GAME], end)[1] for end in batch.ended())
         )
     return won
+
+
+def results(
+    network: BrainKind,
+    seeds: range,
+    rivals: Sequence[str] = RIVALS,
+    places: Sequence[str] = PLACES,
+    variants: Sequence[str] = VARIANTS,
+    minutes: float = MINUTES,
+) -> Iterator[Result]:
+    """Every result, by rule set, kind of match, arena and rival."""
+    known = BRAINS[GAME]
+    cells = [(v, kind, place, rival) for v in variants for kind, place, rival in meetings(rivals, places)]
+    ticks = len(cells) * len(seeds) * minutes * 60 * HZ
+    kinds = [network, *(known[name] for name in (*rivals, "hand3", "idle"))]
+    cast = Cast(kinds, can_compile() and ticks > MIN_COMPILED_MATCHES)
+    for variant, kind, place, rival in cells:
+        mixed = [place] if place else places
+        setups = [(mixed[i % len(mixed)], variant, seed) for i, seed in enumerate(seeds)]
+        won = wins(network, known[rival], kind, setups, cast, minutes)
+        yield Result(variant, kind, place, rival, won, len(setups))
+
+
+def meetings(rivals: Sequence[str], places: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+    """Kind of match, arena and rival; "" for all arenas."""
+    yield from (("duel", place, rival) for place in places for rival in rivals)
+    yield "pairs", "", "hand3"
+    yield "four", "", "hand3"
 
 
 def main() -> int:
@@ -74,31 +128,19 @@ def main() -> int:
     parser.add_argument("--matches", type=int, default=400)
     parser.add_argument("--seed", type=int, default=10001)
     parser.add_argument("--rivals", default=",".join(RIVALS))
-    parser.add_argument("--arenas", default=",".join((*arenas(GAME), *UNSEEN)))
-    parser.add_argument("--variants", default=",".join(games()[GAME].variants))
+    parser.add_argument("--arenas", default=",".join(PLACES))
+    parser.add_argument("--variants", default=",".join(VARIANTS))
     words = parser.parse_args()
-    network = find_brain(GAME, words.brain)
-    rivals, places, variants = words.rivals.split(","), words.arenas.split(","), words.variants.split(",")
-    known = BRAINS[GAME]
-    cast = Cast([network, *(known[name] for name in (*rivals, "hand3", "idle"))], can_compile())
-    seeds, missed = range(words.seed, words.seed + words.matches), 0
-
-    def report(title: str, kind: str, rival: str, chosen: list[tuple[str, str, int]], least: float) -> int:
-        won = wins(network, known[rival], kind, chosen, cast)
-        low, high = wilson(won, len(chosen))
-        sign = "" if low >= least else "  < " + f"{100 * least:.0f} %"
-        print(f"{title:58}{won:4} of {len(chosen)}  {100 * low:5.1f} to {100 * high:5.1f} %{sign}", flush=True)
-        return low < least
-
-    for variant in variants:
-        for arena in places:
-            for rival in rivals:
-                chosen = [(arena, variant, seed) for seed in seeds]
-                missed += report(f"{variant:10}{Path(arena).stem:12}duel against {rival}", "duel", rival, chosen, DUELS)
-        mixed = [(places[i % len(places)], variant, seed) for i, seed in enumerate(seeds)]
-        missed += report(f"{variant:10}all arenas  pairs against hand3", "pairs", "hand3", mixed, PAIRS)
-        missed += report(f"{variant:10}all arenas  one against three hand3", "four", "hand3", mixed, FOUR)
-    print(f"{missed} of {len(variants) * (len(places) * len(rivals) + 2)} limits missed")
+    names = (text.split(",") for text in (words.rivals, words.arenas, words.variants))
+    seeds, found = range(words.seed, words.seed + words.matches), list[Result]()
+    for one in results(find_brain(GAME, words.brain), seeds, *names):
+        found.append(one)
+        low, high = wilson(one.won, one.matches)
+        title = f"{one.variant:10}{Path(one.arena).stem or 'all arenas':12}{WORDS[one.kind]} {one.rival}"
+        sign = "" if one.reached else f"  < {100 * LEAST[one.kind]:.0f} %"
+        print(f"{title:58}{one.won:4} of {one.matches}  {100 * low:5.1f} to {100 * high:5.1f} %{sign}", flush=True)
+    missed = sum(not one.reached for one in found)
+    print(f"{missed} of {len(found)} limits missed")
     return 1 if missed else 0
 
 

@@ -5,9 +5,9 @@
 
 For each seed it trains one robot per reward in 200 matches of two minutes. It plays 100 matches of two minutes of each
 against the frozen FSM `classic`, and 100 of the first against the second, sides swapped, without the unstick reflex of
-seated robots. It prints every seed; for each reward the median, the percentile of the published wins among the seeds,
-and the shares of seeds that never win and that lie inside Wilson's 95 % intervals of the published result; the seeds
-with which reward 1 does better than reward 2; and the same matches of the two robots that ship with the arcade.
+seated robots. It prints every seed; for each reward a histogram of the wins, the percentile of the published wins
+among the seeds, and the shares of seeds that never win and that lie inside Wilson's 95 % intervals of the published
+result; the seeds with which reward 1 does better than reward 2; and the same matches of the two robots that ship.
 
 Seeds 1 to 24 are not among the preset ones: the unknown numbers of `classic` were fitted to the first of them. `--set`
 changes both recipes, for another reading of the paper; the shipped robots are then left out. `--ship` trains, writes
@@ -20,7 +20,6 @@ import json
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
-from statistics import median
 from typing import Any, NamedTuple
 
 from pigaming_app import ASSETS
@@ -35,6 +34,7 @@ from pigaming_app.sim.world import HZ
 
 NAMED = {1: 158, 2: 5}  # the seeds of the shipped tables
 MATCHES, MEASURED, MEASURE_SEED = 200, 100, 1000
+BINS = ((0, 0), (1, 20), (21, 40), (41, 60), (61, 80), (81, 99), (100, 100))  # wins of MEASURED
 
 
 class Result(NamedTuple):
@@ -61,7 +61,7 @@ class Row(NamedTuple):
 class Summary:
     """The seeds of one reward beside the published result; shares from 0 to 1."""
 
-    median: Result
+    histogram: dict[str, int]  # seeds by their wins
     percentile: float  # of the published wins: share of seeds with fewer wins, those with as many counted half
     never: float  # share of seeds without a win
     never_95: tuple[float, float]  # its Wilson interval
@@ -81,7 +81,7 @@ def summary(reward: int, found: Sequence[Result]) -> Summary:
     fewer, same = sum(one.wins < published for one in found), sum(one.wins == published for one in found)
     never = sum(one.wins == 0 for one in found)
     return Summary(
-        middle(found),
+        histogram([one.wins for one in found]),
         (fewer + same / 2) / len(found),
         never / len(found),
         wilson(never, len(found)),
@@ -89,9 +89,16 @@ def summary(reward: int, found: Sequence[Result]) -> Summary:
     )
 
 
-def middle(found: Sequence[Result]) -> Result:
-    """Medians of wins, of ties and of losses."""
-    return Result(*(round(median(column)) for column in zip(*found, strict=True)))
+def histogram(found: Sequence[int]) -> dict[str, int]:
+    """Number of seeds whose wins lie in each of BINS. A median would mislead: most win hardly ever or nearly always."""
+    names = (str(low) if low == high else f"{low} to {high}" for low, high in BINS)
+    counts = (sum(low <= wins <= high for wins in found) for low, high in BINS)
+    return dict(zip(names, counts, strict=True))
+
+
+def bar(count: int, seeds: int) -> str:
+    """A bar with a block for each 2 % of the seeds."""
+    return "█" * round(50 * count / seeds)
 
 
 def trained(recipe: Recipe, seed: int, fast: bool) -> Training:
@@ -139,9 +146,7 @@ def print_head() -> None:
 
 
 def print_summary(found: Sequence[Row], summaries: dict[int, Summary]) -> None:
-    """Print the medians and the shares of seeds."""
-    medians = summaries[1].median, summaries[2].median, middle([one.duel for one in found])
-    print_row("median", Row(0, *medians))
+    """Print the histograms and the shares of seeds."""
     for reward, one in summaries.items():
         low, high = one.never_95
         print(
@@ -149,6 +154,8 @@ def print_summary(found: Sequence[Row], summaries: dict[int, Summary]) -> None:
             f"of {len(found)} seeds; {100 * one.never:.1f} % of them never win (95 %: {100 * low:.1f} to "
             f"{100 * high:.1f}); {100 * one.reproduced:.1f} % are as published"
         )
+        for wins, count in one.histogram.items():
+            print(f"{wins:>14} wins: {count:3} {bar(count, len(found))}".rstrip())
     for name, count in verdict(found).items():
         print(
             f"\nreward 1 against reward 2, {name}: " + ", ".join(f"{word} in {n}" for word, n in count.items()), end=""

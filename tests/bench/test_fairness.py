@@ -96,6 +96,13 @@ def test_the_command_prints_every_measure(monkeypatch, capsys, form):
         assert printed.count("most hits wins") == 2
 
 
+def test_means_are_numbers_and_shares_are_percentages():
+    assert fairness.cell("drops, a match", 0.03) == "0.0"
+    assert fairness.cell("lead changes a race", 0.75) == "0.8"
+    assert fairness.cell("ties", 0.03) == "3.0 %"
+    assert (fairness.cell("matches", 3), fairness.cell("revenge", None)) == ("3", "")
+
+
 def test_an_unknown_brain_is_named(monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["fairness", "pitanks", "--brains", "nobody,idle"])
     assert fairness.main() == 2

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.experiments.league import MIN_COMPILED_MATCHES
+from pigaming_app.ai.experiments.rollout import Batch, longest
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Setup, Variant
@@ -51,12 +52,18 @@ class Trial:
         ]
 
     def batch(self) -> Batch:
-        """All matches before their first tick, compiled if numba is installed. Raises ChoiceError."""
-        return Batch(self.setups, [BRAINS[self.game].get(brain) for brain in self.brains], can_compile())
+        """All matches before their first tick. Raises ChoiceError."""
+        setups = self.setups
+        return Batch(setups, [BRAINS[self.game].get(brain) for brain in self.brains], is_compiled(setups))
 
     def of(self, *brains: str) -> "Trial":
         """The same trial with other robots."""
         return replace(self, brains=brains)
+
+
+def is_compiled(setups: Sequence[Setup]) -> bool:
+    """True if numba is installed and there are enough ticks to repay compiling."""
+    return can_compile() and sum(map(longest, setups)) > MIN_COMPILED_MATCHES
 
 
 def played(trial: Trial, batch: Batch) -> Iterator[None]:

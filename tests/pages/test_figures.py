@@ -1,30 +1,34 @@
 """Blocks that a program writes: derived ones are those of the code, and measured ones have its rows and columns."""
 
 import re
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 
 from pigaming_app import links
-from tests.bench.figures import as_markdown, on_page, pattern, write
+from pigaming_app.games.registry import games
+from pigaming_app.jobs.bench.robots import TARGETS
+from tests.bench.detection import Sample
+from tests.bench.figures import as_markdown, on_page, pattern, robots, write
 from tests.bench.figures.derived import bundles, where_to_get_it
 from tests.bench.figures.registry import DERIVED, MEASURED
-from tests.bench.figures.seeds import BINS, counted
+from tests.bench.figures.seeds import READINGS, compared, counted
+from tests.bench.reproduce_table import BINS, Result, Row
 from tests.pages.commands import PAGES, ROOT
 
 SMALL = 0.01  # share of the work
-BY_HAND = {  # tables that their bench prints in another form, by their page and the beginning of their head
-    "football.md": ("| against | `level1`", "| `level5` | `standard`"),
-    "hardware.md": ("| | measured | target |", "| after | 1 s", "| | 1080p from above"),
-    "networks.md": (
-        "| fewest wins of 400",
-        "| Race, `network_races",
-        "| | `party` | `classic`",
-        "| trained | rival wins |",
-    ),
-    "opponents.md": ("| | four, `pickups`", "| | seconds |", "| | classic | hairpin", "| four pallets, two robots"),
-    "qlearning.md": ("| wins / ties / losses",),
-}
+TRAINING = ("seeds", "verdict")  # their rows are those of robots that train for seconds
+
+
+@pytest.fixture
+def _small(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No overtime; and given results in place of proofs and pictures that take minutes."""
+    for game in games().values():
+        for name, variant in game.variants.items():
+            monkeypatch.setitem(game.variants, name, replace(variant, overtime=0.0))
+    monkeypatch.setattr(robots, "measure", lambda: dict(TARGETS))
+    monkeypatch.setattr(robots, "found", lambda *look: [Sample(16, 23.0, 1.4, 1 / 60, True)])
 
 
 @pytest.mark.parametrize("name", DERIVED)
@@ -41,21 +45,37 @@ def test_a_measured_block_names_a_version_and_its_command(name: str) -> None:
     assert re.fullmatch(rf"Version \d+\.\d+\.\d+( to \d+\.\d+\.\d+)?, `{re.escape(block.command)}`:", first)
 
 
-@pytest.mark.parametrize("name", [name for name in MEASURED if name != "seeds"])
+@pytest.mark.usefixtures("_small")
+@pytest.mark.parametrize("name", [name for name in MEASURED if name not in TRAINING])
 def test_a_measured_block_has_the_rows_and_columns_of_its_program(name: str) -> None:
     block = MEASURED[name]
     assert outline(on_page(block.page, name)) == outline(as_markdown(block.table(SMALL)))
 
 
 def test_the_histogram_counts_every_seed_once() -> None:
-    one, two = [0, 0, 1, 20, 100], [21, 55, 99, 80, 41]
-    head, *body = counted(one, two)
+    wins = zip([0, 0, 1, 20, 100], [21, 55, 99, 80, 41], strict=True)
+    found = [Row(0, Result(one, 100 - one, 0), Result(two, 100 - two, 0), Result(0, 100, 0)) for one, two in wins]
+    head, *body = counted(found)
     assert [int(row[1]) for row in body] == [2, 2, 0, 0, 0, 0, 1]
     assert [int(row[3]) for row in body] == [0, 0, 1, 2, 1, 1, 0]
-    assert BINS[0][0] == 0
-    assert BINS[-1][1] == 100
-    assert all(high + 1 == low for (_, high), (low, _) in pairwise(BINS))
+    assert [len(row[2]) for row in body] == [20, 20, 0, 0, 0, 0, 10]
+    assert sorted(wins for low, high in BINS for wins in range(low, high + 1)) == [*range(101)]
     assert outline(on_page(MEASURED["seeds"].page, "seeds")) == outline(as_markdown([head, *body]))
+
+
+def test_the_verdict_counts_seeds_of_either_reward() -> None:
+    """Of four seeds of reward 1 one has fewer wins than published, and one as many."""
+    wins = ((0, 94), (32, 0), (40, 100), (50, 50))
+    found = [Row(0, Result(one, 100 - one, 0), Result(two, 100 - two, 0), Result(60, 0, 40)) for one, two in wins]
+    table = compared(dict.fromkeys(READINGS, found))
+    cells = {row[0]: row[1:] for row in table}
+    assert cells["win fewer matches than published"][:2] == ["37.5 %", "62.5 %"]
+    assert cells["never win a match"][0].startswith("25.0 %")
+    assert cells["tie all matches"][:2] == ["25.0 %", "25.0 %"]
+    assert cells["lie inside every published interval"][:2] == ["50.0 %", "25.0 %"]
+    assert cells["win more against `classic` than the other reward"][:2] == ["25.0 %", "50.0 %"]
+    assert cells["beat the other reward head to head"][:2] == ["100.0 %", "0.0 %"]
+    assert outline(on_page(MEASURED["verdict"].page, "verdict")) == outline(as_markdown(table))
 
 
 def outline(text: str) -> tuple[list[str], list[str], set[int]]:
@@ -84,11 +104,7 @@ def test_a_table_below_a_command_that_measures_is_a_block() -> None:
         for name in re.findall(r"^<!-- (?!end)(.*?) -->$", text, re.M):
             text = pattern(name).sub("", text, count=1)
         for before, table in pairwise(text.split("\n\n")):
-            if (
-                table.startswith("|")
-                and not before.startswith("    ")
-                and not table.startswith(BY_HAND.get(page.name, ()))
-            ):
+            if table.startswith("|") and not before.startswith("    "):
                 assert not measures.search(before), f"{page.name}: {table.splitlines()[0]}"
 
 

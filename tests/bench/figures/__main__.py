@@ -1,4 +1,4 @@
-"""Prints the blocks of the pages, or writes them: all of them take about an hour on two idle cores."""
+"""Prints the blocks of the pages, or writes them: all of them take about two hours on two idle cores."""
 
 import argparse
 import sys

@@ -12,6 +12,7 @@ from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.i18n import Words
 from tests.bench.figures import as_markdown
+from tests.bench.makespan_bound import bound
 
 
 def where_to_get_it() -> str:
@@ -32,6 +33,13 @@ def bundles() -> str:
     if not links.DOWNLOAD:
         return ""
     return f"[All of them]({links.DOWNLOAD}) are on one page, with `SHA256SUMS` to check them by."
+
+
+def makespan_bound() -> str:
+    """Proven bounds of two robots in Robot Factory."""
+    floors = arenas("factory")
+    bounds = (f"{bound(floor, 2, 4):.1f} s" for floor in floors)
+    return as_markdown([["four pallets, two robots", *floors], ["proven bound", *bounds]])
 
 
 def games_in_numbers() -> str:

@@ -25,9 +25,7 @@ def some(matches: int, share: float) -> tuple[int, float | None]:
     return (matches, None) if share == 1.0 else (2, LEAST)
 
 
-def result(
-    left: str, right: str, matches: int, share: float, arena: str | None = None, rules: str | None = None
-) -> str:
+def result(left: str, right: str, matches: int, share: float, rules: str, arena: str | None = None) -> str:
     """Wins, ties and losses of `left` in PiTanks."""
     count, minutes = some(matches, share)
     met = duel("pitanks", left, right, count, 1, minutes, arena, rules)
@@ -37,13 +35,13 @@ def result(
 def against_hand2(share: float) -> list[list[str]]:
     """Every machine and table of PiTanks against `hand2`."""
     head = ["against `hand2`", *(f"`{rules}`" for rules in RULES)]
-    return [head, *([f"`{one}`", *(result(one, "hand2", 200, share, rules=r) for r in RULES)] for one in AGAINST_HAND2)]
+    return [head, *([f"`{one}`", *(result(one, "hand2", 200, share, r) for r in RULES)] for one in AGAINST_HAND2)]
 
 
 def pairs(share: float) -> list[list[str]]:
     """Machines of PiTanks against the next weaker."""
     head = ["", *(f"`{rules}`" for rules in RULES)]
-    return [head, *([f"`{a}` – `{b}`", *(result(a, b, 400, share, rules=r) for r in RULES)] for a, b in PAIRS)]
+    return [head, *([f"`{a}` – `{b}`", *(result(a, b, 400, share, r) for r in RULES)] for a, b in PAIRS)]
 
 
 def ties(share: float) -> list[list[str]]:
@@ -51,9 +49,9 @@ def ties(share: float) -> list[list[str]]:
     places = arenas("pitanks")
     rows = [["", *places]]
     for brain in ("hand1", "hand2", "hand3"):
-        found = [result(brain, brain, 200, share, arena).split("/") for arena in places]
+        found = [result(brain, brain, 200, share, "pickups", arena).split("/") for arena in places]
         rows.append([f"`{brain}` – `{brain}`, ties", *(percent(int(one[1]), one) for one in found)])
-    found = [result("hand1", "random", 200, share, arena).split("/") for arena in places]
+    found = [result("hand1", "random", 200, share, "pickups", arena).split("/") for arena in places]
     return [*rows, ["`hand1` – `random`, wins", *(percent(int(one[0]), one) for one in found)]]
 
 
@@ -64,7 +62,7 @@ def percent(count: int, result: list[str]) -> str:
 
 def steps(share: float) -> list[list[str]]:
     """Rating steps from level to level, and ties of neighbours."""
-    rows = [["", "matches a pair", "1 to 2", "2 to 3", "3 to 4", "4 to 5", "ties"]]
+    rows = [["", "matches a pair", *(f"{low[-1]} to {up[-1]}" for low, up in pairwise(LEVELS)), "ties"]]
     for title, game, rules, matches, seed in STEPS:
         count, minutes = some(matches, share)
         found = league(game, LEVELS, count, seed, minutes, variant=rules)
