@@ -36,7 +36,7 @@ JOBS = {  # modules of `jobs`
     "doctor": "check of the installation, with advice",
     "test": "linter, types and tests",
 }
-OF_MAT = {job: f"mat.{job}" for job in ("calibrate", "robots", "ros", "fidelity")}
+OF_MAT = ("calibrate", "robots", "ros", "fidelity")  # jobs of the operator, whose refusals are also written to the log
 LISTING = "\n".join(["jobs:", *(f"  {job:17} {text}" for job, text in JOBS.items())])
 BLAS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")  # threads of NumPy's matrix products
 
@@ -100,15 +100,20 @@ def _refused_in_one_line(words: list[str]) -> int:
             raise
         return 1
     console.print_error(line)
-    if name in OF_MAT:  # for the operator, who reads the log
+    if name in OF_MAT:
         files.log(line)
     return 2
+
+
+def module_name(job: str) -> str:
+    """The module of a job in `jobs`."""
+    return f"{'mat.' if job in OF_MAT else ''}{job.replace('-', '_')}"
 
 
 def _run(name: str, words: list[str]) -> int:
     if name not in JOBS:
         raise Refusal(f"no job '{name}'; there are {', '.join(JOBS)}")
-    job = module_of(OF_MAT.get(name) or name.replace("-", "_"))
+    job = module_of(module_name(name))
     parser = Parser(
         prog=PROGRAM if name == "arcade" else f"{PROGRAM} {name}",
         description=textwrap.fill((job.__doc__ or "").partition("\n\n")[0], 80),

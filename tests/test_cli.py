@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.cli import JOBS, main
+from pigaming_app.cli import JOBS, main, module_name
 from pigaming_app.jobs.terminal import refusal
 from pigaming_app.storage.settings import Settings, folders
 
@@ -174,9 +174,11 @@ def test_every_job_describes_its_options_without_numpy():
     told = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert told.count("usage: ") == len(JOBS)
     assert "--game" not in told
-    for path in (ROOT / "pigaming_app" / "jobs").glob("[a-z]*"):
+    folder = ROOT / "pigaming_app" / "jobs"
+    for path in (*folder.glob("[a-z]*"), *(folder / "mat").glob("[a-z]*")):
         declares = (path / "__init__.py" if path.is_dir() else path).read_text(encoding="utf-8").count("\ndef options(")
-        assert declares == (path.stem.replace("_", "-") in JOBS), path.name
+        module = ".".join(path.relative_to(folder).with_suffix("").parts)
+        assert declares == (module in map(module_name, JOBS)), path.name
 
 
 @pytest.mark.parametrize(

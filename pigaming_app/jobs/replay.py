@@ -7,7 +7,6 @@ from pigaming_app.games.replay import ReplayError
 from pigaming_app.jobs.arcade import show
 from pigaming_app.jobs.terminal.options import path
 from pigaming_app.jobs.terminal.refusal import refused
-from pigaming_app.scenes.features.replays import verify
 from pigaming_app.scenes.files import load_replay
 
 
@@ -24,6 +23,8 @@ def run(arguments: Namespace) -> int:
             name = arguments.file.name
             print(f"{name}: recorded with another version of the engine; it may play out differently", file=sys.stderr)
         if arguments.verify:
+            from pigaming_app.scenes.features.replays import verify
+
             same = verify(replay)
             print(f"{arguments.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
             return 0 if same else 1

@@ -11,7 +11,6 @@ from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.qlearning.table_files import TableError, Trained
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import Replay, ReplayError
-from pigaming_app.scenes.features import replays
 from pigaming_app.storage.parsing import describe_error, read
 from pigaming_app.storage.safe_files import write_atomic
 
@@ -20,6 +19,8 @@ T = TypeVar("T")
 
 def save_replay(match: Match, path: Path) -> None:
     """Write the replay of a match up to now, atomically. Raises NotSaved, and ValueError if there can be none."""
+    from pigaming_app.scenes.features import replays  # late: jobs describe their options without pygame
+
     replay = replays.replay_of(match)
     if replay is None:
         raise ValueError("a match of measured robots cannot be played again")
@@ -28,6 +29,8 @@ def save_replay(match: Match, path: Path) -> None:
 
 def load_replay(path: Path) -> Replay:
     """Read and check a replay. Raises ReplayError, whose text begins with the file name."""
+    from pigaming_app.scenes.features import replays  # late, as above
+
     return _load(path, replays.MAX_BYTES, replays.decode, ReplayError)
 
 

@@ -11,6 +11,7 @@ from pigaming_app.ai.registry import make_person, new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
@@ -32,8 +33,8 @@ def arcade(controls: Controls) -> Arcade:
 
 
 def watch_of(arcade: Arcade, folder: Path) -> Watch:
-    desk = SimpleNamespace(limit=SimpleNamespace(farewell=None))
-    return Watch(SimpleNamespace(stack=arcade.stack, desk=desk), DAY, ledger.LedgerFile(folder / "ledger"), 1)
+    desk = OperatorDesk(arcade.context, None, True)
+    return Watch(SimpleNamespace(stack=arcade.stack, services=[desk]), DAY, ledger.LedgerFile(folder / "ledger"), 1)
 
 
 def test_a_match_of_an_event_is_noted_with_its_number_and_scores(arcade: Arcade, tmp_path: Path) -> None:

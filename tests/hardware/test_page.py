@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.cli import JOBS, Parser
+from pigaming_app.cli import JOBS, Parser, module_name
 from pigaming_app.hardware.emulator.faults import FAULTS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -37,7 +37,7 @@ def test_a_command_is_understood(command: str) -> None:
     name, rest = ("arcade", words) if not words or words[0].startswith("-") else (words[0], words[1:])
     assert name in JOBS
     parser = Parser(allow_abbrev=False)
-    import_module(f"pigaming_app.jobs.{name.replace('-', '_')}").options(parser)
+    import_module(f"pigaming_app.jobs.{module_name(name)}").options(parser)
     parser.parse_args(rest)
 
 

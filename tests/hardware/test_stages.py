@@ -5,7 +5,7 @@ from graphlib import TopologicalSorter
 from tests.test_layers import PACKAGE, imported
 
 HARDWARE = PACKAGE / "hardware"
-ROOT = {"messages", "recordings", "robot_files", "robot_kinds", "run_writer", "signals", "worker"}
+ROOT = {"recordings", "robot_files", "robot_kinds", "run_writer", "signals", "worker"}
 MAY = {
     "radio": set(),
     "vision": set(),

@@ -8,8 +8,8 @@ import pytest
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.howto import scene as howto
+from pigaming_app.scenes.howto.feature import show
 from pigaming_app.scenes.howto.scene import HowTo, taught
-from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.draw import TITLE, button_width, text_width
@@ -46,9 +46,8 @@ def test_a_game_without_lessons_has_no_page(arcade: Arcade, monkeypatch: pytest.
     scene.draw(arcade.screen)
     scene.handle(InputEvent(Button.LEFT, KEYS[0]))
     assert scene.game == "race"
-    show = Attract(arcade.context)
-    assert show._howto("football") is None
-    assert show._howto("race")
+    assert show(arcade.context, "football") is None
+    assert show(arcade.context, "race")
 
 
 @pytest.mark.parametrize("wide", [0, 420])
