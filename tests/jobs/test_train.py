@@ -140,10 +140,10 @@ def test_a_curve_without_matplotlib_is_refused_before_the_training(tmp_path, cap
 def test_ctrl_c_keeps_what_has_been_learned(tmp_path):
     out = tmp_path / "a.npz"
     job = [sys.executable, "main.py", "train", "qlearning", "--plain", "--minutes", "0.1", "--out", str(out)]
-    running = subprocess.Popen([*job, "--matches", "40"], cwd=ROOT, stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+    running = subprocess.Popen([*job, "--matches", "400"], cwd=ROOT, stderr=subprocess.PIPE, stdout=subprocess.PIPE)
     assert running.stderr is not None
     assert b"Ctrl-C" in running.stderr.readline()
-    assert b"/40 matches" in running.stderr.readline()
+    assert b"/400 matches" in running.stderr.readline()
     running.send_signal(signal.SIGINT)
     _, errors = running.communicate(timeout=60)
     assert running.returncode == 130

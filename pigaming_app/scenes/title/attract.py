@@ -1,4 +1,4 @@
-"""Attract mode: for each game in turn an AI match, a highlight, the high scores, and what features show.
+"""Attract mode: for each game in turn an AI match, a highlight, what features show, and the high scores.
 
 Any input only ends it.
 """
@@ -50,7 +50,7 @@ class Attract:
         self.shows = (
             partial(make, game)
             for game in cycle(names[first:] + names[:first])
-            for make in (self._match, self._highlight, self._best, *self._of_features())
+            for make in (self._match, self._highlight, *self._of_features(), self._best)
         )
         self.show: Scene | None = None
         self.clip: Clip | None = None  # the next highlight

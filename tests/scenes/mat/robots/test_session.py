@@ -87,7 +87,7 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
 
     code = run(Options(first_scene=first, without_title=alone, headless=True, step=0.02, frames=400, emulator_seed=2))
     assert code == int(alone)
-    mat = contexts[0].session
+    mat = session_of(contexts[0])
     assert isinstance(mat, EmulatedSession)
     mat.arena.advance(0.1)
     assert not any(robot.left or robot.right for robot in mat.arena.robots)
