@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pigaming_app.games import simple
 from pigaming_app.sim.record import record
-from pigaming_app.sim.world import HEIGHT, HZ, ROBOTS, World
+from pigaming_app.sim.world import HEIGHT, HZ, ROBOTS
 
 LEFT, RIGHT = 0, 1  # sides, which are also the numbers of the teams that defend them
 MIDDLE = HEIGHT / 2  # px, height of both goals' centres
@@ -89,7 +89,7 @@ class Footballer:
 
 
 @record
-class Football(World):
+class Football(simple.SimpleMatch):
     """The complete state of a match of Robot Football."""
 
     rules: Rules

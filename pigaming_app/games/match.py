@@ -10,7 +10,7 @@ from typing import Any, Protocol
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Game, Outcome, Row, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.games.simple import team_points
+from pigaming_app.games.simple import MatchState, team_points
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
@@ -20,14 +20,14 @@ from pigaming_app.sim.world import DT, ROBOTS, Action
 class Brain(Protocol):
     """The player on a seat, human or AI."""
 
-    def think(self, state: Any, seat: int) -> None:
+    def think(self, state: MatchState, seat: int) -> None:
         """Set `state.actions[seat]` for this tick."""
 
 
 class IdlePlayer:
     """A player that never moves; also the player of an empty seat."""
 
-    def think(self, state: Any, seat: int) -> None:
+    def think(self, state: MatchState, seat: int) -> None:
         set_action(state.actions[seat], 0.0, 0.0, 0, 0)
 
 
@@ -112,7 +112,7 @@ class Match:
         return Outcome(rows, winners, tuple(tuple(line) for line in self.series), state.tick * DT)
 
 
-def standings(game: Game, state: Any) -> tuple[dict[int, float], tuple[int, ...]]:
+def standings(game: Game, state: MatchState) -> tuple[dict[int, float], tuple[int, ...]]:
     """Ranking key of each robot that plays, by seat, and all seats of the winning team; none: a tie.
 
     A team without opponents wins if its ranking key is above 0.
@@ -125,7 +125,7 @@ def standings(game: Game, state: Any) -> tuple[dict[int, float], tuple[int, ...]
     return keys, leaders if len({teams[i] for i in leaders}) == 1 and (best > 0.0 or not alone) else ()
 
 
-def _is_decided(game: Game, state: Any) -> bool:
+def _is_decided(game: Game, state: MatchState) -> bool:
     """True once a sudden death has a winner: one team alone has the most points, or somebody has the first time."""
     seats = [i for i in range(ROBOTS) if state.robots[i].present]
     if game.timed:

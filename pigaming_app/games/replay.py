@@ -19,6 +19,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.moments import KINDS, Moment, moments
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.action import STEPS, set_action
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.plant import SimPlant
@@ -136,7 +137,7 @@ class ReplayPlayer:
     def __init__(self, ticks: bytes) -> None:
         self.ticks = ticks
 
-    def think(self, state: Any, seat: int) -> None:
+    def think(self, state: MatchState, seat: int) -> None:
         offset = state.tick * BYTES_PER_TICK + 3 * seat
         linear, angular, buttons = self.ticks[offset : offset + 3] or (int(STEPS), int(STEPS), 0)
         action = state.actions[seat]

@@ -14,21 +14,41 @@ from pigaming_app.sim.robot import use_turbo
 from pigaming_app.sim.things.mud import SLOW, in_mud
 from pigaming_app.sim.things.spec import read_things
 from pigaming_app.sim.toml_table import TomlTable
-from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.sim.world import HZ, ROBOTS, World
 
 OTHERS = ROBOTS - 1
 
 
 @record
-class Rules:
-    """The rules that every game has. Distances in px, times in ticks."""
+class MatchRules:
+    """The rules of any match."""
 
-    ticks: int  # of the match
+    ticks: int  # of the regular time
+
+
+@record
+class Rules(MatchRules):
+    """The rules of a simple game. Distances in px, times in ticks."""
+
     speed: float = 260.0
     turn_rate: float = 3.0  # rad/s
     turbo_factor: float = 1.3
     turbo_drain: float = 1.0 / (2 * HZ)  # of the meter, per tick
     turbo_refill: float = 1.0 / (4 * HZ)
+
+
+@record
+class MatchState(World):
+    """A match of any game, up to the fields that a game adds."""
+
+    rules: MatchRules
+
+
+@record
+class SimpleMatch(MatchState):
+    """A match with the rules of a simple game, or with ones derived from them."""
+
+    rules: Rules
 
 
 @record
@@ -67,7 +87,7 @@ def read(table: TomlTable) -> Layout:
     return replace(layout, starts=clear_starts(layout))
 
 
-def seat_robots(match: Any, arena: Arena, setup: Any) -> None:
+def seat_robots(match: MatchState, arena: Arena, setup: Any) -> None:
     """Build the arena of a fresh match and put the robots of the setup on their starts."""
     build(match, arena)
     for robot, seat in zip(match.robots, setup.seats, strict=True):
@@ -76,7 +96,7 @@ def seat_robots(match: Any, arena: Arena, setup: Any) -> None:
 
 
 @kernel
-def steer(match: Any, k: int, factor: float) -> None:
+def steer(match: SimpleMatch, k: int, factor: float) -> None:
     """Request the speeds of robot k from its stick and turbo; `factor`: of its speed."""
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
     use_turbo(robot, action.turbo, rules.turbo_drain, rules.turbo_refill)
@@ -88,7 +108,7 @@ def steer(match: Any, k: int, factor: float) -> None:
 
 
 @kernel
-def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
+def observe(match: MatchState, seat: int, senses: Senses, obs: Observation) -> None:
     """Fill in the observation of one seat."""
     robot = match.robots[seat]
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
@@ -100,22 +120,22 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
         other.distance, other.bearing = sqrt(dx * dx + dy * dy), turn_to(atan2(dy, dx) - robot.heading)
 
 
-def team_points(match: Any, seat: int) -> float:
+def team_points(match: MatchState, seat: int) -> float:
     """Ranking key: the points of a seat's team."""
     team = match.robots[seat].team
     return float(sum(robot.score for robot in match.robots if robot.present and robot.team == team))
 
 
-def no_stats(match: Any, seat: int) -> Mapping[str, float]:
+def no_stats(match: MatchState, seat: int) -> Mapping[str, float]:
     """No statistics."""
     return {}
 
 
-def own_points(match: Any, seat: int) -> Mapping[str, int]:
+def own_points(match: MatchState, seat: int) -> Mapping[str, int]:
     """The record `points`: the seat's own."""
     return {"points": match.robots[seat].score}
 
 
-def no_times(match: Any, seat: int) -> tuple[float, ...]:
+def no_times(match: MatchState, seat: int) -> tuple[float, ...]:
     """No times: the game has no stages."""
     return ()

@@ -1,15 +1,15 @@
 """Setting a seat's action for one tick, with the stick quantised to 64ths."""
 
 from math import floor
-from typing import Any
 
 from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.world import Action
 
 STEPS = 64.0  # stick steps from centre to edge: replay files store them exactly, as whole numbers
 
 
 @kernel
-def set_action(action: Any, linear: float, angular: float, fire: int, turbo: int) -> None:
+def set_action(action: Action, linear: float, angular: float, fire: int, turbo: int) -> None:
     """Set an action without an aim; the stick is clamped to [-1, 1] and rounded to 64ths."""
     action.linear = quantise(linear)
     action.angular = quantise(angular)

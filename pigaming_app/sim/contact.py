@@ -14,13 +14,12 @@ crush catapults a robot.
 """
 
 from math import sqrt
-from typing import Any
 
 from pigaming_app.sim.grid import NEAR_UNIT, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
+from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH, Robot, World
 
 ROUNDS, MAX_ROUNDS = 6, 24  # limits on rounds of overlap resolution: usually, and in a crush
 SHOVE = 16.0  # px, the longest step in a tick with contact
@@ -35,7 +34,7 @@ TOO_CLOSE = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)  # px^2, below w
 
 
 @kernel
-def drive(world: Any) -> None:
+def drive(world: World) -> None:
     """One tick of motion: fulfil requests to be put back, integrate every present robot, then resolve contacts."""
     robots = world.robots
     for k in range(ROBOTS):
@@ -82,7 +81,7 @@ def drive(world: Any) -> None:
 
 
 @kernel
-def put_back(world: Any, k: int) -> None:
+def put_back(world: World, k: int) -> None:
     """Put robot k at rest at the pose that the game requests for it, as soon as no other robot stands there."""
     robot = world.robots[k]
     if is_free(world, k, robot.recover_x, robot.recover_y):
@@ -91,7 +90,7 @@ def put_back(world: Any, k: int) -> None:
 
 
 @kernel
-def is_free(world: Any, k: int, x: float, y: float) -> bool:
+def is_free(world: World, k: int, x: float, y: float) -> bool:
     """True if robot k would touch no other robot at (x, y)."""
     for j in range(ROBOTS):
         other = world.robots[j]
@@ -102,7 +101,7 @@ def is_free(world: Any, k: int, x: float, y: float) -> bool:
 
 
 @kernel
-def separate(robots: Any) -> float:
+def separate(robots: list[Robot]) -> float:
     """Push overlapping robots apart, half the overlap each. Returns the deepest overlap in px."""
     deepest = 0.0
     for i in range(ROBOTS - 1):
@@ -133,7 +132,7 @@ def separate(robots: Any) -> float:
 
 
 @kernel
-def push_out_of_walls(world: Any, robot: Any) -> int:
+def push_out_of_walls(world: World, robot: Robot) -> int:
     """Move a robot that overlaps a wall straight out of it. Returns 0, MOVED, or TOUCHED if by no more than SLOP.
 
     A robot exactly on the centre line of a wall stays there, TOUCHED.
@@ -171,7 +170,7 @@ def push_out_of_walls(world: Any, robot: Any) -> int:
 
 
 @kernel
-def in_wall(world: Any, x: float, y: float) -> int:
+def in_wall(world: World, x: float, y: float) -> int:
     """1 if a robot with its centre at (x, y) would overlap a wall."""
     if x < RADIUS or x > WIDTH - RADIUS or y < RADIUS or y > HEIGHT - RADIUS:
         return 1
@@ -188,7 +187,7 @@ def in_wall(world: Any, x: float, y: float) -> int:
 
 
 @kernel
-def limit_step(world: Any, robot: Any, from_x: float, from_y: float, shifted: int = 1) -> None:
+def limit_step(world: World, robot: Robot, from_x: float, from_y: float, shifted: int = 1) -> None:
     """Limit a robot's step from (from_x, from_y) to SHOVE px, and undo it if it ends in a wall.
 
     One that contact has not `shifted` ends in none.
@@ -206,7 +205,7 @@ def limit_step(world: Any, robot: Any, from_x: float, from_y: float, shifted: in
 
 
 @kernel
-def undo_overlap(robot: Any, x1: float, y1: float, other: Any, x2: float, y2: float) -> int:
+def undo_overlap(robot: Robot, x1: float, y1: float, other: Robot, x2: float, y2: float) -> int:
     """Return two robots to (x1, y1) and (x2, y2) if they overlap too far, and farther than there. 1 if it did."""
     if not robot.present or not other.present:
         return 0

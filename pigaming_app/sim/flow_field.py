@@ -4,14 +4,14 @@ A breadth-first search expands from the goal over the free nodes of the grid unt
 heads for the farthest node down the field to which the straight line is clear.
 """
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_PADDED, ROWS
+from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_PADDED, ROWS, World
 
 SLACK = 2  # nodes that a goal may move before the field is rebuilt
 LOOK = 7  # lookahead down the field, nodes
@@ -34,7 +34,7 @@ class Route:
 
 
 @kernel
-def free_node(world: Any, x: float, y: float) -> int:
+def free_node(world: World, x: float, y: float) -> int:
     """The free node nearest to a point, among those up to two nodes away; 0 (never free) if there is none."""
     middle = node_at(x, y)
     if not world.grid[middle] & BLOCKED:
@@ -53,7 +53,7 @@ def free_node(world: Any, x: float, y: float) -> int:
 
 
 @kernel
-def expand(world: Any, route: Any, root: int, until: int) -> None:
+def expand(world: World, route: Route, root: int, until: int) -> None:
     """Build the field from `root`, breadth first, to 3 steps past the node `until`, or over all that is reachable."""
     reach, queue, grid = route.reach, route.queue, world.grid
     for node in range(NODES):
@@ -94,7 +94,7 @@ def expand(world: Any, route: Any, root: int, until: int) -> None:
 
 
 @kernel
-def descend(route: Any, node: int) -> int:
+def descend(route: Route, node: int) -> int:
     """The neighbour nearest to the root; a diagonal one only if both nodes next to the diagonal are free too."""
     reach = route.reach
     best, steps_left = node, reach[node]
@@ -119,7 +119,7 @@ def descend(route: Any, node: int) -> int:
 
 
 @kernel
-def update_route(world: Any, route: Any, x: float, y: float) -> None:
+def update_route(world: World, route: Route, x: float, y: float) -> None:
     """Set the waypoint for a robot at (x, y), along its route."""
     route.waypoint_x, route.waypoint_y, route.straight = route.goal_x, route.goal_y, 1
     if not route.active or is_clear(world, x, y, route.goal_x, route.goal_y, RADIUS + 1.0):
@@ -150,7 +150,7 @@ def update_route(world: Any, route: Any, x: float, y: float) -> None:
 
 
 @kernel
-def near_root(route: Any, root: int) -> int:
+def near_root(route: Route, root: int) -> int:
     """1 if the root of the field is at most SLACK nodes away from `root`."""
     if route.root == 0:
         return 0

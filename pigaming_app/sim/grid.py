@@ -5,12 +5,11 @@ is near, contact and bullets skip all walls.
 """
 
 from math import sqrt
-from typing import Any
 
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import CELL, COLUMNS, ROWS
+from pigaming_app.sim.world import CELL, COLUMNS, ROWS, Wall, World
 
 SPARE = 4.0  # px between a robot on a free node and the wall
 NEAR = 72.0  # px: the node nearest to anything that touches the wall is within RADIUS + half a cell's diagonal
@@ -34,7 +33,7 @@ def node_at(x: float, y: float) -> int:
 
 
 @kernel
-def wall_on_grid(world: Any, wall: Any, change: int) -> None:
+def wall_on_grid(world: World, wall: Wall, change: int) -> None:
     """Add a wall to the grid (change 1) or remove it (-1)."""
     edge = NEAR + wall.half
     for row in range(ROWS):
@@ -51,7 +50,7 @@ def wall_on_grid(world: Any, wall: Any, change: int) -> None:
 
 
 @kernel
-def block_rim(world: Any) -> None:
+def block_rim(world: World) -> None:
     """Block the nodes on the outer walls."""
     for column in range(COLUMNS):
         world.grid[column] += 1

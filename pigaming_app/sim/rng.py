@@ -4,7 +4,7 @@ A linear congruential generator modulo 2**31 (constants of the example in ISO C)
 stay below 2**62, so that numba's wrapping integers and Python's unbounded ones agree.
 """
 
-from typing import Any
+from typing import Protocol
 
 from pigaming_app.sim.kernel import kernel
 
@@ -12,15 +12,21 @@ MASK = (1 << 31) - 1
 SEEDS = 1 << 60  # seeds of matches lie in [-SEEDS, SEEDS), so that those of four minds a match are all different
 
 
+class Rng(Protocol):
+    """A record with a generator's state: a match, or the mind of a brain."""
+
+    random: int
+
+
 @kernel
-def uniform(owner: Any) -> float:
+def uniform(owner: Rng) -> float:
     """The next number in [0, 1) of the generator `owner.random`."""
     owner.random = (owner.random * 1103515245 + 12345) & MASK
     return float(owner.random >> 8) / 8388608.0
 
 
 @kernel
-def bell(owner: Any) -> float:
+def bell(owner: Rng) -> float:
     """An approximately normal number, mean 0, standard deviation 0.5: the sum of three uniform ones less its mean."""
     return float(uniform(owner) + uniform(owner) + uniform(owner) - 1.5)
 

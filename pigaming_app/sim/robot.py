@@ -1,11 +1,10 @@
 """Motion of a simulated robot: differential drive with first-order motor lag, and a turbo meter."""
 
 from math import cos, exp, sin
-from typing import Any
 
 from pigaming_app.sim.angles import wrap
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import DT
+from pigaming_app.sim.world import DT, Robot, World
 
 RADIUS = 36.0  # px
 LAG = 0.08  # s, time constant of the motors
@@ -13,7 +12,7 @@ GAIN = 1.0 - exp(-DT / LAG)  # share of the speed error that the motors remove i
 
 
 @kernel
-def integrate(robot: Any) -> None:
+def integrate(robot: Robot) -> None:
     """One tick of motion without contact: the motors approach the requested speeds, the robot follows the motors.
 
     Midpoint rule: exact on a straight line, and to 1e-4 px in the tightest bend.
@@ -27,7 +26,7 @@ def integrate(robot: Any) -> None:
 
 
 @kernel
-def use_turbo(robot: Any, wanted: int, drain: float, refill: float) -> None:
+def use_turbo(robot: Robot, wanted: int, drain: float, refill: float) -> None:
     """One tick of the turbo meter: it drains while turbo is on and refills while the button is up.
 
     Once the meter is empty, turbo stays off until the button has been released.
@@ -44,13 +43,13 @@ def use_turbo(robot: Any, wanted: int, drain: float, refill: float) -> None:
 
 
 @kernel
-def stop(robot: Any) -> None:
+def stop(robot: Robot) -> None:
     """Request zero speed of a robot."""
     robot.requested_linear, robot.requested_angular, robot.boosting = 0.0, 0.0, 0
 
 
 @kernel
-def stop_all(world: Any) -> None:
+def stop_all(world: World) -> None:
     """Request zero speed of every robot."""
     for robot in world.robots:
         stop(robot)

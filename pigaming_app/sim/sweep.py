@@ -5,10 +5,10 @@ treated as a point moving past the obstacle expanded by the circle's radius (Min
 """
 
 from math import sqrt
-from typing import Any
 
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import Capsule, World
 
 FAR = 2.0
 ROUNDING = 1e-6  # px, of a distance
@@ -36,7 +36,7 @@ def disc_contact(x: float, y: float, dx: float, dy: float, cx: float, cy: float,
 
 
 @kernel
-def wall_contact(x: float, y: float, dx: float, dy: float, wall: Any, radius: float) -> float:
+def wall_contact(x: float, y: float, dx: float, dy: float, wall: Capsule, radius: float) -> float:
     """Time at which a circle moving from (x, y) by (dx, dy) touches a wall: two discs and the strip between them."""
     reach = wall.half + radius
     ex, ey = wall.bx - wall.ax, wall.by - wall.ay
@@ -66,7 +66,7 @@ def wall_contact(x: float, y: float, dx: float, dy: float, wall: Any, radius: fl
 
 
 @kernel
-def offset_from_wall(wall: Any, x: float, y: float) -> tuple[float, float]:
+def offset_from_wall(wall: Capsule, x: float, y: float) -> tuple[float, float]:
     """The vector (dx, dy) from the nearest point of a wall's centre line to a point."""
     ex, ey = wall.bx - wall.ax, wall.by - wall.ay
     px, py = x - wall.ax, y - wall.ay
@@ -102,7 +102,7 @@ def bounds_contact(x: float, y: float, dx: float, dy: float, width: float, heigh
 
 
 @kernel
-def is_clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: float) -> int:
+def is_clear(world: World, x: float, y: float, to_x: float, to_y: float, radius: float) -> int:
     """1 if a circle can move from one point to the other without touching an inner wall. Radius 0: line of sight."""
     dx, dy = to_x - x, to_y - y
     left, right = (x, to_x) if dx > 0.0 else (to_x, x)
@@ -129,7 +129,7 @@ def is_clear(world: Any, x: float, y: float, to_x: float, to_y: float, radius: f
 
 
 @kernel
-def is_aside(x: float, y: float, dx: float, dy: float, wall: Any, reach: float) -> bool:
+def is_aside(x: float, y: float, dx: float, dy: float, wall: Capsule, reach: float) -> bool:
     """True if a wall is on one side of the line from (x, y) along (dx, dy), `reach` / |(dx, dy)| or more px from it."""
     a, b = dx * (wall.ay - y) - dy * (wall.ax - x), dx * (wall.by - y) - dy * (wall.bx - x)
     return bool((a > reach and b > reach) or (a < -reach and b < -reach))

@@ -40,14 +40,20 @@ class Robot:
 
 
 @record
-class Wall:
-    """A capsule: all points within `half` px of the segment from (ax, ay) to (bx, by)."""
+class Capsule:
+    """All points within `half` px of the segment from (ax, ay) to (bx, by)."""
 
     ax: float
     ay: float
     bx: float
     by: float
     half: float
+
+
+@record
+class Wall(Capsule):
+    """An inner wall."""
+
     health: int  # bullets it still takes; SOLID: indestructible; 0: gone
     initial_health: int  # SOLID: indestructible
     left: float  # bounding box, expanded by a robot's radius
@@ -57,17 +63,6 @@ class Wall:
 
 
 SOLID = -1
-
-
-@record
-class Mud:
-    """Ground on which robots are slow: all points within `half` px of the segment from (ax, ay) to (bx, by)."""
-
-    ax: float
-    ay: float
-    bx: float
-    by: float
-    half: float
 
 
 @record
@@ -94,5 +89,5 @@ class World:
     walls: Annotated[list[Wall], WALLS] = grown(24)
     grid: Annotated[list[int], NODES_PADDED, "h"]  # see grid.py: walls that block a node, and walls near it
     mud_count: int = added()
-    muds: Annotated[list[Mud], MUDS] = added()
+    muds: Annotated[list[Capsule], MUDS] = added()  # ground on which robots are slow
     shifts: int = added()  # how often walls were replaced during the match (real things that are moved)

@@ -5,15 +5,15 @@ extrapolated back by `delay` seconds; the own pose is not delayed.
 """
 
 from math import atan2, cos, sin, sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import INPUT, NOBODY, SHARED_SLOTS, SLOTS, WORKERS
+from pigaming_app.games.factory.state import INPUT, NOBODY, SHARED_SLOTS, SLOTS, WORKERS, Factory
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import added, grown, record
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import ROBOTS, Robot
 
 OTHERS = ROBOTS - 1
 
@@ -112,7 +112,7 @@ class Observation:
 
 
 @kernel
-def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
+def observe(match: Factory, seat: int, senses: Senses, obs: Observation) -> None:
     """Fill in the observation of one seat."""
     robot, load, rules = match.robots[seat], match.loads[seat], match.rules
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
@@ -138,7 +138,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 
 @kernel
-def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> None:
+def observe_other(match: Factory, robot: Robot, j: int, delay: float, other: Other) -> None:
     """Fill in robot j, as observed by `robot`."""
     seen, load, motion = match.robots[j], match.loads[j], match.motions[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
@@ -154,7 +154,7 @@ def observe_other(match: Any, robot: Any, j: int, delay: float, other: Any) -> N
 
 
 @kernel
-def observe_person(match: Any, robot: Any, w: int, person: Any) -> None:
+def observe_person(match: Factory, robot: Robot, w: int, person: Person) -> None:
     """Fill in worker w, as observed by `robot`."""
     worker = match.workers[w]
     person.x, person.y, person.walking = worker.x, worker.y, worker.walking
@@ -165,7 +165,7 @@ def observe_person(match: Any, robot: Any, w: int, person: Any) -> None:
 
 
 @kernel
-def observe_slot(match: Any, seat: int, s: int, seen: Any) -> None:
+def observe_slot(match: Factory, seat: int, s: int, seen: SlotView) -> None:
     """Fill in slot s, as observed by the robot of a seat."""
     slot, team = match.slots[s], match.robots[seat].team
     seen.kind, seen.machine, seen.x, seen.y = slot.kind, slot.machine, slot.x, slot.y
@@ -190,7 +190,7 @@ def observe_slot(match: Any, seat: int, s: int, seen: Any) -> None:
 
 
 @kernel
-def observe_waypoint(match: Any, robot: Any, senses: Any, obs: Any) -> None:
+def observe_waypoint(match: Factory, robot: Robot, senses: Senses, obs: Observation) -> None:
     """Fill in the waypoint and goal of the route."""
     route = senses.route
     if not route.active:

@@ -5,8 +5,6 @@ the team whose warehouse it came from, whoever delivered it. Loose pallets lie h
 nobody until somebody lifts them, and come back in the same way.
 """
 
-from typing import Any
-
 from pigaming_app.games.factory.pallets import free_shared, move
 from pigaming_app.games.factory.state import (
     DELIVERED,
@@ -19,13 +17,14 @@ from pigaming_app.games.factory.state import (
     RAW,
     TEAMS,
     WAITING,
+    Factory,
 )
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
 
 
 @kernel
-def set_out(match: Any) -> None:
+def set_out(match: Factory) -> None:
     """Put the first orders and loose pallets in place, and draw the turns of the fast machine."""
     rules = match.rules
     for m in range(MACHINES):
@@ -46,7 +45,7 @@ def set_out(match: Any) -> None:
 
 
 @kernel
-def order(match: Any, p: int) -> None:
+def order(match: Factory, p: int) -> None:
     """Make pallet p, wherever it is, the next order of its warehouse, or a loose pallet again."""
     pallet, rules = match.pallets[p], match.rules
     pallet.steps, pallet.fed, pallet.rush = 0, 0, 0
@@ -63,7 +62,7 @@ def order(match: Any, p: int) -> None:
 
 
 @kernel
-def run_orders(match: Any) -> None:
+def run_orders(match: Factory) -> None:
     """One tick of deadlines, of delivered pallets until they come back, and of the fast machine."""
     for p in range(PALLETS):
         pallet = match.pallets[p]
@@ -82,7 +81,7 @@ def run_orders(match: Any) -> None:
 
 
 @kernel
-def place_loose(match: Any) -> None:
+def place_loose(match: Factory) -> None:
     """Move waiting loose pallets to free shared slots."""
     for p in range(PALLETS):
         pallet = match.pallets[p]
@@ -94,7 +93,7 @@ def place_loose(match: Any) -> None:
 
 
 @kernel
-def choose_fast(match: Any) -> None:
+def choose_fast(match: Factory) -> None:
     """Mark the machine whose turn it is."""
     turn = match.tick // match.rules.fast_every % MACHINES
     for m in range(MACHINES):
@@ -102,6 +101,6 @@ def choose_fast(match: Any) -> None:
 
 
 @kernel
-def is_level(match: Any) -> bool:
+def is_level(match: Factory) -> bool:
     """True if both teams have the same points."""
     return bool(match.points[0] == match.points[1])

@@ -1,7 +1,5 @@
 """Robot Factory: locations of pallets. Only `move` changes them, so that none is lost, duplicated or in two places."""
 
-from typing import Any
-
 from pigaming_app.games.factory.state import (
     BY_WORKER,
     DAMAGED,
@@ -17,13 +15,14 @@ from pigaming_app.games.factory.state import (
     SHIPPED,
     WAITING,
     WORKERS,
+    Factory,
 )
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
 
 
 @kernel
-def move(match: Any, p: int, place: int, at: int) -> None:
+def move(match: Factory, p: int, place: int, at: int) -> None:
     """Move pallet p from its place to an empty one."""
     pallet = match.pallets[p]
     link(match, pallet.place, pallet.at, 0)
@@ -34,7 +33,7 @@ def move(match: Any, p: int, place: int, at: int) -> None:
 
 
 @kernel
-def link(match: Any, place: int, at: int, content: int) -> None:
+def link(match: Factory, place: int, at: int, content: int) -> None:
     """Set the content of a place: 1 + a pallet, or 0."""
     if place == IN_SLOT:
         match.slots[at].pallet = content
@@ -53,13 +52,13 @@ def first_slot(side: int, kind: int) -> int:
 
 
 @kernel
-def side_of(match: Any, p: int) -> int:
+def side_of(match: Factory, p: int) -> int:
     """The side on which pallet p belongs into the warehouses: its team's, or among allies the one it came from."""
     return int(p // MAX_PALLETS if match.rules.allies else match.pallets[p].team)
 
 
 @kernel
-def free_shelf(match: Any, side: int, kind: int) -> int:
+def free_shelf(match: Factory, side: int, kind: int) -> int:
     """The first free slot of an entry or exit that no worker is carrying a pallet to; -1 if there is none."""
     first = first_slot(side, kind)
     for s in range(first, first + SHELVES):
@@ -69,7 +68,7 @@ def free_shelf(match: Any, side: int, kind: int) -> int:
 
 
 @kernel
-def is_destination(match: Any, s: int) -> bool:
+def is_destination(match: Factory, s: int) -> bool:
     """True if a worker is carrying a pallet to slot s."""
     found = False
     for w in range(WORKERS):
@@ -79,7 +78,7 @@ def is_destination(match: Any, s: int) -> bool:
 
 
 @kernel
-def free_shared(match: Any) -> int:
+def free_shared(match: Factory) -> int:
     """A free shared slot, drawn at random; -1 if there is none."""
     count = 0
     for s in range(SHARED_SLOTS, match.slot_count):
@@ -96,7 +95,7 @@ def free_shared(match: Any) -> int:
 
 
 @kernel
-def stock_up(match: Any, side: int) -> None:
+def stock_up(match: Factory, side: int) -> None:
     """Move waiting pallets to the free slots of the entry where they wait."""
     for p in range(PALLETS):
         if match.pallets[p].exists and match.pallets[p].place == WAITING and match.pallets[p].at == side:
@@ -107,7 +106,7 @@ def stock_up(match: Any, side: int) -> None:
 
 
 @kernel
-def ship(match: Any, team: int, side: int) -> None:
+def ship(match: Factory, team: int, side: int) -> None:
     """Ship the oldest pallet of an exit if all its slots are full and more pallets of the team are to come."""
     if match.delivered[team] == match.rules.pallets:
         return

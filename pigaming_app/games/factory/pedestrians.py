@@ -1,20 +1,17 @@
 """Motion of pedestrians: a flow field leads them around walls; they stop for robots and walk around those at rest.
 
-A walker is any record with x, y, heading, walking (1: moving), side (on which it avoids an obstacle: -1, 0 or 1),
-`route` (see flow_field.py), and `closest` and `stuck_ticks`, which measure its progress. The world has a Motion for
-each robot, updated once a tick: pedestrians react to measured motion, not to motor speeds.
+The match has a Motion for each robot, updated once a tick: pedestrians react to measured motion, not to motor speeds.
 """
 
 from math import atan2, exp, sqrt
-from typing import Any
 
+from pigaming_app.games.factory.state import Factory, Motion, Worker
 from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import free_node, update_route
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import CELL, DT, HZ, ROBOTS
+from pigaming_app.sim.world import CELL, DT, HZ, ROBOTS, Robot
 
 ARRIVED = 6.0  # px from the goal within which a walker has arrived
 ARRIVED_NEAR_ROBOT = 70.0  # px likewise, if a robot at rest is in the way
@@ -29,18 +26,8 @@ CARRIED_DISTANCE = 40.0  # px in a tick: a robot that moved further was carried 
 FILTER_WEIGHT = 1.0 - exp(-DT / 0.1)  # weight of one tick in the low-pass filter of velocity, time constant 0.1 s
 
 
-@record
-class Motion:
-    """A robot's velocity, measured from successive positions."""
-
-    x: float  # px, on the previous tick
-    y: float
-    vx: float  # px/s
-    vy: float
-
-
 @kernel
-def track_motion(motion: Any, robot: Any) -> None:
+def track_motion(motion: Motion, robot: Robot) -> None:
     """Update a motion with the robot's current position."""
     x, y = robot.x, robot.y
     dx, dy = x - motion.x, y - motion.y
@@ -52,7 +39,7 @@ def track_motion(motion: Any, robot: Any) -> None:
 
 
 @kernel
-def send(walker: Any, x: float, y: float) -> None:
+def send(walker: Worker, x: float, y: float) -> None:
     """Set a walker's goal, px."""
     route = walker.route
     route.active, route.goal_x, route.goal_y = 1, x, y
@@ -60,7 +47,7 @@ def send(walker: Any, x: float, y: float) -> None:
 
 
 @kernel
-def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
+def walk(world: Factory, walker: Worker, speed: float, radius: float) -> int:
     """One tick of walking. Returns 1 if the walker has reached its goal, or as near as robots at rest permit."""
     route = walker.route
     dx, dy = route.goal_x - walker.x, route.goal_y - walker.y
@@ -88,7 +75,7 @@ def walk(world: Any, walker: Any, speed: float, radius: float) -> int:
 
 
 @kernel
-def advance(world: Any, walker: Any, left: float) -> None:
+def advance(world: Factory, walker: Worker, left: float) -> None:
     """Count the ticks since a walker last came nearer to its goal, by path length."""
     route = walker.route
     if not route.straight:
@@ -100,7 +87,7 @@ def advance(world: Any, walker: Any, left: float) -> None:
 
 
 @kernel
-def go_round(world: Any, walker: Any, block: int, ux: float, uy: float, radius: float) -> None:
+def go_round(world: Factory, walker: Worker, block: int, ux: float, uy: float, radius: float) -> None:
     """Step around robot `block` (around a wall if negative), keeping to one side until that is blocked."""
     ox, oy = -ux, -uy
     if block >= 0:
@@ -116,7 +103,7 @@ def go_round(world: Any, walker: Any, block: int, ux: float, uy: float, radius: 
 
 
 @kernel
-def step(world: Any, walker: Any, dx: float, dy: float, radius: float) -> bool:
+def step(world: Factory, walker: Worker, dx: float, dy: float, radius: float) -> bool:
     """Take a step unless a robot or a wall is in the way. Returns True if taken."""
     x, y = walker.x + dx, walker.y + dy
     if in_the_way(world, walker, x, y, radius) >= 0 or in_wall(world, x, y):
@@ -127,7 +114,7 @@ def step(world: Any, walker: Any, dx: float, dy: float, radius: float) -> bool:
 
 
 @kernel
-def turn_towards(walker: Any, vx: float, vy: float) -> None:
+def turn_towards(walker: Worker, vx: float, vy: float) -> None:
     """Turn a walker towards its direction of motion, by at most TURN_RATE."""
     turn = turn_to(atan2(vy, vx) - walker.heading)
     limit = TURN_RATE * DT
@@ -139,13 +126,13 @@ def turn_towards(walker: Any, vx: float, vy: float) -> None:
 
 
 @kernel
-def is_driving(motion: Any) -> bool:
+def is_driving(motion: Motion) -> bool:
     """True if a robot is moving."""
-    return motion.vx * motion.vx + motion.vy * motion.vy > MOVING_SPEED * MOVING_SPEED  # type: ignore[no-any-return]
+    return motion.vx * motion.vx + motion.vy * motion.vy > MOVING_SPEED * MOVING_SPEED
 
 
 @kernel
-def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> int:
+def in_the_way(world: Factory, walker: Worker, x: float, y: float, radius: float) -> int:
     """The first robot that blocks a step to (x, y), now or within LOOKAHEAD; -1: none. Steps away from it are free."""
     for k in range(ROBOTS):
         robot = world.robots[k]
@@ -171,7 +158,7 @@ def in_the_way(world: Any, walker: Any, x: float, y: float, radius: float) -> in
 
 
 @kernel
-def path_is_free(world: Any, robot: Any, motion: Any, half: int) -> bool:
+def path_is_free(world: Factory, robot: Robot, motion: Motion, half: int) -> bool:
     """True if no wall stops a robot within `half` halves of LOOKAHEAD."""
     for part in range(1, half + 1):
         ahead = 0.5 * part * LOOKAHEAD

@@ -11,7 +11,6 @@ all warehouses, and play against the clock.
 """
 
 from math import cos, sin
-from typing import Any
 
 from pigaming_app.games.factory.orders import is_level, order, run_orders
 from pigaming_app.games.factory.pallets import free_shelf, move, ship, side_of, stock_up
@@ -35,6 +34,7 @@ from pigaming_app.games.factory.state import (
     TEAMS,
     WAITING,
     WORKERS,
+    Factory,
 )
 from pigaming_app.games.factory.workers import fits, run_machines_and_workers
 from pigaming_app.sim.kernel import kernel
@@ -46,7 +46,7 @@ APART = 6.0  # px of hysteresis: a touch ends at this distance beyond contact
 
 
 @kernel
-def judge(match: Any) -> None:
+def judge(match: Factory) -> None:
     """One tick of the rules: forks, pallets, machines and people, then the requested speeds."""
     if match.over:
         stop_all(match)
@@ -72,7 +72,7 @@ def judge(match: Any) -> None:
 
 
 @kernel
-def check_end(match: Any) -> None:
+def check_end(match: Factory) -> None:
     """End the match when a team has delivered everything, or when the time is up; in party not while level."""
     rules = match.rules
     if rules.party:
@@ -90,7 +90,7 @@ def check_end(match: Any) -> None:
 
 
 @kernel
-def use_fork(match: Any, k: int) -> None:
+def use_fork(match: Factory, k: int) -> None:
     """Lift a pallet or set one down at each press of fire, unless robot k is frozen."""
     load, fire = match.loads[k], match.actions[k].fire
     pressed = fire and not load.pressed
@@ -113,7 +113,7 @@ def use_fork(match: Any, k: int) -> None:
 
 
 @kernel
-def lift(match: Any, k: int, s: int) -> None:
+def lift(match: Factory, k: int, s: int) -> None:
     """Lift the pallet of slot s with robot k; from then on it belongs to the robot's team."""
     p, team = match.slots[s].pallet - 1, match.robots[k].team
     pallet = match.pallets[p]
@@ -125,7 +125,7 @@ def lift(match: Any, k: int, s: int) -> None:
 
 
 @kernel
-def slot_for(match: Any, k: int, x: float, y: float) -> int:
+def slot_for(match: Factory, k: int, x: float, y: float) -> int:
     """The slot nearest to (x, y) at which robot k can lift or set down; -1 if none is within reach."""
     best, nearest2 = -1, match.rules.reach * match.rules.reach
     for s in range(match.slot_count):
@@ -138,7 +138,7 @@ def slot_for(match: Any, k: int, x: float, y: float) -> int:
 
 
 @kernel
-def may_lift(match: Any, k: int, s: int) -> bool:
+def may_lift(match: Factory, k: int, s: int) -> bool:
     """True if slot s holds an undelivered pallet of robot k's team, or in party one that anybody may take."""
     slot = match.slots[s]
     if not slot.pallet:
@@ -152,7 +152,7 @@ def may_lift(match: Any, k: int, s: int) -> bool:
 
 
 @kernel
-def may_set_down(match: Any, k: int, s: int) -> bool:
+def may_set_down(match: Factory, k: int, s: int) -> bool:
     """True if robot k may set down its pallet in slot s."""
     slot = match.slots[s]
     if slot.kind == OUTPUT:
@@ -168,7 +168,7 @@ def may_set_down(match: Any, k: int, s: int) -> bool:
 
 
 @kernel
-def set_down(match: Any, k: int, s: int) -> None:
+def set_down(match: Factory, k: int, s: int) -> None:
     """Set down robot k's pallet in slot s, and apply the result: spoiled in a wrong machine, delivered at the exit."""
     load, slot = match.loads[k], match.slots[s]
     p = load.pallet - 1
@@ -185,7 +185,7 @@ def set_down(match: Any, k: int, s: int) -> None:
 
 
 @kernel
-def deliver(match: Any, k: int, p: int, side: int) -> None:
+def deliver(match: Factory, k: int, p: int, side: int) -> None:
     """Count pallet p, which robot k has just set down in the exit of a side, as delivered."""
     pallet, robot = match.pallets[p], match.robots[k]
     pallet.state = DELIVERED
@@ -199,7 +199,7 @@ def deliver(match: Any, k: int, p: int, side: int) -> None:
 
 
 @kernel
-def age_pallets(match: Any) -> None:
+def age_pallets(match: Factory) -> None:
     """One tick of the waiting time of pallets; damaged ones are replaced when it is over."""
     for p in range(PALLETS):
         pallet = match.pallets[p]
@@ -214,7 +214,7 @@ def age_pallets(match: Any) -> None:
 
 
 @kernel
-def replace_damaged(match: Any, p: int) -> None:
+def replace_damaged(match: Factory, p: int) -> None:
     """Turn a damaged pallet into a raw one at the entry, or waiting for it; in party into the next order."""
     if match.rules.party:
         order(match, p)
@@ -229,7 +229,7 @@ def replace_damaged(match: Any, p: int) -> None:
 
 
 @kernel
-def check_people(match: Any, k: int) -> None:
+def check_people(match: Factory, k: int) -> None:
     """Freeze robot k when it drives over a person, once per touch."""
     robot, load, rules = match.robots[k], match.loads[k], match.rules
     if load.frozen:
@@ -250,7 +250,7 @@ def check_people(match: Any, k: int) -> None:
 
 
 @kernel
-def steer(match: Any, k: int) -> None:
+def steer(match: Factory, k: int) -> None:
     """Request the speeds that result from robot k's stick and turbo; zero while it is frozen."""
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
     if match.loads[k].frozen:

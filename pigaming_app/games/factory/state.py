@@ -6,10 +6,10 @@ the like are the inverse of that relation; only `pallets.move` writes either.
 
 from typing import Annotated
 
-from pigaming_app.games.factory.pedestrians import Motion
+from pigaming_app.games.simple import MatchRules, MatchState
 from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.record import added, grown, record
-from pigaming_app.sim.world import HZ, ROBOTS, World
+from pigaming_app.sim.world import HZ, ROBOTS
 
 ICE, FIRE = 0, 1  # the teams
 TEAMS = 2
@@ -36,10 +36,9 @@ FORK, REACH = 64.0, 40.0  # px from a robot's centre to its fork, and from there
 
 
 @record
-class Rules:
+class Rules(MatchRules):
     """Tunable parameters. Distances in px, speeds in px/s and rad/s, times in ticks."""
 
-    ticks: int  # of the match
     pallets: int = 4  # per team
     speed: float = 260.0
     turn_rate: float = 3.0
@@ -121,6 +120,16 @@ class Machine:
 
 
 @record
+class Motion:
+    """A robot's velocity, measured from successive positions."""
+
+    x: float  # px, on the previous tick
+    y: float
+    vx: float  # px/s
+    vy: float
+
+
+@record
 class Worker:
     """A person on the floor. Robots must not drive over them."""
 
@@ -158,7 +167,7 @@ class Load:
 
 
 @record
-class Factory(World):
+class Factory(MatchState):
     """The complete state of a match of Robot Factory."""
 
     rules: Rules

@@ -5,8 +5,6 @@ processed pallet that its owner has not collected in time, which the worker carr
 without progress gives up: another resting worker is sent, and other machines take precedence.
 """
 
-from typing import Any
-
 from pigaming_app.games.factory.pallets import first_slot, free_shelf, move, side_of
 from pigaming_app.games.factory.pedestrians import send, turn_towards, walk
 from pigaming_app.games.factory.state import (
@@ -27,6 +25,10 @@ from pigaming_app.games.factory.state import (
     WORKERS,
     WORKING,
     A,
+    Factory,
+    Machine,
+    Slot,
+    Worker,
 )
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import WIDTH
@@ -41,7 +43,7 @@ def fits(kind: int, state: int) -> bool:
 
 
 @kernel
-def run_machines_and_workers(match: Any) -> None:
+def run_machines_and_workers(match: Factory) -> None:
     """One tick of all machines and workers."""
     for m in range(MACHINES):
         run_machine(match, m)
@@ -51,7 +53,7 @@ def run_machines_and_workers(match: Any) -> None:
 
 
 @kernel
-def run_machine(match: Any, m: int) -> None:
+def run_machine(match: Factory, m: int) -> None:
     """One tick of processing; a finished pallet moves to the output, which was reserved for it."""
     machine = match.machines[m]
     if not machine.pallet and match.slots[MACHINE_SLOTS + 2 * m].pallet and has_work(match, m):
@@ -76,7 +78,7 @@ def run_machine(match: Any, m: int) -> None:
 
 
 @kernel
-def has_work(match: Any, m: int) -> bool:
+def has_work(match: Factory, m: int) -> bool:
     """True if a machine can start processing the pallet in its input."""
     machine = match.machines[m]
     p, output = match.slots[MACHINE_SLOTS + 2 * m].pallet, match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
@@ -84,14 +86,14 @@ def has_work(match: Any, m: int) -> bool:
 
 
 @kernel
-def is_overdue(match: Any, m: int) -> bool:
+def is_overdue(match: Factory, m: int) -> bool:
     """True if a processed pallet has waited too long in a machine's output."""
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet
     return bool(p and match.pallets[p - 1].waited >= match.rules.collect)
 
 
 @kernel
-def jams_in(match: Any, m: int) -> int:
+def jams_in(match: Factory, m: int) -> int:
     """Ticks until a machine jams: until the pallet in process blocks the fitting one in the input; -1: it does not.
 
     0 while it is jammed: work waits in the input, and the output is full.
@@ -105,7 +107,7 @@ def jams_in(match: Any, m: int) -> int:
 
 
 @kernel
-def clears_in(match: Any, m: int) -> int:
+def clears_in(match: Factory, m: int) -> int:
     """Ticks until a worker is to fetch the pallet of a machine's output, 0 from then on; -1: the output is empty."""
     p = match.slots[MACHINE_SLOTS + 2 * m + 1].pallet - 1
     if p < 0:
@@ -114,7 +116,7 @@ def clears_in(match: Any, m: int) -> int:
 
 
 @kernel
-def call_worker(match: Any) -> None:
+def call_worker(match: Factory) -> None:
     """Send a resting worker to the machine at which a pallet has waited longest; at most one a tick."""
     m, longest = -1, -1
     for i in range(MACHINES):
@@ -141,7 +143,7 @@ def call_worker(match: Any) -> None:
 
 
 @kernel
-def nearest_resting(match: Any, machine: Any) -> int:
+def nearest_resting(match: Factory, machine: Machine) -> int:
     """The resting worker nearest to a machine, preferably not one who failed to reach it; -1: none is resting."""
     best, nearest2 = -1, 1e18
     for w in range(WORKERS):
@@ -154,7 +156,7 @@ def nearest_resting(match: Any, machine: Any) -> int:
 
 
 @kernel
-def send_next_to(worker: Any, slot: Any, machine: Any) -> None:
+def send_next_to(worker: Worker, slot: Slot, machine: Machine) -> None:
     """Send a worker next to a machine's slot, on the side of the machine's spot."""
     dx, dy = machine.spot_x - machine.x, machine.spot_y - machine.y
     side = BESIDE / 114.0
@@ -162,7 +164,7 @@ def send_next_to(worker: Any, slot: Any, machine: Any) -> None:
 
 
 @kernel
-def run_worker(match: Any, w: int) -> None:
+def run_worker(match: Factory, w: int) -> None:
     """One tick of a worker."""
     worker, rules = match.workers[w], match.rules
     if worker.task == WORKING:
@@ -183,7 +185,7 @@ def run_worker(match: Any, w: int) -> None:
 
 
 @kernel
-def give_up(match: Any, w: int) -> None:
+def give_up(match: Factory, w: int) -> None:
     """Mark a worker's machine as refused, and go home."""
     machine = match.machines[match.workers[w].machine]
     machine.failed_worker, machine.failed_at = w + 1, match.tick
@@ -191,7 +193,7 @@ def give_up(match: Any, w: int) -> None:
 
 
 @kernel
-def begin(match: Any, w: int) -> None:
+def begin(match: Factory, w: int) -> None:
     """Start processing, at the machine of worker w."""
     worker = match.workers[w]
     process(match, worker.machine)
@@ -199,7 +201,7 @@ def begin(match: Any, w: int) -> None:
 
 
 @kernel
-def process(match: Any, m: int) -> None:
+def process(match: Factory, m: int) -> None:
     """Move the pallet from the input into the machine and start processing."""
     machine, p, rules = match.machines[m], match.slots[MACHINE_SLOTS + 2 * m].pallet - 1, match.rules
     move(match, p, IN_MACHINE, m)
@@ -209,7 +211,7 @@ def process(match: Any, m: int) -> None:
 
 
 @kernel
-def work(match: Any, w: int) -> None:
+def work(match: Factory, w: int) -> None:
     """Face the machine, and go home when it is done."""
     worker = match.workers[w]
     machine = match.machines[worker.machine]
@@ -219,7 +221,7 @@ def work(match: Any, w: int) -> None:
 
 
 @kernel
-def fetch(match: Any, w: int, arrived: int) -> None:
+def fetch(match: Factory, w: int, arrived: int) -> None:
     """Take an overdue pallet out of the output on arrival; go home if it is no longer overdue."""
     worker = match.workers[w]
     m = worker.machine
@@ -239,7 +241,7 @@ def fetch(match: Any, w: int, arrived: int) -> None:
 
 
 @kernel
-def put_down(match: Any, w: int) -> None:
+def put_down(match: Factory, w: int) -> None:
     """Put a worker's pallet into its slot; if that is taken, add it to the waiting ones."""
     worker = match.workers[w]
     p = worker.pallet - 1
@@ -251,14 +253,14 @@ def put_down(match: Any, w: int) -> None:
 
 
 @kernel
-def send_to_shelf(match: Any, worker: Any) -> None:
+def send_to_shelf(match: Factory, worker: Worker) -> None:
     """Send a worker to the front of the slot to which it carries a pallet."""
     slot = match.slots[worker.shelf]
     send(worker, slot.x + (BESIDE if slot.x < 0.5 * WIDTH else -BESIDE), slot.y)
 
 
 @kernel
-def go_home(match: Any, worker: Any) -> None:
+def go_home(match: Factory, worker: Worker) -> None:
     """Send a worker to its resting place and release its machine."""
     if worker.machine >= 0:
         match.machines[worker.machine].worker = 0

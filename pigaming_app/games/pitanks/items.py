@@ -1,9 +1,7 @@
 """PiTanks: pick-ups and mines."""
 
-from typing import Any
-
 from pigaming_app.games.pitanks.scoring import score
-from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS
+from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS, PiTanks
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
@@ -14,7 +12,7 @@ KINDS = len(POWERS)
 
 
 @kernel
-def lay_mine(match: Any, k: int) -> int:
+def lay_mine(match: PiTanks, k: int) -> int:
     """Lay a mine at the position of robot k. Returns 0 if it already has OWN_MINES of them."""
     robot = match.robots[k]
     for i in range(k * OWN_MINES, (k + 1) * OWN_MINES):
@@ -27,7 +25,7 @@ def lay_mine(match: Any, k: int) -> int:
 
 
 @kernel
-def update_mines(match: Any) -> None:
+def update_mines(match: PiTanks) -> None:
     """One tick of all mines: they arm, explode under an opponent, and expire."""
     rules = match.rules
     reach = RADIUS + rules.mine_radius
@@ -51,7 +49,7 @@ def update_mines(match: Any) -> None:
 
 
 @kernel
-def update_pickups(match: Any) -> None:
+def update_pickups(match: PiTanks) -> None:
     """One tick of all pick-ups: they appear, are collected by touch, and expire."""
     rules = match.rules
     reach = RADIUS + rules.pickup_reach
@@ -72,7 +70,7 @@ def update_pickups(match: Any) -> None:
 
 
 @kernel
-def drop_pickup(match: Any) -> None:
+def drop_pickup(match: PiTanks) -> None:
     """Put a random pick-up on a free node, away from robots and other pick-ups, unless PICKUPS of them exist."""
     free = -1
     for i in range(PICKUPS):
@@ -93,7 +91,7 @@ def drop_pickup(match: Any) -> None:
 
 
 @kernel
-def is_isolated(match: Any, x: float, y: float) -> int:
+def is_isolated(match: PiTanks, x: float, y: float) -> int:
     """1 if no pick-up is within 300 px of (x, y), no robot within 200 px, and no lit one within `lit_distance`."""
     for k in range(ROBOTS):
         robot = match.robots[k]

@@ -5,10 +5,10 @@ back by `delay` seconds; the own pose is not delayed.
 """
 
 from math import atan2, cos, sin, sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime, lead, worth
-from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, SHIELD
+from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, SHIELD, PiTanks
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.grid import BLOCKED, node_at
@@ -16,7 +16,7 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import added, record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
+from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH, Robot
 
 OTHERS = ROBOTS - 1
 BESIDE = 22.0  # px between a robot in cover and the wall
@@ -96,7 +96,7 @@ class Observation:
 
 
 @kernel
-def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
+def observe(match: PiTanks, seat: int, senses: Senses, obs: Observation) -> None:
     """Fill in the observation of one seat."""
     robot = match.robots[seat]
     observe_self(match, seat, obs)
@@ -115,7 +115,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 
 @kernel
-def observe_self(match: Any, seat: int, obs: Any) -> None:
+def observe_self(match: PiTanks, seat: int, obs: Observation) -> None:
     """Fill in the seat's own robot, and the time left."""
     robot, tank = match.robots[seat], match.tanks[seat]
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
@@ -129,7 +129,7 @@ def observe_self(match: Any, seat: int, obs: Any) -> None:
 
 
 @kernel
-def observe_surroundings(match: Any, seat: int, senses: Any, obs: Any) -> None:
+def observe_surroundings(match: PiTanks, seat: int, senses: Senses, obs: Observation) -> None:
     """Fill in the first bullet that would hit, the nearest pick-up and the waypoint."""
     robot = match.robots[seat]
     observe_threat(match, seat, robot, senses.delay, obs)
@@ -140,7 +140,7 @@ def observe_surroundings(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 
 @kernel
-def observe_other(match: Any, seat: int, j: int, delay: float, other: Any) -> None:
+def observe_other(match: PiTanks, seat: int, j: int, delay: float, other: Other) -> None:
     """Fill in robot j, as observed by robot `seat`."""
     robot, seen, tank = match.robots[seat], match.robots[j], match.tanks[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
@@ -156,7 +156,7 @@ def observe_other(match: Any, seat: int, j: int, delay: float, other: Any) -> No
 
 
 @kernel
-def locate_other(robot: Any, seen: Any, delay: float, other: Any) -> tuple[float, float]:
+def locate_other(robot: Robot, seen: Robot, delay: float, other: Other) -> tuple[float, float]:
     """Fill in position and distance of the robot `seen`. Returns its velocity, px/s."""
     vx, vy = seen.linear * cos(seen.heading), seen.linear * sin(seen.heading)
     other.x, other.y = seen.x - delay * vx, seen.y - delay * vy
@@ -166,7 +166,7 @@ def locate_other(robot: Any, seen: Any, delay: float, other: Any) -> tuple[float
 
 
 @kernel
-def aim_at_other(match: Any, robot: Any, vx: float, vy: float, delay: float, other: Any) -> float:
+def aim_at_other(match: PiTanks, robot: Robot, vx: float, vy: float, delay: float, other: Other) -> float:
     """Fill in bearing and aim of a robot that `locate_other` has located. Returns the direction to it, rad."""
     dx, dy = other.x - robot.x, other.y - robot.y
     way = atan2(dy, dx)
@@ -177,7 +177,7 @@ def aim_at_other(match: Any, robot: Any, vx: float, vy: float, delay: float, oth
 
 
 @kernel
-def observe_cover(match: Any, robot: Any, from_x: float, from_y: float, obs: Any) -> None:
+def observe_cover(match: PiTanks, robot: Robot, from_x: float, from_y: float, obs: Observation) -> None:
     """Fill in the nearest position at which an inner wall hides this robot from (from_x, from_y)."""
     nearest2 = 1e9
     for i in range(match.wall_count):
@@ -209,7 +209,7 @@ def observe_cover(match: Any, robot: Any, from_x: float, from_y: float, obs: Any
 
 
 @kernel
-def observe_threat(match: Any, seat: int, robot: Any, delay: float, obs: Any) -> None:
+def observe_threat(match: PiTanks, seat: int, robot: Robot, delay: float, obs: Observation) -> None:
     """Fill in the first bullet that would hit if nobody moved; those fired less than `delay` ago are not visible."""
     first, first_side, at = 9.0, 0.0, -1
     x, y, speed = robot.x, robot.y, match.rules.bullet_speed
@@ -237,7 +237,7 @@ def observe_threat(match: Any, seat: int, robot: Any, delay: float, obs: Any) ->
 
 
 @kernel
-def observe_pickup(match: Any, robot: Any, obs: Any) -> None:
+def observe_pickup(match: PiTanks, robot: Robot, obs: Observation) -> None:
     """Fill in the nearest pick-up."""
     nearest2 = 1e9
     for pickup in match.pickups:
@@ -251,7 +251,7 @@ def observe_pickup(match: Any, robot: Any, obs: Any) -> None:
 
 
 @kernel
-def observe_waypoint(match: Any, robot: Any, senses: Any, obs: Any) -> None:
+def observe_waypoint(match: PiTanks, robot: Robot, senses: Senses, obs: Observation) -> None:
     """Fill in the waypoint and goal of the route."""
     route = senses.route
     if not route.active:

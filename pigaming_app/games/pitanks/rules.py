@@ -12,25 +12,36 @@ the next hit wins.
 """
 
 from math import cos, sin
-from typing import Any
 
 from pigaming_app.games.pitanks.items import lay_mine, update_mines, update_pickups
 from pigaming_app.games.pitanks.scoring import is_decided, mark_leaders, score
 from pigaming_app.games.pitanks.spotlight import update_spotlights
-from pigaming_app.games.pitanks.state import MINE, OUTER, OWN_BULLETS, POWERS, RAPID, RICOCHET, SPEED, TRIPLE
+from pigaming_app.games.pitanks.state import (
+    MINE,
+    OUTER,
+    OWN_BULLETS,
+    POWERS,
+    RAPID,
+    RICOCHET,
+    SPEED,
+    TRIPLE,
+    Bullet,
+    PiTanks,
+    Tank,
+)
 from pigaming_app.sim.grid import NEAR_UNIT, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
 from pigaming_app.sim.sweep import ROUNDING, bounds_contact, disc_contact, offset_from_wall, wall_contact
 from pigaming_app.sim.things.mud import SLOW, in_mud
-from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, Wall
 
 ALL_POWERS = len(POWERS)
 TOUCH = 1e-6  # px from an outer wall within which a bullet touches it
 
 
 @kernel
-def judge(match: Any) -> None:
+def judge(match: PiTanks) -> None:
     """One tick of the rules: shots, bullets, mines and pick-ups, then the requested speeds."""
     if match.over:
         stop_all(match)
@@ -57,7 +68,7 @@ def judge(match: Any) -> None:
 
 
 @kernel
-def count_down(tank: Any) -> None:
+def count_down(tank: Tank) -> None:
     """One tick of a tank's timers: gun cooldown, knock-out, protection, powers."""
     if tank.knocked_out:
         tank.knocked_out -= 1
@@ -71,7 +82,7 @@ def count_down(tank: Any) -> None:
 
 
 @kernel
-def steer(match: Any, k: int) -> None:
+def steer(match: PiTanks, k: int) -> None:
     """Request the speeds that result from robot k's stick, turbo and powers; or the recoil, if it is knocked out."""
     rules, robot, action = match.rules, match.robots[k], match.actions[k]
     if match.tanks[k].knocked_out:
@@ -95,7 +106,7 @@ def steer(match: Any, k: int) -> None:
 
 
 @kernel
-def use_gun(match: Any, k: int) -> None:
+def use_gun(match: PiTanks, k: int) -> None:
     """Fire, or lay a mine, if robot k's button is pressed and its gun is ready."""
     rules, tank = match.rules, match.tanks[k]
     if not match.actions[k].fire or tank.cooldown or tank.knocked_out:
@@ -115,7 +126,7 @@ def use_gun(match: Any, k: int) -> None:
 
 
 @kernel
-def fire_bullet(match: Any, k: int, max_alive: int, heading: float, bounces: int) -> int:
+def fire_bullet(match: PiTanks, k: int, max_alive: int, heading: float, bounces: int) -> int:
     """Fire a bullet of robot k, unless it has `max_alive` already. Returns 1 if fired."""
     free, alive = -1, 0
     for i in range(k * OWN_BULLETS, (k + 1) * OWN_BULLETS):
@@ -134,7 +145,7 @@ def fire_bullet(match: Any, k: int, max_alive: int, heading: float, bounces: int
 
 
 @kernel
-def move_bullets(match: Any) -> int:
+def move_bullets(match: PiTanks) -> int:
     """Move every bullet to its position at the end of the tick and record its hit, without damage. Returns the hits.
 
     All bullets meet robots and walls as they were at the beginning of the tick, so that their order is irrelevant.
@@ -154,7 +165,7 @@ def move_bullets(match: Any) -> int:
 
 
 @kernel
-def move_bullet(match: Any, k: int, bullet: Any, seconds: float) -> None:
+def move_bullet(match: PiTanks, k: int, bullet: Bullet, seconds: float) -> None:
     """Move a bullet of robot k to its first contact, or by its full displacement."""
     x, y, radius = bullet.x, bullet.y, match.rules.bullet_radius
     dx, dy = bullet.vx * seconds, bullet.vy * seconds
@@ -192,7 +203,7 @@ def move_bullet(match: Any, k: int, bullet: Any, seconds: float) -> None:
 
 
 @kernel
-def moves_into(wall: Any, x: float, y: float, dx: float, dy: float) -> bool:
+def moves_into(wall: Wall, x: float, y: float, dx: float, dy: float) -> bool:
     """True if a bullet that touches a wall at (x, y) moves into it; one that has just bounced moves away."""
     nx, ny = offset_from_wall(wall, x, y)
     return bool(dx * nx + dy * ny < 0.0 or (nx == 0.0 and ny == 0.0))
@@ -205,7 +216,7 @@ def clamp(value: float, low: float, high: float) -> float:
 
 
 @kernel
-def resolve_hits(match: Any) -> None:
+def resolve_hits(match: PiTanks) -> None:
     """Apply the hits of this tick: score, damage walls, bounce."""
     for k in range(ROBOTS):
         if not match.robots[k].present:
@@ -228,7 +239,7 @@ def resolve_hits(match: Any) -> None:
 
 
 @kernel
-def hit_wall(match: Any, wall: Any) -> None:
+def hit_wall(match: PiTanks, wall: Wall) -> None:
     """Take one health from a wall, and remove it from the grid at zero."""
     if wall.health > 0:
         wall.health -= 1
@@ -237,7 +248,7 @@ def hit_wall(match: Any, wall: Any) -> None:
 
 
 @kernel
-def bounce(match: Any, bullet: Any) -> None:
+def bounce(match: PiTanks, bullet: Bullet) -> None:
     """Reflect a bullet off the surface that it hit; in a corner of the arena, off both."""
     bullet.bounces -= 1
     if bullet.struck == OUTER:
@@ -256,7 +267,7 @@ def bounce(match: Any, bullet: Any) -> None:
 
 
 @kernel
-def hit_robot(match: Any, k: int, victim: int, shot: int) -> None:
+def hit_robot(match: PiTanks, k: int, victim: int, shot: int) -> None:
     """Score bullet `shot` of robot k on robot `victim`, unless protected, shielded, or hit earlier in the tick."""
     tank = match.tanks[victim]
     if match.rules.protection:

@@ -1,14 +1,12 @@
 """PiTanks: the points of a hit, the knock-out, the bounty, the finale and the overtime."""
 
-from typing import Any
-
-from pigaming_app.games.pitanks.state import SHIELD
+from pigaming_app.games.pitanks.state import SHIELD, PiTanks
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import ROBOTS
 
 
 @kernel
-def score(match: Any, k: int, victim: int) -> int:
+def score(match: PiTanks, k: int, victim: int) -> int:
     """Score a hit of robot k on robot `victim`. Returns 1 if it counts, 0 if a shield absorbs it."""
     rules, tank = match.rules, match.tanks[victim]
     tank.protected = rules.protection
@@ -27,7 +25,7 @@ def score(match: Any, k: int, victim: int) -> int:
 
 
 @kernel
-def worth(match: Any, k: int, victim: int) -> int:
+def worth(match: PiTanks, k: int, victim: int) -> int:
     """Points that a hit of robot k on robot `victim` scores in this tick."""
     if match.tanks[k].barred:
         return 0
@@ -36,20 +34,20 @@ def worth(match: Any, k: int, victim: int) -> int:
 
 
 @kernel
-def is_finale(match: Any) -> bool:
+def is_finale(match: PiTanks) -> bool:
     """True in the last `Rules.finale` ticks of the regular time."""
     rules = match.rules
     return bool(rules.ticks - rules.finale <= match.tick < rules.ticks)
 
 
 @kernel
-def is_overtime(match: Any) -> bool:
+def is_overtime(match: PiTanks) -> bool:
     """True from the end of the regular time to the end of the match."""
     return bool(match.tick >= match.rules.ticks and not match.over)
 
 
 @kernel
-def mark_leaders(match: Any) -> None:
+def mark_leaders(match: PiTanks) -> None:
     """Set bounty and bar of every robot for the next tick. Its own hits do not change them: no seat is preferred."""
     overtime = is_overtime(match)
     for k in range(ROBOTS):
@@ -59,16 +57,16 @@ def mark_leaders(match: Any) -> None:
 
 
 @kernel
-def is_decided(match: Any) -> bool:
+def is_decided(match: PiTanks) -> bool:
     """True if one team alone leads, or no time of the overtime is left."""
     decided = match.tick >= match.rules.ticks + match.rules.overtime
     for k in range(ROBOTS):
-        decided |= match.robots[k].present and lead(match, k) > 0
-    return bool(decided)
+        decided |= bool(match.robots[k].present and lead(match, k) > 0)
+    return decided
 
 
 @kernel
-def lead(match: Any, seat: int) -> int:
+def lead(match: PiTanks, seat: int) -> int:
     """Score of the seat's team less that of the best other team."""
     own, best = 0, -1000000
     for j in range(ROBOTS):

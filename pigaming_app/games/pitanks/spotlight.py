@@ -1,13 +1,12 @@
 """PiTanks: the light on a robot that stays where it is."""
 
-from typing import Any
-
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import ROBOTS
 
 
 @kernel
-def update_spotlights(match: Any) -> None:
+def update_spotlights(match: PiTanks) -> None:
     """One tick: a robot is lit once it has been in a circle for `Rules.camping`, until it leaves that circle.
 
     The circle is centred where the robot left the previous one. A knock-out does not count as staying.

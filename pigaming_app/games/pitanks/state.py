@@ -2,8 +2,9 @@
 
 from typing import Annotated
 
+from pigaming_app.games.simple import MatchRules, MatchState
 from pigaming_app.sim.record import added, record
-from pigaming_app.sim.world import HZ, ROBOTS, World
+from pigaming_app.sim.world import HZ, ROBOTS
 
 SHIELD, SPEED, RAPID, TRIPLE, RICOCHET, MINE = range(6)
 POWERS = ("shield", "speed", "rapid", "triple", "ricochet", "mine")
@@ -16,10 +17,9 @@ MINES = ROBOTS * OWN_MINES
 
 
 @record
-class Rules:
+class Rules(MatchRules):
     """Tunable parameters. Distances in px, times in ticks, speeds in px/s and rad/s."""
 
-    ticks: int  # of the match
     speed: float = 260.0
     turn_rate: float = 3.0
     turbo: int = 1  # 0: disabled
@@ -112,7 +112,7 @@ class Mine:
 
 
 @record
-class PiTanks(World):
+class PiTanks(MatchState):
     """The complete state of a match of PiTanks."""
 
     rules: Rules

@@ -6,7 +6,7 @@ position only, so that tracking cannot be lost.
 """
 
 from math import sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
@@ -43,7 +43,7 @@ class CoursePosition:
 
 
 @kernel
-def locate(course: Any, x: float, y: float, place: Any) -> None:
+def locate(course: Course, x: float, y: float, place: CoursePosition) -> None:
     """Locate (x, y): on the stretch that it is on, else on the one whose edge is nearest. Fills in `place`."""
     node = node_at(x, y)
     k, share, gap = project(course, x, y, nearest_point(course, x, y, course.near[node]))
@@ -68,7 +68,7 @@ def locate(course: Any, x: float, y: float, place: Any) -> None:
 
 
 @kernel
-def nearest_point(course: Any, x: float, y: float, k: int) -> int:
+def nearest_point(course: Course, x: float, y: float, k: int) -> int:
     """The point nearest to (x, y), found by descent from point k: a local minimum of the distance."""
     last = course.count - 1
     dx, dy = course.xs[k] - x, course.ys[k] - y
@@ -92,7 +92,7 @@ def nearest_point(course: Any, x: float, y: float, k: int) -> int:
 
 
 @kernel
-def project(course: Any, x: float, y: float, k: int) -> tuple[int, float, float]:
+def project(course: Course, x: float, y: float, k: int) -> tuple[int, float, float]:
     """Project (x, y) onto the two segments that meet at point k: nearest segment, fraction of it, distance in px."""
     last = course.count - 1
     before, after = k - 1 if k > 0 else last, k + 1 if k < last else 0
@@ -104,7 +104,7 @@ def project(course: Any, x: float, y: float, k: int) -> tuple[int, float, float]
 
 
 @kernel
-def project_on_segment(course: Any, x: float, y: float, a: int, b: int) -> tuple[float, float]:
+def project_on_segment(course: Course, x: float, y: float, a: int, b: int) -> tuple[float, float]:
     """Project (x, y) onto the segment from point a to b: fraction of it in [0, 1], and squared distance, px^2."""
     ax, ay = course.xs[a], course.ys[a]
     ex, ey = course.xs[b] - ax, course.ys[b] - ay
@@ -120,7 +120,7 @@ def project_on_segment(course: Any, x: float, y: float, a: int, b: int) -> tuple
 
 
 @kernel
-def half_width_at(course: Any, k: int, share: float) -> float:
+def half_width_at(course: Course, k: int, share: float) -> float:
     """Half the width, px, at a fraction of the segment from point k."""
     after = k + 1 if k + 1 < course.count else 0
     half: float = course.half[k] + share * (course.half[after] - course.half[k])
@@ -128,7 +128,7 @@ def half_width_at(course: Any, k: int, share: float) -> float:
 
 
 @kernel
-def segment_at(course: Any, along: float) -> tuple[int, float]:
+def segment_at(course: Course, along: float) -> tuple[int, float]:
     """Segment (by its first point) at `along` px, and the fraction of it; `along` is at most a lap out of range."""
     if along < 0.0:
         along += course.length
@@ -142,7 +142,7 @@ def segment_at(course: Any, along: float) -> tuple[int, float]:
 
 
 @kernel
-def point_at(course: Any, along: float, aside: float) -> tuple[float, float]:
+def point_at(course: Course, along: float, aside: float) -> tuple[float, float]:
     """The point `along` px along the course and `aside` px to the right of its line."""
     k, share = segment_at(course, along)
     after = k + 1 if k + 1 < course.count else 0
@@ -153,7 +153,7 @@ def point_at(course: Any, along: float, aside: float) -> tuple[float, float]:
 
 
 @kernel
-def distance_ahead(course: Any, start: float, end: float) -> float:
+def distance_ahead(course: Course, start: float, end: float) -> float:
     """Forward distance between two positions along the course, px, in [0, length)."""
     way = end - start
     if way < 0.0:

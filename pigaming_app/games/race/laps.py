@@ -1,15 +1,14 @@
 """Robot Race: crossings of lines, lap times and splits, and the distance covered."""
 
 from math import floor
-from typing import Any
 
 from pigaming_app.games.race.course import distance_ahead
-from pigaming_app.games.race.state import LINES
+from pigaming_app.games.race.state import LINES, Race, Racer, TimingLine
 from pigaming_app.sim.kernel import kernel
 
 
 @kernel
-def crossing(line: Any, x: float, y: float, to_x: float, to_y: float) -> float:
+def crossing(line: TimingLine, x: float, y: float, to_x: float, to_y: float) -> float:
     """Fraction of the step from (x, y) at which it crosses a line, in (0, 1]; less 2 if backwards; 0: no crossing.
 
     A point on the line counts as past it, so that no line is crossed twice in the same direction.
@@ -27,7 +26,7 @@ def crossing(line: Any, x: float, y: float, to_x: float, to_y: float) -> float:
 
 
 @kernel
-def cross_forward(match: Any, k: int, i: int, when: float) -> None:
+def cross_forward(match: Race, k: int, i: int, when: float) -> None:
     """Process a forward crossing of line i by robot k: its next line, one it had gone back over, or a wrong one.
 
     The line that it crossed last is a wrong one too: the robot has gone round without crossing the others.
@@ -45,14 +44,14 @@ def cross_forward(match: Any, k: int, i: int, when: float) -> None:
 
 
 @kernel
-def cross_backward(racer: Any, i: int) -> None:
+def cross_backward(racer: Racer, i: int) -> None:
     """Process a racer's backward crossing of line i: it counts lines to be crossed again, and undoes nothing."""
     if i == (racer.line + racer.passed - 1 - racer.lines_reversed) % LINES:
         racer.lines_reversed += 1
 
 
 @kernel
-def pass_line(match: Any, k: int, when: float) -> None:
+def pass_line(match: Race, k: int, when: float) -> None:
     """Process robot k's crossing of its next line: split time, or the end of a lap."""
     racer = match.racers[k]
     racer.missed, racer.lines_reversed = 0, 0
@@ -72,7 +71,7 @@ def pass_line(match: Any, k: int, when: float) -> None:
 
 
 @kernel
-def end_lap(match: Any, k: int, when: float) -> None:
+def end_lap(match: Race, k: int, when: float) -> None:
     """End a lap of robot k: lap times, best lap, and the finish after the last."""
     racer, robot = match.racers[k], match.robots[k]
     lap = when - racer.lap_start
@@ -91,7 +90,7 @@ def end_lap(match: Any, k: int, when: float) -> None:
 
 
 @kernel
-def stretch(match: Any, racer: Any) -> tuple[float, float]:
+def stretch(match: Race, racer: Racer) -> tuple[float, float]:
     """The line that the racer crossed last, px along the course, and the distance from it to its next line, px."""
     behind = racer.line + racer.passed - 1 - racer.lines_reversed
     here: float = match.lines[behind % LINES].along
@@ -99,7 +98,7 @@ def stretch(match: Any, racer: Any) -> tuple[float, float]:
 
 
 @kernel
-def way_driven(match: Any, racer: Any) -> float:
+def way_driven(match: Race, racer: Racer) -> float:
     """Distance from the racer's last line to the last place on its way, px: none if that place is not past the line."""
     here, gap = stretch(match, racer)
     way = distance_ahead(match.course, here, racer.left)
@@ -107,7 +106,7 @@ def way_driven(match: Any, racer: Any) -> float:
 
 
 @kernel
-def progress(match: Any, k: int) -> float:
+def progress(match: Race, k: int) -> float:
     """Distance that robot k has covered, px, between its last line and the next; off its way, up to where it left it.
 
     Rounded to 1/64 px, so that rounding errors do not affect the order.

@@ -5,15 +5,16 @@ px, forward positive. Positions of others are extrapolated back by `delay` secon
 """
 
 from math import atan2, cos, sin, sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
-from pigaming_app.games.race.course import CoursePosition, distance_ahead, locate, point_at, segment_at
+from pigaming_app.games.race.course import Course, CoursePosition, distance_ahead, locate, point_at, segment_at
 from pigaming_app.games.race.laps import stretch
 from pigaming_app.games.race.passages import clear_aside
+from pigaming_app.games.race.state import Race
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import added, record
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import ROBOTS, Robot
 
 OTHERS = ROBOTS - 1
 BACK = 160.0  # px, longest step on the way back to a missed line
@@ -116,7 +117,7 @@ class Observation:
 
 
 @kernel
-def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
+def observe(match: Race, seat: int, senses: Senses, obs: Observation) -> None:
     """Fill in the observation of one seat."""
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
     course, place = match.course, senses.place
@@ -144,7 +145,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 
 
 @kernel
-def observe_track(match: Any, place: Any, look: float, obs: Any) -> None:
+def observe_track(match: Race, place: CoursePosition, look: float, obs: Observation) -> None:
     """Fill in the fastest line at this position, and the turn of the course ahead."""
     course = match.course
     k, _ = segment_at(course, place.along)
@@ -158,7 +159,7 @@ def observe_track(match: Any, place: Any, look: float, obs: Any) -> None:
 
 
 @kernel
-def segment_direction(course: Any, k: int) -> tuple[float, float]:
+def segment_direction(course: Course, k: int) -> tuple[float, float]:
     """Direction of the segment from point k, of approximately unit length."""
     a = k % course.count
     b = (k + 1) % course.count
@@ -166,7 +167,7 @@ def segment_direction(course: Any, k: int) -> tuple[float, float]:
 
 
 @kernel
-def observe_mark(match: Any, along: float, mark: Any) -> None:
+def observe_mark(match: Race, along: float, mark: TrackPoint) -> None:
     """Fill in the point of the fastest line at `along` px."""
     course = match.course
     k, share = segment_at(course, along)
@@ -185,7 +186,7 @@ def observe_mark(match: Any, along: float, mark: Any) -> None:
 
 
 @kernel
-def observe_passage(match: Any, last: int, mark: Any) -> None:
+def observe_passage(match: Race, last: int, mark: TrackPoint) -> None:
     """Fill in the passage up to the point `last` of the course."""
     count = match.course.count
     k = (last - PASSAGE + count) % count
@@ -200,7 +201,7 @@ def observe_passage(match: Any, last: int, mark: Any) -> None:
 
 
 @kernel
-def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
+def observe_next_line(match: Race, seat: int, along: float, obs: Observation) -> None:
     """Fill in the distance past the robot's next line, and the waypoint back to it."""
     racer, course = match.racers[seat], match.course
     here, gap = stretch(match, racer)
@@ -216,7 +217,7 @@ def observe_next_line(match: Any, seat: int, along: float, obs: Any) -> None:
 
 
 @kernel
-def observe_other(match: Any, robot: Any, j: int, along: float, senses: Any, other: Any) -> None:
+def observe_other(match: Race, robot: Robot, j: int, along: float, senses: Senses, other: Other) -> None:
     """Fill in robot j, as observed by `robot` at `along` px."""
     seen, place = match.robots[j], senses.place
     other.present = seen.present
@@ -237,7 +238,7 @@ def observe_other(match: Any, robot: Any, j: int, along: float, senses: Any, oth
 
 
 @kernel
-def observe_features(match: Any, along: float, place: Any, obs: Any) -> None:
+def observe_features(match: Race, along: float, place: CoursePosition, obs: Observation) -> None:
     """Fill in oil, boost pad and item box ahead."""
     course, aside = match.course, obs.aside
     obs.pad.present, obs.box.present = 0, 0
@@ -261,7 +262,7 @@ def observe_features(match: Any, along: float, place: Any, obs: Any) -> None:
 
 
 @kernel
-def note(feature: Any, ahead: float, aside: float, own: float) -> None:
+def note(feature: Feature, ahead: float, aside: float, own: float) -> None:
     """Fill in a feature if none nearer is there; of two equally far ahead, the one nearer to `own` px aside."""
     if ahead > SIGHT or (feature.present and feature.ahead < ahead):
         return

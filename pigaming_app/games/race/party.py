@@ -9,9 +9,8 @@
 """
 
 from math import cos, sin
-from typing import Any
 
-from pigaming_app.games.race.state import BOXES, NO_ITEM, OIL, OWN_OILS, PAD_HALF, SHIELD, TURBO
+from pigaming_app.games.race.state import BOXES, NO_ITEM, OIL, OWN_OILS, PAD_HALF, SHIELD, TURBO, Box, Race
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
@@ -27,7 +26,7 @@ CREEP = 0.2  # share of full speed in a spin
 
 
 @kernel
-def update_course(match: Any) -> None:
+def update_course(match: Race) -> None:
     """One tick of everything on the course."""
     for i in range(BOXES):
         update_box(match, match.boxes[i])
@@ -46,7 +45,7 @@ def update_course(match: Any) -> None:
 
 
 @kernel
-def update_box(match: Any, box: Any) -> None:
+def update_box(match: Race, box: Box) -> None:
     """One tick of an item box: the nearest robot that touches it and has no item takes it."""
     if box.pause:
         box.pause -= 1
@@ -64,7 +63,7 @@ def update_box(match: Any, box: Any) -> None:
 
 
 @kernel
-def draw_item(match: Any, rank: int) -> int:
+def draw_item(match: Race, rank: int) -> int:
     """A random item for a robot of this rank."""
     drawn = uniform(match)
     turbo = BEHIND_TURBO + STEP_TURBO * (rank - 1) if rank > 1 else 0.0
@@ -74,7 +73,7 @@ def draw_item(match: Any, rank: int) -> int:
 
 
 @kernel
-def use_item(match: Any, k: int) -> None:
+def use_item(match: Race, k: int) -> None:
     """Use the item of robot k. Oil that finds no place, because both own slicks still lie there, moves the older."""
     robot, racer, rules = match.robots[k], match.racers[k], match.rules
     if racer.item == TURBO:
@@ -94,7 +93,7 @@ def use_item(match: Any, k: int) -> None:
 
 
 @kernel
-def draft(match: Any, k: int) -> None:
+def draft(match: Race, k: int) -> None:
     """Refill the meter of robot k if it drives in a slipstream."""
     robot, racer, rules = match.robots[k], match.racers[k], match.rules
     c, s = cos(robot.heading), sin(robot.heading)
@@ -114,7 +113,7 @@ def draft(match: Any, k: int) -> None:
 
 
 @kernel
-def drive_over_pads(match: Any, k: int) -> None:
+def drive_over_pads(match: Race, k: int) -> None:
     """Start a surge if the centre of robot k is on a boost pad."""
     robot, racer = match.robots[k], match.racers[k]
     for pad in match.pads:
@@ -125,7 +124,7 @@ def drive_over_pads(match: Any, k: int) -> None:
 
 
 @kernel
-def drive_over_oil(match: Any, k: int) -> None:
+def drive_over_oil(match: Race, k: int) -> None:
     """Start a spin if the centre of robot k is on oil, away from the side on which the slick lies."""
     robot, racer, rules = match.robots[k], match.racers[k], match.rules
     for oil in match.oils:
@@ -141,7 +140,7 @@ def drive_over_oil(match: Any, k: int) -> None:
 
 
 @kernel
-def spin(match: Any, k: int) -> None:
+def spin(match: Race, k: int) -> None:
     """Request the speeds of robot k in a spin on oil."""
     robot, racer, rules = match.robots[k], match.racers[k], match.rules
     racer.spin -= 1

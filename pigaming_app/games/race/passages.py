@@ -6,9 +6,9 @@ all round. Where things leave no room on the course, robots pass through the mud
 
 from collections.abc import Sequence
 from math import hypot
-from typing import Any
 
 from pigaming_app.games.race.course import POINTS, Course, CoursePosition, locate, segment_at
+from pigaming_app.games.race.state import Race
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.cover import Capsule, from_capsule
@@ -28,7 +28,7 @@ Span = tuple[float, float]  # offsets, px, positive to the right
 
 
 @kernel
-def clear_aside(match: Any, along: float) -> float:
+def clear_aside(match: Race, along: float) -> float:
     """The offset nearest to the middle of the course at which no thing stands, px; `along` px along it."""
     if not match.narrow:
         return 0.0
@@ -39,7 +39,7 @@ def clear_aside(match: Any, along: float) -> float:
 
 
 @kernel
-def in_passage(match: Any, place: Any) -> bool:
+def in_passage(match: Race, place: CoursePosition) -> bool:
     """True if a position beside the course is where robots pass a thing."""
     if not match.narrow:
         return False

@@ -7,12 +7,11 @@ line that counts, so that no line has to be crossed twice. It is never further a
 """
 
 from math import atan2, cos, sin
-from typing import Any
 
 from pigaming_app.games.race.course import distance_ahead, point_at, segment_at
 from pigaming_app.games.race.laps import stretch, way_driven
 from pigaming_app.games.race.passages import BESIDE, clear_aside, in_passage
-from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, STUCK, WRONG_WAY
+from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, STUCK, WRONG_WAY, Race, Racer
 from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import is_free
 from pigaming_app.sim.kernel import kernel
@@ -30,7 +29,7 @@ ARRIVED = 60.0  # px from the requested pose, within which a robot that drives t
 
 
 @kernel
-def detect_lost(match: Any, k: int) -> None:
+def detect_lost(match: Race, k: int) -> None:
     """Set `lost` of robot k, and `left`, the last place on its way."""
     robot, racer = match.robots[k], match.racers[k]
     here, gap = stretch(match, racer)
@@ -57,7 +56,7 @@ def detect_lost(match: Any, k: int) -> None:
 
 
 @kernel
-def drives_beside(match: Any, racer: Any, way: float) -> bool:
+def drives_beside(match: Race, racer: Racer, way: float) -> bool:
     """True if a robot in the mud still drives along the course that it has left, and does not cut across."""
     step = way - way_driven(match, racer)
     near: bool = abs(racer.place.aside) - racer.place.half < BESIDE
@@ -65,7 +64,7 @@ def drives_beside(match: Any, racer: Any, way: float) -> bool:
 
 
 @kernel
-def update_request(match: Any, k: int) -> None:
+def update_request(match: Race, k: int) -> None:
     """Move the requested pose to where no robot stands; withdraw it once robot k is back."""
     robot, racer, course = match.robots[k], match.racers[k], match.course
     here, _ = stretch(match, racer)

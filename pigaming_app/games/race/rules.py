@@ -9,13 +9,12 @@ who do not finish are ranked by distance. A robot that has lost its way may ask 
 """
 
 from math import cos, sin
-from typing import Any
 
 from pigaming_app.games.race.course import locate
 from pigaming_app.games.race.laps import cross_backward, cross_forward, crossing, progress
 from pigaming_app.games.race.party import spin, update_course, use_item
 from pigaming_app.games.race.recovery import detect_lost, update_request
-from pigaming_app.games.race.state import LINES
+from pigaming_app.games.race.state import LINES, Race, Racer
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import stop, stop_all, use_turbo
 from pigaming_app.sim.things.mud import in_mud
@@ -25,7 +24,7 @@ AGAINST = 40.0  # px/s above which driving against the direction of the course c
 
 
 @kernel
-def judge(match: Any) -> None:
+def judge(match: Race) -> None:
     """One tick of the rules: positions, crossings, ranks, then the requested speeds."""
     if match.over:
         stop_all(match)
@@ -48,7 +47,7 @@ def judge(match: Any) -> None:
 
 
 @kernel
-def track_progress(match: Any, k: int) -> None:
+def track_progress(match: Race, k: int) -> None:
     """Locate robot k, and process the lines it has crossed since the previous tick."""
     robot, racer = match.robots[k], match.racers[k]
     locate(match.course, robot.x, robot.y, racer.place)
@@ -74,7 +73,7 @@ def track_progress(match: Any, k: int) -> None:
 
 
 @kernel
-def rank(match: Any, k: int) -> int:
+def rank(match: Race, k: int) -> int:
     """Rank of robot k, from 1; ties go to the lower seat."""
     place = 1
     for j in range(ROBOTS):
@@ -84,7 +83,7 @@ def rank(match: Any, k: int) -> int:
 
 
 @kernel
-def is_ahead(racer: Any, other: Any, if_equal: bool) -> bool:
+def is_ahead(racer: Racer, other: Racer, if_equal: bool) -> bool:
     """True if a racer ranks ahead of the other: by finish time, then by progress."""
     if racer.finished != other.finished:
         return bool(racer.finished > other.finished)
@@ -99,7 +98,7 @@ def is_ahead(racer: Any, other: Any, if_equal: bool) -> bool:
 
 
 @kernel
-def press_fire(match: Any, k: int) -> None:
+def press_fire(match: Race, k: int) -> None:
     """Robot k's button FIRE, on the tick it goes down: the way back if it is lost, else its item."""
     robot, racer, fire = match.robots[k], match.racers[k], match.actions[k].fire
     if fire and not racer.fire_held and not racer.finished:
@@ -113,7 +112,7 @@ def press_fire(match: Any, k: int) -> None:
 
 
 @kernel
-def steer(match: Any, k: int) -> None:
+def steer(match: Race, k: int) -> None:
     """Request the speeds that result from robot k's stick, turbo, the ground, boost pads and oil."""
     rules, robot, action, racer = match.rules, match.robots[k], match.actions[k], match.racers[k]
     if racer.finished and match.tick - racer.finish > rules.roll_on:
@@ -136,7 +135,7 @@ def steer(match: Any, k: int) -> None:
 
 
 @kernel
-def is_over(match: Any) -> bool:
+def is_over(match: Race) -> bool:
     """True if everybody has finished, or a time limit has passed."""
     late = match.first and match.tick - match.first >= match.rules.patience
     racing = 0

@@ -3,8 +3,9 @@
 from typing import Annotated
 
 from pigaming_app.games.race.course import POINTS, Course, CoursePosition
+from pigaming_app.games.simple import MatchRules, MatchState
 from pigaming_app.sim.record import added, record
-from pigaming_app.sim.world import HZ, ROBOTS, World
+from pigaming_app.sim.world import HZ, ROBOTS
 
 MAX_LAPS = 9
 LINES = ROBOTS  # one for each seat, taken or not
@@ -20,10 +21,9 @@ LOST = ("", "off", "wrong", "missed", "stuck")
 
 
 @record
-class Rules:
+class Rules(MatchRules):
     """Tunable parameters. Speeds in px/s and rad/s, times in ticks."""
 
-    ticks: int  # after which the race is stopped
     laps: int = 3
     speed: float = 325.0
     turn_rate: float = 3.0
@@ -132,7 +132,7 @@ class Oil:
 
 
 @record
-class Race(World):
+class Race(MatchState):
     """The complete state of a match of Robot Race."""
 
     rules: Rules
