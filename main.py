@@ -45,7 +45,7 @@ def main() -> int:
         code = start(sys.argv[1:])
         if code is not None:
             return code
-    from pigaming_app import cli
+    from pigaming_app.jobs import cli
 
     return cli.main(sys.argv[1:])
 

@@ -7,6 +7,6 @@ if hasattr(signal, "pthread_sigmask"):  # as in main.py
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 if __name__ == "__main__":
-    from pigaming_app.cli import main
+    from pigaming_app.jobs.cli import main
 
     sys.exit(main())

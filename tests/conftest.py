@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
-from pigaming_app.cli import BLAS
+from pigaming_app.jobs.cli import BLAS
 from pigaming_app.sim.kernel import _cache_folder
 
 WORDY = ("pt", "de")

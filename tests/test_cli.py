@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.cli import JOBS, main, module_name
+from pigaming_app.jobs.cli import main
+from pigaming_app.jobs.registry import jobs
 from pigaming_app.jobs.terminal import refusal
 from pigaming_app.storage.settings import Settings, folders
 
@@ -167,18 +168,16 @@ def test_the_game_stands_after_the_job_or_after_its_old_option(words, capsys):
 
 def test_every_job_describes_its_options_without_numpy():
     code = (
-        "import sys\nsys.modules['numpy'] = None\nfrom pigaming_app.cli import JOBS, main\n"
-        "for job in JOBS: assert main([job, '--help']) == 0\n"
+        "import sys\nsys.modules['numpy'] = None\nfrom pigaming_app.jobs.cli import main\n"
+        "from pigaming_app.jobs.registry import jobs\nfor job in jobs(): assert main([job, '--help']) == 0\n"
         "assert 'pygame' not in sys.modules"
     )
     told = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    assert told.count("usage: ") == len(JOBS)
+    assert told.count("usage: ") == len(jobs())
     assert "--game" not in told
-    folder = ROOT / "pigaming_app" / "jobs"
-    for path in (*folder.glob("[a-z]*"), *(folder / "mat").glob("[a-z]*")):
-        declares = (path / "__init__.py" if path.is_dir() else path).read_text(encoding="utf-8").count("\ndef options(")
-        module = ".".join(path.relative_to(folder).with_suffix("").parts)
-        assert declares == (module in map(module_name, JOBS)), path.name
+    modules = ROOT.glob("pigaming_app/jobs/*.py")
+    declaring = {path.stem for path in modules if "\ndef options(" in path.read_text(encoding="utf-8")}
+    assert declaring == {job.module for job in jobs().values() if not job.package}
 
 
 @pytest.mark.parametrize(

@@ -43,7 +43,7 @@ from pigaming_app.games.race import rules as race_rules
 from pigaming_app.games.race import state as race_state
 from pigaming_app.games.registry import OURS, games
 from pigaming_app.games.setup import make_setup
-from pigaming_app.jobs.train.qlearning import RIVAL
+from pigaming_app.jobs.learning.train.qlearning import RIVAL
 from pigaming_app.scenes.results import initials
 from pigaming_app.sim import action, angles, arena, contact, drivetrain, world
 from pigaming_app.sim import robot as robots

@@ -9,9 +9,9 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent / "pigaming_app"
 MAY = {
-    "main": {"boot", "cli"},
+    "main": {"boot", "jobs"},
     "__init__": set(),
-    "__main__": {"cli"},
+    "__main__": {"jobs"},
     "links": set(),
     "boot": set(),
     "storage": set(),
@@ -24,9 +24,8 @@ MAY = {
     "gym": {"links", "sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
     "events": {"games", "ai", "storage"},
     "jobs": {"links", "boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
-    "cli": {"boot", "jobs"},
 }
-MODULES, FLOORS = 15, 8  # at most: in a folder, between the rooms (gym lies between scenes and jobs)
+MODULES, FLOORS = 15, 7  # at most: in a folder, between the rooms (gym lies between scenes and jobs)
 ONLY_IN = {
     "pygame": {"ui", "scenes"},
     "cv2": {"hardware"},
@@ -188,7 +187,7 @@ def test_no_folder_holds_more_modules_than_a_shelf():
 
 
 def test_rooms_lie_on_few_floors():
-    arrows = within("pigaming_app") | {"main": {"boot", "cli"}}
+    arrows = within("pigaming_app") | {"main": {"boot", "jobs"}}
 
     def floor(room):
         return 1 + max((floor(other) for other in arrows[room]), default=0)
@@ -243,7 +242,7 @@ def test_main_needs_nothing_but_the_standard_library():
 def test_the_arcade_is_imported_without_numba_and_numpy():
     code = (
         "import sys\nsys.modules['numba'] = None\n"
-        "import pigaming_app.cli, pigaming_app.scenes.start\n"
+        "import pigaming_app.jobs.cli, pigaming_app.scenes.start\n"
         "import pigaming_app.scenes.title.scene, pigaming_app.scenes.play.scene\n"
         "assert 'numpy' not in sys.modules, 'numpy costs a tenth of a second at the start'\n"
     )

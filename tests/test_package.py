@@ -135,7 +135,7 @@ def test_the_wheel_declares_version_extras_and_program(environment):
     extras |= {"bundle", "events", "phones"}
     assert set(installed.metadata.get_all("Provides-Extra")) == extras
     assert {(point.group, point.name, point.value) for point in installed.entry_points} == {
-        ("console_scripts", "pigaming", "pigaming_app.cli:main"),
+        ("console_scripts", "pigaming", "pigaming_app.jobs.cli:main"),
         ("pigaming.games", "football", "pigaming_football"),
     }
 

@@ -58,7 +58,7 @@ def needs_supervisor(arguments: Namespace) -> bool:
 
 def supervised(arguments: Namespace) -> int:
     """Run this same job under a supervisor; returns its exit code. Raises Refusal, OSError."""
-    return int(module_of("kiosk.start").supervise(own_command(arguments.words)))
+    return int(module_of("kiosk.start", "kiosk").supervise(own_command(arguments.words)))
 
 
 def ros_options(parser: ArgumentParser) -> None:
@@ -70,7 +70,7 @@ def ros_options(parser: ArgumentParser) -> None:
 def ros_width(arguments: Namespace) -> float | None:
     """Width of the arena of a ROS network, mm; None: it is not asked for. Raises Refusal without ROS."""
     if arguments.plant == "ros":
-        return float(module_of("mat.ros").arena_width(arguments))
+        return float(module_of("mat.ros", "ros").arena_width(arguments))
     if arguments.width is not None:
         raise Refusal("--width: only for --plant ros; `calibrate` measures a mat")
     return None

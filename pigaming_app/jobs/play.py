@@ -199,7 +199,7 @@ def _check_radio(chosen: dict[str, Any]) -> None:
     """Raises Refusal for robots without a deadman, whether the command line or the settings name them."""
     from pigaming_app.ui.i18n import english
 
-    settings_problem = module_of("mat.sessions").settings_problem
+    settings_problem = module_of("mat.sessions", "mat").settings_problem
     settings, _ = Settings.load(folders().config)
     settings.radio = chosen.get("radio", settings.radio)
     if reason := settings_problem(settings):

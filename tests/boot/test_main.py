@@ -57,7 +57,8 @@ def clone(tmp_path):
     for name in FILES:
         (clone / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, clone / name)
-    (clone / "pigaming_app" / "cli.py").write_text(JOB)
+    (clone / "pigaming_app" / "jobs").mkdir()
+    (clone / "pigaming_app" / "jobs" / "cli.py").write_text(JOB)
     return clone
 
 

@@ -1,14 +1,14 @@
 """Imports, late ones included, between the core and its features."""
 
-from pigaming_app.scenes.features.registry import features
+from pigaming_app.jobs.features import every_feature
 from tests.test_layers import graph
 
-BENCH = "bench"  # no feature of the arcade: it measures all of them
-ROOMS = {f"pigaming_app.{room}": one.name for one in features() for room in (f"scenes.{one.name}", *one.rooms)}
-ROOMS |= dict.fromkeys(("pigaming_app.jobs.bench", "pigaming_app.scenes.walk"), BENCH)
+BENCH = "bench"  # it measures all of them
+ROOMS = {f"pigaming_app.{room}": one.name for one in every_feature() for room in one.rooms}
 CORE = "core"
 ALLOWED = {
     ("ladder", "events"): "the rules of a climb, and the ratings of leagues",
+    ("lab", "learning"): "it shows what learns",
 }
 
 

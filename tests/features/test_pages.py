@@ -5,23 +5,24 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.jobs.bench.test import paths_of
+from pigaming_app.jobs.features import every_feature
 from pigaming_app.jobs.terminal.refusal import Refusal
-from pigaming_app.jobs.test import paths_of
-from pigaming_app.scenes.features.registry import NAMES, features
 
 ROOT = Path(__file__).resolve().parents[2]
+NAMES = [feature.name for feature in every_feature()]
 
 
-@pytest.mark.parametrize("feature", features(), ids=NAMES)
+@pytest.mark.parametrize("feature", every_feature(), ids=NAMES)
 def test_a_feature_has_a_short_page_with_its_rooms_and_its_command(feature) -> None:
     folder = ROOT / "pigaming_app"
-    text = (folder / "scenes" / feature.name / "README.md").read_text(encoding="utf-8")
+    text = (folder / feature.rooms[0].replace(".", "/") / "README.md").read_text(encoding="utf-8")
     assert len(text.splitlines()) <= 40
     assert text.endswith(f"`python3 main.py test --feature {feature.name}`\n")
     rooms = re.findall(r"^\| (.*?) \|", text, re.M)[1:]
     named = {name for cell in rooms for name in re.findall(r"`(.*?)`", cell)}
     assert all((folder / name).exists() or (ROOT / name).exists() for name in named), named
-    for room in (f"scenes.{feature.name}", *feature.rooms):
+    for room in feature.rooms:
         path = room.replace(".", "/")
         assert {path, f"{path}/", f"{path}.py"} & named, room
 

@@ -130,7 +130,7 @@ def main() -> int:
     if words[0] == "tour":
         tour(words[1:])
         return 0
-    from pigaming_app import cli
+    from pigaming_app.jobs import cli
 
     return cli.main(words)
 

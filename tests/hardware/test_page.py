@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.cli import JOBS, Parser, module_name
 from pigaming_app.hardware.emulator.faults import FAULTS
+from pigaming_app.jobs.cli import Parser
+from pigaming_app.jobs.registry import jobs
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/hardware.md").read_text(encoding="utf-8")
@@ -35,9 +36,9 @@ def is_text(words: str, text: str) -> bool:
 def test_a_command_is_understood(command: str) -> None:
     words = shlex.split(command)
     name, rest = ("arcade", words) if not words or words[0].startswith("-") else (words[0], words[1:])
-    assert name in JOBS
+    assert name in jobs()
     parser = Parser(allow_abbrev=False)
-    import_module(f"pigaming_app.jobs.{module_name(name)}").options(parser)
+    import_module(f"pigaming_app.jobs.{jobs()[name].module}").options(parser)
     parser.parse_args(rest)
 
 

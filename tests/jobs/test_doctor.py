@@ -10,8 +10,8 @@ import pytest
 from pigaming_app import __version__
 from pigaming_app.boot import version
 from pigaming_app.boot.interpreter import StartError
-from pigaming_app.cli import main
 from pigaming_app.jobs import doctor
+from pigaming_app.jobs.cli import main
 from pigaming_app.storage.restarts import Restart, append_restart
 from pigaming_app.storage.scores import Scores
 

@@ -14,7 +14,8 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app import ASSETS, cli
+from pigaming_app import ASSETS
+from pigaming_app.jobs import cli
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import run
 from pigaming_app.storage.parsing import MESSAGE_LENGTH

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.skipif(not Path("/proc/self/environ").exists(), reason=
 LONG = 60.0  # s
 JOB = """
 import subprocess, sys, time
-from pigaming_app import cli
+from pigaming_app.jobs import cli
 def begin():
     print("begun", flush=True)
 cli._run = lambda name, words: exec(sys.argv[1], globals())

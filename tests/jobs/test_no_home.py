@@ -16,7 +16,7 @@ import pwd, sys
 def getpwuid(uid):
     raise KeyError(uid)
 pwd.getpwuid = getpwuid
-from pigaming_app import cli
+from pigaming_app.jobs import cli
 sys.exit(cli.main(sys.argv[1:]))
 """
 HOMES = ("HOME", "PIGAMING_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
-from pigaming_app.cli import JOBS
+from pigaming_app.jobs.registry import jobs
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -74,7 +74,7 @@ def _in_sentences(text: str) -> Iterator[tuple[int, str]]:
         words = " ".join(code[1].split())
         first, *others = words.split(" ")
         if (first in PROGRAMS and others) or (
-            first in JOBS and any(_is_option(word) or first == "bench" for word in others)
+            first in jobs() and any(_is_option(word) or first == "bench" for word in others)
         ):
             yield prose.count("\n", 0, code.start()) + 1, words
 

@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pigaming_app import cli
 from pigaming_app.ai.networks.files import encode
 from pigaming_app.ai.ppo import shard, win_rates
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.registry import games
-from pigaming_app.jobs import arcade, play
+from pigaming_app.jobs import arcade, cli, play
 from pigaming_app.jobs.bench import phones
+from pigaming_app.jobs.learning.train import ppo_training
+from pigaming_app.jobs.registry import jobs
 from pigaming_app.jobs.terminal import refusal
-from pigaming_app.jobs.train import ppo_training
 from pigaming_app.scenes import start
 from pigaming_app.sim import kernel
 from pigaming_app.sim.drivetrain import NOMINAL, to_toml
@@ -93,7 +93,7 @@ class Sandbox:
                 return cli.main(rest)
             case ["python3" | ".venv/bin/python", "-m", module, *rest]:
                 return scripted(module, rest)
-            case [job, *_] if job in cli.JOBS:
+            case [job, *_] if job in jobs():
                 return cli.main(words)
         raise AssertionError(f"{words}: not known how to run this; see tests/pages/stand_ins.py")
 
@@ -102,7 +102,7 @@ class Sandbox:
         if words[0] in ("pip", "pipx", "uv", "uvx"):
             return int(not is_installable(words))
         foreign = words[1:3] == ["-m", "pip"] or not {"main.py", "pigaming", "-m"} & {*words}
-        if foreign and words[0] not in cli.JOBS:
+        if foreign and words[0] not in jobs():
             return 0
         if "-m" in words and "parse_args" not in source_of(words[words.index("-m") + 1]):
             return 0

@@ -51,7 +51,7 @@ PLACEHOLDERS = (
     Placeholder(r"play --seed$", "play --seed 3 --seats idle,idle --headless", VALUE),
     Placeholder(r"ppo --against$", "ppo --against net --out against.npz", VALUE),
     Placeholder(r"robots --arena$", "robots --arena 4711", VALUE),
-    Placeholder(r" --resume", "", "nothing to go on from; tests/jobs/test_train.py resumes"),
+    Placeholder(r" --resume", "", "nothing to go on from; tests/jobs/learning/test_train.py resumes"),
     Placeholder(r"(qlearning --set .*=0)$", r"\1 --out readings.npz", "a file that the sentence leaves out"),
     Placeholder(r"bundle --out /media/stick", "bundle --out stick", "no stick is plugged in"),
 )
@@ -75,8 +75,8 @@ WITHOUT_ROBOTS = ("arena", "microbit", "sheet", "wifi_config")  # but not with t
 MINUTES_LONG = "it takes minutes"
 ELSEWHERE = (
     Elsewhere(r"(python3 main\.py )?(test|bundle)\b.*", MINUTES_LONG, ".ci/run"),
-    Elsewhere(r"(python3 main\.py )?bench robots\b.*", MINUTES_LONG, "tests/jobs/test_bench_robots.py"),
-    Elsewhere(r"(python3 main\.py )?bench (?!robots|phones).*", MINUTES_LONG, "tests/jobs/test_bench_yardsticks.py"),
+    Elsewhere(r"(python3 main\.py )?bench robots\b.*", MINUTES_LONG, "tests/jobs/bench/test_robots.py"),
+    Elsewhere(r"(python3 main\.py )?bench (?!robots|phones).*", MINUTES_LONG, "tests/jobs/bench/test_yardsticks.py"),
     Elsewhere(r".*(--plant ros|main\.py ros)\b.*|roscore &", "it needs ROS", "tests/hardware/ros/test_ros.py"),
     Elsewhere(r".* --ray .*|ray start .*|.*ray_speedup", "it needs Ray", "tests/ai/ppo/test_ray_workers.py"),
     Elsewhere(r".*--radio udp\b.*", "boards run MicroPython", "tests/hardware/emulator/test_boards.py"),
@@ -84,7 +84,7 @@ ELSEWHERE = (
     Elsewhere(r".*robots\b.*--(pair|latency|wheels).*", "half a minute of driving", "tests/jobs/mat/test_robots.py"),
     Elsewhere(r".*fidelity (record|identify|replay)\b.*", "a minute of driving", "tests/jobs/mat/test_robots.py"),
     Elsewhere(r".*calibrate --emulate .*--json.*", "half a minute of pictures", "tests/jobs/mat/test_calibrate.py"),
-    Elsewhere(r".*play pitanks --real .*", "robots take their places first", "tests/jobs/test_bench_robots.py"),
+    Elsewhere(r".*play pitanks --real .*", "robots take their places first", "tests/jobs/bench/test_robots.py"),
     Elsewhere(r".*tests\.golden( --write)?", "a minute; it may change what tests compare with", "tests/test_golden.py"),
     Elsewhere(r".*tests\.bench\.open_day.*", MINUTES_LONG, "tests/bench/test_open_day.py"),
     Elsewhere(

@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.cli import main
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.jobs.cli import main
 
 
 def job(*words: object) -> str:

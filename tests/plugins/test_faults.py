@@ -20,7 +20,7 @@ import sys
 from pigaming_app.ai.experiments import league
 from pigaming_app.storage.plugins import endless
 endless.LIMIT, endless.GRACE, league.MIN_COMPILED_MATCHES = 0.6, 0.3, {compiled}
-from pigaming_app.cli import main
+from pigaming_app.jobs.cli import main
 sys.exit(main(sys.argv[1:]))
 """
 PLAY = "play tag --headless --speed max --minutes 0.1 --seats hard,easy"

@@ -1,0 +1,6 @@
+"""The arcade without an operator at hand."""
+
+JOBS = {
+    "report": "figures of a day of the arcade: matches, crashes, batteries",
+    "autostart": "start of a kiosk with the session: on, off, show",
+}

@@ -32,15 +32,14 @@ class Refusal(Exception):
     """A request that cannot be carried out; the text is one line."""
 
 
-def module_of(job: str) -> Any:
-    """A module of `jobs`. Raises Refusal if it, or a feature that it needs, is not in this installation."""
+def module_of(place: str, named: str) -> Any:
+    """A module below `jobs`. Raises Refusal with this name if a feature that it needs is not in this installation."""
     try:
-        return import_module(f"pigaming_app.jobs.{job}")
+        return import_module(f"pigaming_app.jobs.{place}")
     except ModuleNotFoundError as missing:
         if not (missing.name or "").startswith("pigaming_app."):
             raise
-        name = job.removeprefix("mat.").partition(".")[0].replace("_", "-")
-        raise Refusal(f"{name} is not part of this installation") from None
+        raise Refusal(f"{named} is not part of this installation") from None
 
 
 @contextmanager

@@ -23,7 +23,7 @@ def draw_arena(context: Context, game: str) -> Callable[[], Scene] | None:
 
 FEATURE = Feature(
     "editor",
-    rooms=("jobs.arena",),
+    rooms=("scenes.editor", "jobs.editor"),
     menu=MenuItem(4, page),
     draw_arena=draw_arena,
     preload=("pigaming_app.scenes.editor.gallery.page",),

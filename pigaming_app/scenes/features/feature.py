@@ -1,7 +1,8 @@
 """The contract of a feature: screens and services that the core offers when they are there, and runs without.
 
-A feature declares itself in `scenes/NAME/feature.py` as `FEATURE`. That module is imported before the title appears, so
-it imports its own screens late. `registry.py` lists the names.
+A feature declares itself as `FEATURE` in `scenes/NAME/feature.py`, or without screens in `jobs/NAME/feature.py`, and
+has its page beside it, README.md. The former is imported before the title appears, so it imports its own screens late;
+`registry.py` lists its name. Jobs of a feature are declared in `jobs/NAME/__init__.py`.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -108,11 +109,11 @@ class JoinOffer(Protocol):
 
 @dataclass(frozen=True)
 class Feature:
-    """What a feature offers; all of it is optional."""
+    """What a feature consists of, and what it offers the arcade; all of the latter is optional."""
 
     name: str
-    rooms: Sequence[str] = ()  # its other packages and modules in `pigaming_app`; it is offered with all of them only
-    needs: Sequence[str] = ()  # features without which it is not offered
+    rooms: Sequence[str]  # its packages and modules in `pigaming_app`; it is offered with all of them only
+    needs: Sequence[str] = ()  # rooms of other features without which it is not offered
     menu: MenuItem | None = None
     options: Mapping[str, OptionRow] = field(default_factory=dict)
     show: Callable[[Context, str], Show | None] | None = None  # of a game, for attract mode

@@ -22,21 +22,19 @@ log = logging.getLogger("pigaming")
 
 @cache
 def features() -> tuple[Feature, ...]:
-    """The features that are there, in the order of NAMES."""
-    found = {name: feature for name in NAMES if (feature := _found(name))}
-    return tuple(feature for feature in found.values() if found.keys() >= {*feature.needs})
+    """The features with screens that are there, in the order of NAMES."""
+    return tuple(feature for name in NAMES if (feature := declared(f"scenes.{name}")))
 
 
-def _found(name: str) -> Feature | None:
-    """A feature with all its rooms, or None; a mistake in one of its modules is raised."""
-    module = f"{PACKAGE}.scenes.{name}.feature"
-    if not is_there(module):
+def declared(room: str) -> Feature | None:
+    """The feature that a room declares, or None unless all its rooms are there. Mistakes in its module are raised."""
+    if not is_there(f"{PACKAGE}.{room}.feature"):
         return None
-    feature = import_module(module).FEATURE
+    feature = import_module(f"{PACKAGE}.{room}.feature").FEATURE
     assert isinstance(feature, Feature)
-    missing = [room for room in feature.rooms if not is_there(f"{PACKAGE}.{room}")]
+    missing = [room for room in (*feature.rooms, *feature.needs) if not is_there(f"{PACKAGE}.{room}")]
     if missing:
-        log.warning("%s is not offered: %s is missing", name, missing[0])
+        log.warning("%s is not offered: %s is missing", feature.name, missing[0])
     return None if missing else feature
 
 

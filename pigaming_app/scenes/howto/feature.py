@@ -21,4 +21,4 @@ def show(context: Context, game: str) -> Show | None:
     return Show(lesson, lesson.draw)
 
 
-FEATURE = Feature("howto", menu=MenuItem(0, page), show=show)
+FEATURE = Feature("howto", rooms=("scenes.howto",), menu=MenuItem(0, page), show=show)

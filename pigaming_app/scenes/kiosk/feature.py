@@ -28,7 +28,7 @@ def sketch(ink: GlowCanvas, beat: int) -> None:
 
 FEATURE = Feature(
     "kiosk",
-    rooms=("jobs.kiosk", "jobs.autostart", "jobs.report"),
+    rooms=("scenes.kiosk", "jobs.kiosk"),
     options={"day": OptionRow("", "games", page, sketch)},
     service=service,
 )

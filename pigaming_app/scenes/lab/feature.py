@@ -34,7 +34,7 @@ def saved_brains() -> list[Path]:
 
 FEATURE = Feature(
     "lab",
-    rooms=("ai.ppo.lab",),
+    rooms=("scenes.lab", "ai.ppo.lab"),
     menu=MenuItem(3, page),
     service=service,
     saved_brains=saved_brains,

@@ -27,6 +27,7 @@ def show(context: Context, game: str) -> Show | None:
 
 FEATURE = Feature(
     "ladder",
+    rooms=("scenes.ladder",),
     needs=("events",),  # for its rules
     menu=MenuItem(1, page),
     show=show,

@@ -83,7 +83,7 @@ def sketch(ink: GlowCanvas, beat: int) -> None:
 
 FEATURE = Feature(
     "mat",
-    rooms=("hardware", "jobs.mat"),
+    rooms=("scenes.mat", "jobs.mat", "hardware"),
     options={"robots": OptionRow("", "ease", page, sketch)},
     service=service,
     mat=mat,

@@ -84,7 +84,7 @@ def sketch(ink: GlowCanvas, beat: int) -> None:
 
 FEATURE = Feature(
     "phones",
-    rooms=("ui.input.phones",),
+    rooms=("scenes.phones", "ui.input.phones"),
     options={"phones": OptionRow("controls", "remap", settings_page, sketch)},
     service=service,
     join=join,

@@ -12,5 +12,8 @@ def page(context: Context, game: str) -> Scene:
 
 
 FEATURE = Feature(
-    "replays", rooms=("jobs.replay",), menu=MenuItem(5, page), preload=("pigaming_app.scenes.replays.page",)
+    "replays",
+    rooms=("scenes.replays", "jobs.replays"),
+    menu=MenuItem(5, page),
+    preload=("pigaming_app.scenes.replays.page",),
 )

@@ -14,9 +14,9 @@ from pigaming_app.ai.networks.onnx import child
 from pigaming_app.ai.networks.onnx.files import OnnxPolicy
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.registry import find_brain, new_match
-from pigaming_app.cli import main
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.setup import ChoiceError
+from pigaming_app.jobs.cli import main
 from tests.ai.networks.tiny_onnx import DOUBLE, endless, field, model, node, tensor, troubled
 
 ENCODING = ENCODINGS["pitanks"]

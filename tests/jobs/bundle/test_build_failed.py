@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app import cli
-from pigaming_app.jobs import bundle
-from pigaming_app.jobs.bundle import build
+from pigaming_app.jobs import cli
+from pigaming_app.jobs.bundle import build, bundle
 from pigaming_app.jobs.terminal import refusal
 
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app import ROOT, cli
+from pigaming_app import ROOT
 from pigaming_app.boot import bundled
+from pigaming_app.jobs import cli
 from pigaming_app.jobs.bundle import build, contents, icons
 from pigaming_app.jobs.terminal import command, refusal
 
@@ -48,7 +49,7 @@ def test_the_icon_of_macos_is_a_chain_of_pictures() -> None:
 
 def test_modules_files_and_assets_are_in_it() -> None:
     modules = contents.modules()
-    assert {"pigaming_app", "pigaming_app.cli", "pigaming_app.jobs.arcade", "pigaming_app.ui.probe"} < set(modules)
+    assert {"pigaming_app", "pigaming_app.jobs.cli", "pigaming_app.jobs.arcade", "pigaming_app.ui.probe"} < set(modules)
     assert not [name for name in modules if "micropython" in name]
     copied = {f"{folder}/{Path(path).name}" for path, folder in contents.files()}
     for name in ("assets/text/en.toml", "assets/rude.toml", "./pyproject.toml", "assets/arenas/pitanks/classic.toml"):
@@ -84,15 +85,15 @@ def test_a_bundle_starts_itself_and_its_own_modules_only(monkeypatch: pytest.Mon
     monkeypatch.setattr(bundled.sys, "argv", ["pigaming"])
     assert bundled.run_module(["-m", "pigaming_app.ui.probe", "x"])
     assert ran == [("pigaming_app.ui.probe", ["pigaming_app.ui.probe", "x"])]
-    for words in ([], ["-m"], ["-m", "os"], ["--kiosk"], ["play", "-m", "pigaming_app.cli"]):
+    for words in ([], ["-m"], ["-m", "os"], ["--kiosk"], ["play", "-m", "pigaming_app.jobs.cli"]):
         assert not bundled.run_module(words)
 
 
-@pytest.mark.parametrize("job", ["test", "bundle"])
+@pytest.mark.parametrize(("job", "package"), [("test", "bench"), ("bundle", "bundle")])
 def test_what_needs_a_clone_is_refused_in_a_bundle(
-    job: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    job: str, package: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(f"pigaming_app.jobs.{job}.FROZEN", True)
+    monkeypatch.setattr(f"pigaming_app.jobs.{package}.{job}.FROZEN", True)
     assert cli.main([job]) == 2
     assert "clone" in capsys.readouterr().err
     monkeypatch.setattr(refusal, "FROZEN", True)

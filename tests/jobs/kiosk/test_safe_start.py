@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[3]
 QUICK = Limits(poll=0.02, start=120.0, hang=120.0, delays=(0.0,))
 KIOSK = """
 import os, signal, sys
-from pigaming_app import cli
+from pigaming_app.jobs import cli
 from pigaming_app.scenes.kiosk.scoreboard import window
 
 def broken(*_):

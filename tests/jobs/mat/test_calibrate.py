@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.cli import main
+from pigaming_app.jobs.cli import main
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[3]
 def calibrate(home, *arguments):
     """Run the job; returns its output and exit code."""
     environment = {**os.environ, "PIGAMING_HOME": str(home)}
-    code = "import sys; from pigaming_app.cli import main; sys.exit(main(sys.argv[1:]))"
+    code = "import sys; from pigaming_app.jobs.cli import main; sys.exit(main(sys.argv[1:]))"
     command = [sys.executable, "-W", "error", "-c", code, "calibrate", *map(str, arguments)]
     return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
 

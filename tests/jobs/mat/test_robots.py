@@ -7,7 +7,6 @@ from math import cos, sin
 
 import pytest
 
-from pigaming_app.cli import main
 from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
 from pigaming_app.hardware.emulator.xbee import Module
@@ -16,6 +15,7 @@ from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session.store import save_pairing
 from pigaming_app.hardware.signals import ExposureState
+from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.mat import fidelity, robots
 from pigaming_app.jobs.mat.robots import radio_setup
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.cli import Parser
 from pigaming_app.games.replay import ReplayError
 from pigaming_app.hardware import recordings
 from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.jobs import play as play_job
+from pigaming_app.jobs.cli import Parser
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.scenes.features.replays import timeline_of, verify
 from pigaming_app.scenes.files import load_replay, save_replay

@@ -1,0 +1,87 @@
+"""Performance on this machine: the simulator, frames, start and memory; `phones` as pads; or `robots`, the proof of
+the robot loop.
+"""
+
+import json
+import sys
+from argparse import ArgumentParser, Namespace
+from typing import Any
+
+from pigaming_app.jobs.terminal.options import game_option, shared
+from pigaming_app.jobs.terminal.refusal import Refusal, missing, refused, require
+
+ROBOTS, PHONES = "robots", "phones"
+
+
+def options(parser: ArgumentParser) -> None:
+    game_option(parser, more=(ROBOTS, PHONES))
+    parser.add_argument("--arcade", action="store_true", help="robots: only the failures of a whole arcade")
+    shared(parser, "--variant", "--json")
+
+
+def run(arguments: Namespace) -> int:
+    """Measure and print the figures. Raises Refusal."""
+    if arguments.arcade and arguments.game != ROBOTS:
+        raise Refusal("--arcade: only for robots")
+    special = {ROBOTS: lambda: _robots(arguments.arcade), PHONES: _phones}
+    figures = special.get(arguments.game, lambda: _game(arguments.game, arguments.variant))()
+    if arguments.json:
+        print(json.dumps(figures))
+    else:
+        _print(figures)
+        if arguments.game != PHONES and (lacks := missing("bench")):
+            print(lacks)
+    return 0
+
+
+def _game(game: str, variant: str | None) -> dict[str, Any]:
+    from pigaming_app.games.registry import games
+    from pigaming_app.games.setup import ChoiceError, require_one_of
+
+    with refused(ChoiceError):
+        require_one_of("game", game, [*games(), ROBOTS, PHONES])
+        variant = variant or games()[game].default.name
+        require_one_of("variant", variant, list(games()[game].variants))
+    from pigaming_app.jobs.bench.figures import measure
+
+    return measure(game, variant)
+
+
+def _robots(arcade: bool) -> dict[str, Any]:
+    """The proof of the robot loop; its findings go to standard error as they come."""
+    require("hardware")
+    from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
+    from pigaming_app.jobs.bench.robots import Unproven, arcade_figures, measure, reached, stops_outside
+
+    def note(line: str) -> None:
+        print(line, file=sys.stderr, flush=True)
+
+    with refused(OpenCVMissing, Unproven):
+        opencv()
+        figures = arcade_figures(*stops_outside(note)) if arcade else measure(note)
+    missed = [key for key, good in reached(figures).items() if not good]
+    note(f"not reached: {', '.join(missed)}" if missed else "everything is reached")
+    return figures
+
+
+def _phones() -> dict[str, Any]:
+    """The latency of phones as pads."""
+    require("phones")
+    from pigaming_app.jobs.bench.phones import measure
+    from pigaming_app.ui.i18n import english
+    from pigaming_app.ui.input.phones.network import PhonesUnavailable
+
+    try:
+        return measure()
+    except PhonesUnavailable as trouble:
+        raise Refusal(english()(f"phones.{trouble.key}", **trouble.values)) from None
+
+
+def _print(figures: dict[str, Any], indent: str = "") -> None:
+    """A line for each figure; those of a group are indented below its name."""
+    for key, value in figures.items():
+        if isinstance(value, dict):
+            print(indent + key)
+            _print(value, indent + "  ")
+        else:
+            print(f"{indent + key:40} {value if not isinstance(value, float) else f'{value:,.3f}'}")

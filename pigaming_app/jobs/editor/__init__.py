@@ -1,0 +1,3 @@
+"""Arenas without the editor."""
+
+JOBS = {"arena": "arenas of your own: list, export, import, check"}

@@ -1,0 +1,3 @@
+"""Events without their screens."""
+
+JOBS = {"event": "tournaments and Grand Prix of AIs and people"}

@@ -1,0 +1,61 @@
+"""Table and next matches of an event."""
+
+import json
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator, Sequence
+
+from pigaming_app.events.event import Event
+from pigaming_app.events.exports import columns, plain
+from pigaming_app.events.spec import Standing
+from pigaming_app.jobs.events.files import file_option, loaded
+
+NEXT = 8  # matches shown
+
+
+def options(parser: ArgumentParser) -> None:
+    file_option(parser)
+    parser.add_argument("--json", action="store_true", help="print the event as one JSON object")
+
+
+def run(arguments: Namespace) -> int:
+    """Print the event. Raises Refusal."""
+    print_event(loaded(arguments.file), arguments.json)
+    return 0
+
+
+def print_event(event: Event, as_json: bool, **more: float) -> None:
+    """Print tables, or one JSON object with `more` figures."""
+    if as_json:
+        print(json.dumps(plain(event) | more))
+    else:
+        print("\n".join(line.rstrip() for line in lines(event)))
+
+
+def lines(event: Event) -> Iterator[str]:
+    """The tables of entrants and teams, then the next matches."""
+    spec, played = event.spec, len(event.outcomes)
+    yield f"{spec.title}: {spec.format}, {', '.join(spec.games)}"
+    yield f"{played} matches played, {len(event.open)} open"
+    yield ""
+    yield from _table(event.standings)
+    if event.team_standings:
+        yield ""
+        yield from _table(event.team_standings)
+    if event.open:
+        yield ""
+        yield f"round {event.round}, next:"
+    for fixture in event.open[:NEXT]:
+        stage = f", {fixture.stage}" if fixture.stage else ""
+        stage += ", sudden death" if fixture.extra else ""
+        yield f"{fixture.number:>5}  {' – '.join(fixture.entrants)}  ({fixture.game}{stage})"
+    if len(event.open) > NEXT:
+        yield f"       and {len(event.open) - NEXT} more"
+
+
+def _table(rows: Sequence[Standing]) -> Iterator[str]:
+    breaks = columns(rows)
+    wide = max(14, *(len(row.entrant) + 1 for row in rows))
+    yield f"{'':4}{'':{wide}}{'points':>8}{'wins':>6}{'played':>8}" + "".join(f"{key:>18}" for key in breaks)
+    for row in rows:
+        values = "".join(f"{row.tie_breaks[key]:z18.2f}" for key in breaks)
+        yield f"{row.place:>3} {row.entrant:{wide}}{row.points:z8.2f}{row.wins:6}{row.played:8}{values}"

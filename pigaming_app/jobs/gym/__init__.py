@@ -1,0 +1,1 @@
+"""Environments need no job."""

@@ -1,0 +1,7 @@
+"""Training of AIs, and matches among them by the thousand."""
+
+JOBS = {
+    "duel": "many matches between two AIs",
+    "league": "a round robin of AIs, with ratings",
+    "train": "train an AI from nothing",
+}

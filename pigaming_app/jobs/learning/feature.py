@@ -1,0 +1,5 @@
+"""Learning as a feature: learners, and matches by the thousand in compiled loops."""
+
+from pigaming_app.scenes.features.feature import Feature
+
+FEATURE = Feature("learning", rooms=("jobs.learning", "ai.ppo"))

@@ -1,0 +1,194 @@
+"""The run of `train ppo`."""
+
+import json
+import os
+from argparse import Namespace
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from time import monotonic
+
+from pigaming_app.ai.brain.archive import BrainFileError
+from pigaming_app.ai.experiments.league import wilson
+from pigaming_app.ai.experiments.rollout import rehearse
+from pigaming_app.ai.experiments.settings import changed
+from pigaming_app.ai.networks.files import encode as encode_network
+from pigaming_app.ai.ppo.checkpoint import encode, restore
+from pigaming_app.ai.ppo.product import trained_network
+from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
+from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.ppo.shard import is_compiled
+from pigaming_app.ai.ppo.task import SHARDS, Task
+from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
+from pigaming_app.ai.ppo.win_rates import Score
+from pigaming_app.ai.registry import find_brain
+from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.registry import games
+from pigaming_app.games.setup import ChoiceError, require_game
+from pigaming_app.jobs.learning.train.outputs import csv_of, png_of, two_plots
+from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
+from pigaming_app.jobs.terminal.refusal import Refusal, refused
+from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
+
+MEASURED_EVERY = 25  # updates
+MEASURED, MEASURED_AT_END = 10, 40  # matches against each rival
+SAVED_EVERY = 60.0  # s
+
+
+def train_and_save(arguments: Namespace, beside: Path) -> int:
+    """Train, save and print the result; 130 after Ctrl-C. `beside`: the checkpoint. Raises Refusal or NotSaved."""
+    with refused(ChoiceError, BrainFileError):
+        training = _begin(arguments, beside)
+    if not is_compiled(training.task):
+        note("compiling the training, once; it takes a minute")
+    with (
+        refused(Diverged, NoCluster),
+        ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads,
+        _players(training, threads, arguments) as (gather, sync),
+    ):
+        scores = training.measure(MEASURED, threads)  # also compiles
+        with interrupts() as stopped:
+            note("Ctrl-C ends the training after the current update and saves the result")
+            save = partial(_save, training, sync, arguments.out, beside)
+            _train(training, scores, gather, threads, save, stopped)
+            scores = training.measure(MEASURED_AT_END, threads)
+            save()
+            if arguments.csv:
+                write_atomic(arguments.csv, csv_of(columns(training.task), training.points))
+            if arguments.curve:
+                write_atomic(arguments.curve, _curve_of(training))
+    _print(training, scores, arguments, bool(stopped))
+    return end_of(stopped)
+
+
+def _begin(arguments: Namespace, beside: Path) -> Training:
+    """A fresh training, or the saved one. Raises Refusal, ChoiceError or BrainFileError."""
+    require_game(arguments.game)
+    if arguments.game not in TASKS:
+        raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
+    if arguments.workers > SHARDS:
+        raise Refusal(f"--workers: {arguments.workers}; the matches are divided among {SHARDS} at most")
+    task = _task(arguments)
+    _rehearse(task)
+    try:
+        hyper = changed(task.hyper, arguments.set)
+        training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
+    except ValueError as wrong:
+        raise Refusal(f"--set: {wrong}" if arguments.set else str(wrong)) from None
+    if arguments.resume:
+        restore(training, beside)
+    return training
+
+
+def _rehearse(task: Task) -> None:
+    """Play a match of a plug-in's game before the training. Raises what it raises."""
+    variant = games()[task.game].variants[task.variants[0]]
+    one, two, three, four = (Seat("random", team) for team in variant.teams)
+    seats, minutes = (one, two, three, four), task.minutes[0]
+    setup = Setup(task.game, task.arenas[0], seats, minutes, 1, variant.name, variant.default_goal)
+    rehearse(setup, [find_brain(task.game, "random")] * ROBOTS)
+
+
+def _task(arguments: Namespace) -> Task:
+    """The game as it is to be learned. Raises ChoiceError."""
+    task = TASKS[arguments.game]
+    if arguments.against is None:
+        return task
+    find_brain(arguments.game, arguments.against)
+    return task.against(arguments.against)
+
+
+@contextmanager
+def _players(
+    training: Training, threads: Executor, arguments: Namespace
+) -> Iterator[tuple[Gather, Callable[[], None]]]:
+    """Those who play the shards, and a function that brings the training's own shards up to date."""
+    if arguments.ray is None:
+        yield in_threads(training, threads), lambda: None
+        return
+    with RayShards(training, arguments.ray, arguments.workers) as shards:
+        yield shards.gather, shards.sync
+
+
+def _train(
+    training: Training,
+    scores: Mapping[str, Score],
+    gather: Gather,
+    threads: Executor,
+    save: Callable[[], None],
+    stopped: list[int],
+) -> None:
+    """Train to the end of the plan, or until stopped. `scores`: of the network as it is."""
+    saved = monotonic()
+    while not training.finished and not stopped:
+        training.update(gather, threads)
+        measured = training.updates % MEASURED_EVERY == 0
+        if measured:
+            scores = training.measure(MEASURED, threads)
+        show(_line(training, scores), milestone=measured)
+        if monotonic() - saved > SAVED_EVERY:
+            saved = monotonic()
+            try:
+                save()
+            except NotSaved as error:  # there may be room later
+                end_line()
+                note(str(error))
+    end_line()
+
+
+def _save(training: Training, sync: Callable[[], None], out: Path, beside: Path) -> None:
+    """Write network and checkpoint. Raises NotSaved or NoCluster."""
+    sync()
+    write_all_atomic({out: encode_network(trained_network(training, out.stem)), beside: encode(training)})
+
+
+def _line(training: Training, scores: Mapping[str, Score]) -> str:
+    """A line of progress."""
+    if training.minutes is None:
+        done = f"{training.updates}/{training.planned} updates"
+    else:
+        done = f"{training.updates} updates  {training.seconds / 60:.1f}/{training.minutes:g} min"
+    ends = "  ".join(f"{rival} {score.wins}-{score.ties}-{score.losses}" for rival, score in scores.items())
+    return f"{bar(training.share)} {done}  {training.decisions / training.seconds:,.0f} decisions/s  {ends}"
+
+
+def _curve_of(training: Training) -> bytes:
+    """The learning curve as a PNG file: wins against the rivals, and the policy's entropy."""
+    figure, upper, lower = two_plots()
+    millions = [point[1] / 1e6 for point in training.points]
+    for k, rival in enumerate(training.task.rivals):
+        ends = [point[4 + 3 * k : 7 + 3 * k] for point in training.points]
+        upper.plot(millions, [end[0] / sum(end) for end in ends], label=f"wins against {rival}")
+    upper.set(title=f"{training.task.game}, seed {training.seed}", ylabel="share of wins", ylim=(-0.03, 1.03))
+    upper.legend()
+    lower.plot(millions, [point[3] for point in training.points], color="tab:orange")
+    lower.set(xlabel="decisions, millions", ylabel="entropy of the policy, nats")
+    return png_of(figure)
+
+
+def _print(training: Training, scores: Mapping[str, Score], arguments: Namespace, stopped: bool) -> None:
+    """Print the result."""
+    speed = training.decisions / training.seconds if training.seconds else 0.0
+    if arguments.json:
+        result = {
+            "game": training.task.game,
+            "seed": training.seed,
+            "updates": training.updates,
+            "decisions": training.decisions,
+            "seconds": training.seconds,
+            "decisions_per_second": speed,
+            "entropy": training.entropy,
+            "rivals": {rival: score._asdict() for rival, score in scores.items()},
+            "finished": not stopped,
+            "out": str(arguments.out),
+        }
+        print(json.dumps(result))
+        return
+    print(f"{training.updates} updates, {training.decisions:,} decisions: {arguments.out}")
+    print(f"trained in {training.seconds:.1f} s, {speed:,.0f} decisions/s")
+    for rival, score in scores.items():
+        low, high = wilson(score.wins, sum(score))
+        print(f"against {rival}: {score.wins}-{score.ties}-{score.losses} (wins: {low:.0%} to {high:.0%})")

@@ -1,0 +1,89 @@
+"""The job `test`: selection of tools and tests by its options, and its exit code."""
+
+import subprocess
+
+import pytest
+
+from pigaming_app.jobs.bench import test as checks
+from pigaming_app.jobs.cli import main
+
+EVERYTHING = {"pytest", "ruff", "mypy"}
+
+
+class Process:
+    """A process that has ended."""
+
+    pid = 0
+
+    def __init__(self, words, code):
+        self.words, self.returncode = words, code
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def wait(self):
+        return self.returncode
+
+    def communicate(self):
+        return b"line 7 is too long\n" if self.returncode else b"", None
+
+
+@pytest.fixture
+def started(monkeypatch):
+    """The arguments of every started process; a process named in `failing` fails."""
+    seen = []
+
+    def start(words, output=None):
+        assert output == (None if words[0] == "pytest" else subprocess.PIPE)
+        seen.append(tuple(words))
+        return Process(words, int(words[0] in start.failing))
+
+    start.failing, start.seen = (), seen
+    monkeypatch.setattr(checks, "_python", start)
+    monkeypatch.setattr(checks.os, "setpriority", lambda *_: None, raising=False)
+    return start
+
+
+def words_of(tool, started):
+    return next(words for words in started.seen if words[0] == tool)
+
+
+@pytest.mark.parametrize(
+    ("options", "tools", "marked"),
+    [([], EVERYTHING, "not long"), (["--quick"], {"pytest", "ruff"}, "not long"), (["--long"], {"pytest"}, "long")],
+)
+def test_the_options_choose_tools_and_tests(started, options, tools, marked):
+    assert main(["test", *options, "-k", "replay"]) == 0
+    assert {words[0] for words in started.seen} == tools
+    words = words_of("pytest", started)
+    assert words[words.index("-m") + 1] == marked
+    assert words[words.index("-k") + 1] == "replay"
+    assert ("tests/sim" in words) == ("--quick" in options)
+
+
+def test_named_files_are_tried_instead_of_all_unit_tests(started):
+    assert main(["test", "--quick", "tests/test_cli.py::test_a_picture_is_taken"]) == 0
+    assert "tests/sim" not in words_of("pytest", started)
+
+
+def test_all_unit_tests_that_are_named_are_there():
+    assert all((checks.ROOT / unit).exists() for unit in checks.UNITS)
+
+
+@pytest.mark.parametrize("tool", ["pytest", "ruff", "mypy"])
+def test_whatever_fails_fails_the_job_and_is_named(started, capfd, tool):
+    started.failing = (tool,)
+    assert main(["test"]) == 1
+    out, err = capfd.readouterr()
+    assert out == ""
+    assert err.count("FAILED") == {"pytest": 0, "ruff": 2, "mypy": 1}[tool]
+    assert err.count("line 7 is too long") == err.count("FAILED")
+
+
+def test_two_choices_at_once_are_refused_in_one_line(started, capsys):
+    assert main(["test", "--quick", "--long"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert started.seen == []

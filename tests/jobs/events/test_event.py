@@ -1,0 +1,341 @@
+"""The job `event`: from a list of entrants to the table."""
+
+import csv
+import json
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.events.event_files import load
+from pigaming_app.jobs.cli import main
+from tests.jobs.test_hostile_options import ANY, POSIX, fault, furnish
+
+ROOT = Path(__file__).resolve().parents[2]
+SHORT = ["--minutes", "0.05"]
+
+
+@pytest.fixture(autouse=True)
+def home(tmp_path, monkeypatch):
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+    for variable in ("SDL_VIDEODRIVER", "SDL_AUDIODRIVER"):  # `fault` changes them
+        monkeypatch.setenv(variable, "dummy")
+    monkeypatch.chdir(tmp_path)
+
+
+def new(*words: str, form: str = "roundrobin", entrants: str = "AAA=level1,BBB=idle,CCC") -> int:
+    return main(["event", "new", "cup.json", "--format", form, "--entrants", entrants, *SHORT, *words])
+
+
+def standings(capsys) -> list[dict]:
+    return json.loads(capsys.readouterr().out)["standings"]
+
+
+@pytest.mark.parametrize("form", ["knockout", "roundrobin", "swiss", "grandprix"])
+def test_an_event_from_its_beginning_to_the_table(form, capsys):
+    rounds = "2" if form == "swiss" else "3"
+    assert new("--game", "pitanks", "--rounds", rounds, form=form) == 0
+    capsys.readouterr()
+    assert main(["event", "run", "cup.json", "--headless", "--speed", "max", "--json"]) == 0
+    told = capsys.readouterr()
+    result = json.loads(told.out)
+    assert told.err == ""
+    assert sorted(row["entrant"] for row in result["standings"]) == ["AAA", "BBB", "CCC"]
+    points = [row["points"] for row in result["standings"]]
+    assert points == sorted(points, reverse=True)
+    assert all(row["wins"] <= row["played"] for row in result["standings"])
+    assert result["over"]
+    assert main(["event", "show", "cup.json", "--json"]) == 0
+    assert standings(capsys) == result["standings"]
+
+
+def test_without_headless_the_arcade_opens_on_the_next_match(monkeypatch, controls):
+    from pigaming_app.jobs import arcade
+    from pigaming_app.scenes.events.next_page import NextMatch
+    from tests.scenes.arcade import Arcade
+
+    opened = []
+    monkeypatch.setattr(arcade, "show", lambda options: opened.append(options) or 0)
+    assert new("--game", "pitanks") == 0
+    assert main(["event", "run", "cup.json"]) == 0
+    page = opened[0].first_scene(Arcade(controls).context)
+    assert isinstance(page, NextMatch)
+    assert page.running.path == Path("cup.json")
+
+
+def test_games_take_turns_each_with_its_own_length_arena_and_rules(capsys):
+    words = ["--game", "pitanks,race", "--arena", "race=kidney", "--rules", "party", "--json", "--seats", "2"]
+    assert new(*words, "--minutes", "race=0.1,pitanks=0.05", entrants="AAA=random,BBB=idle,CCC=random") == 0
+    capsys.readouterr()
+    event, _ = load(Path("cup.json"))
+    assert [one.game for one in event.fixtures] == ["pitanks", "race", "pitanks"]
+    assert event.spec.minutes == {"race": 0.1, "pitanks": 0.05}
+    assert event.spec.arenas == {"race": ("kidney",)}
+    assert event.spec.variants == {"pitanks": "party", "race": "party"}
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    assert "AAA" in capsys.readouterr().out
+
+
+def test_arenas_take_turns_in_the_order_that_is_chosen(tmp_path, capsys):
+    (tmp_path / "own.toml").write_text(Path(ROOT / "assets/arenas/race/kidney.toml").read_text(encoding="utf-8"))
+    words = ["--game", "race,pitanks", "--arena", "pitanks=islands+classic,race=own.toml+hairpin", "--rounds", "6"]
+    assert new(*words, "--seats", "3", form="grandprix", entrants="AAA=random,BBB=idle,CCC=random") == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    event, _ = load(Path("cup.json"))
+    own = str(tmp_path / "own.toml")
+    assert [(one.game, one.arena) for one in event.fixtures] == [
+        ("race", own), ("pitanks", "islands"), ("race", "hairpin"), ("pitanks", "classic"), ("race", own),
+        ("pitanks", "islands"),
+    ]  # fmt: skip
+    assert event.over
+    capsys.readouterr()
+    assert new("--arena", "classic+nowhere", "--title", "another") == 2
+    Path("cup.json").unlink()
+    assert new("--arena", "classic+nowhere") == 2
+    assert "nowhere: no such arena for pitanks" in capsys.readouterr().err
+
+
+def test_entrants_from_a_file(tmp_path, capsys):
+    (tmp_path / "list.csv").write_text("name;ai;team\nAna;level1;Red\nBia;;Blue\nCarla;idle;Red\n", encoding="utf-8")
+    assert new(entrants="@list.csv") == 0
+    assert "Carla" in capsys.readouterr().out
+    event, _ = load(Path("cup.json"))
+    assert [entrant.team for entrant in event.entrants] == ["Red", "Blue", "Red"]
+
+
+def test_columns_that_are_not_known_are_named_in_one_line(tmp_path, capsys):
+    (tmp_path / "list.csv").write_bytes("Klasse;Spieler;Größe\n5a;Jürgen;1,50\n5b;Bea;\n5c;Eva;\n".encode("mac_roman"))
+    assert new(entrants="@list.csv") == 0
+    assert capsys.readouterr().err == "PiGaming: list.csv: columns that are not known are ignored: 'Klasse', 'Größe'\n"
+    assert [entrant.name for entrant in load(Path("cup.json"))[0].entrants] == ["Jürgen", "Bea", "Eva"]
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("Ana\nBea=level9\nEva\n", "list.csv: line 2: no brain 'level9'"),
+        ("name;ai\n\nAna;\n" + "x" * 25 + ";\n", "list.csv: line 4: 'xxxxxxxxxxxxxxxxxxxxxxxxx': a name has 1 to 24"),
+        ('Ana\n"Bea\nEva\n', "list.csv: line 2: a quoted cell does not end with a quote"),
+        ("Ana\nBea\n", "list.csv: line 2: the list ends with 2 entrants; an event has 3 to 64"),
+    ],
+)
+def test_a_list_is_refused_with_file_and_line(tmp_path, capsys, text, reason):
+    (tmp_path / "list.csv").write_text(text, encoding="utf-8")
+    assert new(entrants="@list.csv") == 2
+    error = capsys.readouterr().err
+    assert reason in error
+    assert error.count("\n") == 1
+
+
+def test_a_knockout_of_robots_that_never_score_ends_by_lot(capsys):
+    assert new("--format", "knockout", "--minutes", "0.05", "--title", "t", entrants="A=idle,B=idle,C=idle") == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    capsys.readouterr()
+    assert main(["event", "show", "cup.json", "--json"]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert all(
+        match["sudden_death"] == [[sorted(match["entrants"])]] * 3 and match["lots"] for match in shown["matches"]
+    )
+    assert [row["place"] for row in shown["standings"]] == [1, 2, 3]
+    event, _ = load(Path("cup.json"))
+    assert [len(event.played[number]) for number in sorted(event.played)] == [4] * len(event.fixtures)
+
+
+def test_exports(capsys):
+    assert new() == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    capsys.readouterr()
+    assert main(["event", "export", "cup.json", "--csv", "a.csv", "--matches", "b.csv", "--json", "a.json"]) == 0
+    assert capsys.readouterr().out == ""
+    whole = json.loads(Path("a.json").read_text(encoding="utf-8"))
+    with open("a.csv", newline="", encoding="utf-8") as file:
+        table = [*csv.DictReader(file)]
+    assert [row["entrant"] for row in table] == [row["entrant"] for row in whole["standings"]]
+    assert [float(row["points"]) for row in table] == [row["points"] for row in whole["standings"]]
+    with open("b.csv", newline="", encoding="utf-8") as file:
+        matches = [*csv.DictReader(file)]
+    assert [(int(row["match"]), row["entrant"]) for row in matches] == [
+        (match["match"], name) for match in whole["matches"] for name in match["entrants"]
+    ]
+
+
+def test_a_poster_needs_no_display(capsys, monkeypatch):
+    pytest.importorskip("PIL")
+    from PIL import Image
+
+    monkeypatch.setenv("SDL_VIDEODRIVER", "none of these")
+    assert new(form="knockout") == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    assert main(["event", "export", "cup.json", "--poster", "a.png"]) == 0
+    assert main(["event", "export", "cup.json", "--poster", "b.pdf", "--csv", "b.csv"]) == 0
+    assert sorted(path.name for path in Path().glob("a*.png")) == ["a-2.png", "a-3.png", "a.png"]
+    with Image.open("a.png") as picture:
+        assert picture.size == (2480, 3508)
+    assert Path("b.pdf").read_bytes().startswith(b"%PDF")
+    assert Path("b.csv").is_file()
+    capsys.readouterr()
+    assert main(["event", "export", "cup.json", "--poster", "a.jpg"]) == 2
+    assert main(["event", "export", "cup.json", "--poster", "a.png", "--csv", "a-2.png"]) == 2
+    assert capsys.readouterr().err.count("\n") == 2
+
+
+def test_in_a_kiosk_the_supervisor_marks_the_event_and_the_arcade_opens_what_is_marked(monkeypatch):
+    from pigaming_app.jobs import arcade
+    from pigaming_app.jobs.terminal import supervised as child
+    from pigaming_app.storage import resume
+    from pigaming_app.storage.settings import folders
+
+    shown, commands = [], []
+    monkeypatch.setattr(arcade, "show", lambda options: shown.append(options) or 0)
+    monkeypatch.setattr(arcade, "supervised", lambda arguments: commands.append(arguments.words) or 0)
+    assert new() == 0
+    words = ["event", "run", "cup.json", "--kiosk", "--display", "2"]
+    assert main(words) == 0
+    assert commands == [words]
+    assert resume.marked(folders().data) == Path("cup.json").absolute()
+    monkeypatch.setenv(child.VARIABLE, "a file")
+    assert main(words) == 0
+    assert (shown[0].kiosk, shown[0].display, shown[0].first_scene) == (True, 1, None)
+    assert main([*words, "--headless"]) == 2
+
+
+def test_a_cell_is_never_a_formula(capsys):
+    assert new(entrants="=1+2,+1,CCC") == 2
+    assert new(entrants="@x,-1,CCC") == 2
+    assert capsys.readouterr().err.count("\n") == 2
+    Path("list.txt").write_text("-1\n+2\n@x\n")
+    assert new(entrants="@list.txt") == 0
+    assert main(["event", "export", "cup.json", "--csv", "a.csv"]) == 0
+    assert "'@x" in Path("a.csv").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["--game", "chess"], "no game 'chess'"),
+        (["--format", "duel"], "no format 'duel'; there are knockout, roundrobin, swiss, grandprix"),
+        (["--entrants", "A,B"], "an event has 3 to 64 entrants, not 2"),
+        (["--entrants", "A,B,A"], "A is entered twice"),
+        (["--entrants", "A=nobody,B,C"], "no brain 'nobody'"),
+        (["--entrants", "A=no.npz,B,C"], "no.npz"),
+        (["--entrants", "@nowhere.txt"], "cannot be read"),
+        (["--entrants", "A" * 25 + ",B,C"], "1 to 24 printable characters"),
+        (["--arena", "nowhere"], "nowhere: no such arena"),
+        (["--rules", "nothing"], "no variant 'nothing'"),
+        (["--minutes", "x"], "'x' is not a number"),
+        (["--minutes", "race=1"], "GAME=VALUE is needed, with one of pitanks"),
+        (["--minutes", "200"], "200 minutes"),
+        (["--seats", "5"], "5"),
+        (["--advance", "all"], "no choice for --advance: 'all'"),
+        (["--fill", "level1"], "AIs fill the seats of a Grand Prix only"),
+        (["--fill", "nobody", "--format", "grandprix"], "no brain 'nobody'"),
+        (["--game", "factory", "--rules", "together"], "nobody wins"),
+        (["--title", "x" * 61], "a title has 1 to 60 printable characters"),
+    ],
+)
+def test_a_wrong_option_is_one_line(words, reason, capsys):
+    assert new(*words) == 2
+    told = capsys.readouterr()
+    assert told.err.startswith("PiGaming: ")
+    assert told.err.count("\n") == 1
+    assert reason in told.err
+    assert not Path("cup.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["run", "no.json", "--headless"], "no.json: no such event"),
+        (["run", "broken.json", "--headless"], "cannot be read"),
+        (["run", "cup.json", "--json"], "need --headless"),
+        (["run", "cup.json", "--headless", "--speed", "fast"], "'fast' is not a number"),
+        (["show", "."], "cannot be read"),
+        (["export", "cup.json"], "--csv, --matches, --json or --poster"),
+        (["export", "cup.json", "--csv", "cup.json"], "a name of its own"),
+        (["export", "cup.json", "--csv", "a", "--json", "./a"], "a name of its own"),
+        (["export", "cup.json", "--csv", "."], "it is a folder"),
+        (["draw"], "invalid choice"),
+    ],
+)
+def test_a_wrong_file_is_one_line(words, reason, capsys):
+    assert new() == 0
+    Path("broken.json").write_text("[]")
+    capsys.readouterr()
+    assert main(["event", *words]) == 2
+    told = capsys.readouterr()
+    assert reason in told.err
+    assert told.err.count("\n") == 1
+
+
+OPTIONS = (
+    "--game", "--format", "--entrants", "--rounds", "--seats", "--minutes", "--arena", "--rules", "--advance", "--fill",
+    "--title", "--seed",
+)  # fmt: skip
+
+
+@POSIX
+@pytest.mark.parametrize("seed", range(2))
+def test_every_value_is_used_or_refused_in_one_line(tmp_path, monkeypatch, seed):
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    furnish(tmp_path / "here")
+    basic = ["event", "new", "cup.json", "--format", "swiss", "--entrants", "A,B,C", *SHORT]
+    cases = [[*basic, option, value] for option in OPTIONS for value in ANY]
+    cases += [["event", *words, value] for words in (["show"], ["run", "--headless"], [], ["export"]) for value in ANY]
+    cases += [["event", "new", value, *basic[3:]] for value in ANY]
+    assert main(["event", "new", "kept.json", *basic[3:]]) == 0
+    targets = ("--csv", "--matches", "--json", "--poster")
+    cases += [["event", "export", "kept.json", option, value] for option in targets for value in ANY]
+    faults = {}
+    for case in random.Random(seed).sample(cases, 120):
+        Path("cup.json").unlink(missing_ok=True)
+        if wrong := fault(case):
+            faults[repr(case)] = wrong
+    assert not faults
+
+
+def test_a_folder_is_not_created_for_an_event(capsys):
+    assert main(["event", "new", "nowhere/cup.json", "--format", "swiss", "--entrants", "A,B,C", *SHORT]) == 2
+    assert "nowhere" in capsys.readouterr().err
+    assert not Path("nowhere").exists()
+
+
+def test_an_event_is_not_overwritten(capsys):
+    assert new() == 0
+    before = Path("cup.json").read_bytes()
+    assert new(form="swiss") == 2
+    assert "exists already" in capsys.readouterr().err
+    assert Path("cup.json").read_bytes() == before
+
+
+@pytest.mark.long
+@POSIX
+def test_a_killed_run_goes_on_where_it_stopped(capsys):
+    assert new("--rounds", "8", entrants="A=random,B=idle,C=random,D=idle") == 0
+    command = [sys.executable, "-X", "pigaming", str(ROOT / "main.py"), "event", "run", "cup.json", "--headless"]
+    done = 0
+    for _ in range(3):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        while process.poll() is None and len(load(Path("cup.json"))[0].outcomes) < done + 3:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        event, problems = load(Path("cup.json"))
+        assert not problems
+        assert len(event.outcomes) >= done + 3 or event.over
+        done = len(event.outcomes)
+    capsys.readouterr()
+    assert main(["event", "run", "cup.json", "--headless", "--json"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert len(result["matches"]) == 48
+    assert all(match["played"] for match in result["matches"])
+    assert not [*Path().glob(".pigaming-*")]
+    straight = load(Path("cup.json"))[0]
+    Path("cup.json").unlink()
+    assert new("--rounds", "8", entrants="A=random,B=idle,C=random,D=idle") == 0
+    assert main(["event", "run", "cup.json", "--headless"]) == 0
+    assert load(Path("cup.json"))[0] == straight

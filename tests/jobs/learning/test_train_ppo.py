@@ -1,0 +1,152 @@
+"""The job `train ppo`: files, progress, resuming after Ctrl-C, and refusals in one line."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.ai.networks.files import decode
+from pigaming_app.ai.ppo.training import Training
+from pigaming_app.jobs.cli import main
+from tests.ai.ppo.plain import SET, play_plain
+from tests.disks import content, failing_at, room_for
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def train(out, *more, updates="4"):
+    return main(["train", "ppo", "pitanks", "--updates", updates, "--seed", "5", *SET, "--out", str(out), *more])
+
+
+@pytest.fixture
+def _plain(monkeypatch):
+    play_plain(monkeypatch)
+    monkeypatch.setattr("pigaming_app.jobs.learning.train.ppo_training.MEASURED", 1)
+    monkeypatch.setattr("pigaming_app.jobs.learning.train.ppo_training.MEASURED_AT_END", 2)
+
+
+def weights(path):
+    network = decode(path.read_bytes(), path.name)
+    return [array.tobytes() for array in (*network.matrices, *network.biases)]
+
+
+@pytest.mark.usefixtures("_plain")
+def test_the_job_trains_and_prints_its_result(tmp_path, capsys):
+    out, log = tmp_path / "a.npz", tmp_path / "a.csv"
+    assert train(out, "--csv", str(log), "--json", updates="2") == 0
+    result = json.loads(capsys.readouterr().out)
+    assert (result["updates"], result["finished"]) == (2, True)
+    assert sum(result["rivals"]["idle"].values()) == 2
+    rows = list(csv.DictReader(log.read_text().splitlines()))
+    assert [row["updates"] for row in rows] == ["0", "2"]
+    network = decode(out.read_bytes(), out.name)
+    assert (network.name, network.seed, network.decisions) == ("a", 5, result["decisions"])
+    assert len(network.curve.rows) == 2
+
+
+@pytest.mark.usefixtures("_plain")
+def test_ctrl_c_keeps_the_training_and_it_goes_on_bit_for_bit(tmp_path, capsys, monkeypatch):
+    update = Training.update
+
+    def interrupted(training, *more):
+        if training.updates == 1:
+            signal.raise_signal(signal.SIGTERM)  # noted like Ctrl-C, and in this thread
+        update(training, *more)
+
+    whole, part = tmp_path / "whole.npz", tmp_path / "part.npz"
+    assert train(whole) == 0
+    with monkeypatch.context() as patch:
+        patch.setattr(Training, "update", interrupted)
+        assert train(part) == 130
+    assert "continue with --resume" in capsys.readouterr().err
+    assert decode(part.read_bytes(), part.name).updates == 2
+    assert weights(part) != weights(whole)
+    assert train(part, "--resume") == 0
+    assert weights(part) == weights(whole)
+    assert train(part, "--resume", "--seed", "6") == 2
+    assert capsys.readouterr().err.splitlines()[-1].endswith("it is from a training with another seed")
+
+
+@pytest.mark.usefixtures("_plain")
+@pytest.mark.skipif(os.name != "posix", reason="limits of POSIX")
+def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, capsys):
+    assert train(tmp_path / "a.npz", updates="1") == 0
+    before = content(tmp_path)
+    with room_for(30_000):  # enough for the network alone
+        assert train(tmp_path / "a.npz", updates="2") == 2
+    assert "a.checkpoint.npz was not saved: File too large." in capsys.readouterr().err
+    assert content(tmp_path) == before
+    with failing_at(0):
+        assert train(tmp_path / "b.npz") == 2
+    assert content(tmp_path) == before
+
+
+@pytest.mark.parametrize(
+    ("more", "word"),
+    [
+        (["--minutes", "1"], "--updates"),
+        (["--minutes", "nan"], "--minutes"),
+        (["--set", "rate=2"], "rate is 2; possible are 0 to 1"),
+        (["--set", "matches=4"], "too few"),
+        (["--set", "speed=2"], "speed"),
+        (["--out", "a.txt"], ".npz"),
+        (["--out", "a.npz", "--csv", "a.checkpoint.npz"], "another file"),
+        (["--set", "rate=nan"], "rate is nan"),
+        (["--set", "=1"], "NAME=NUMBER is needed"),
+        (["--updates", "0"], "less than 1"),
+        (["--updates", "-1"], "less than 1"),
+        (["--workers", "0"], "less than 1"),
+        (["--workers", "2"], "only with --ray"),
+        (["--against", "nobody"], "no brain 'nobody'"),
+        (["--out", "nowhere/a.npz"], "no such folder"),
+        (["nonsense"], "no game 'nonsense'"),
+        (["factory"], "learns pitanks, race, football only"),
+        (["--resume"], "a.checkpoint.npz: cannot be read"),
+        ([*SET, "--resume", "--out", "foreign.npz"], "foreign.checkpoint.npz: not a checkpoint"),
+    ],
+)
+def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, capsys, monkeypatch, more, word):
+    monkeypatch.chdir(tmp_path)
+    Path("foreign.checkpoint.npz").write_text("text")
+    length = [] if "--minutes" in more and "nan" in more else ["--updates", "1"]
+    assert main(["train", "ppo", *length, "--out", "a.npz", *more]) == 2
+    output = capsys.readouterr()
+    assert (output.out, output.err.count("\n")) == ("", 1)
+    assert word in output.err
+    assert not (tmp_path / "a.npz").exists()
+
+
+def test_without_numba_it_names_the_extra(tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "numba", None)
+    assert main(["train", "ppo", "--out", str(tmp_path / "a.npz")]) == 2
+    assert "numba is missing (extra `train`)" in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("_plain")
+def test_the_number_of_threads_changes_no_bit(tmp_path, monkeypatch):
+    for name, processors in (("a.npz", 1), ("b.npz", 3)):
+        monkeypatch.setattr(os, "cpu_count", lambda count=processors: count)
+        assert train(tmp_path / name, updates="2") == 0
+    assert weights(tmp_path / "a.npz") == weights(tmp_path / "b.npz")
+
+
+@pytest.mark.again  # in the Lab: tests/ai/ppo/test_lab.py
+@pytest.mark.long(first=True)
+def test_a_short_training_beats_a_driver_by_hand_whatever_the_threads(tmp_path):
+    """The real task, compiled, in processes of their own: 60 updates, and the same bits with one processor."""
+    job = [sys.executable, "-X", "pigaming", "main.py", "train", "ppo", "pitanks", "--updates", "60", "--json", "--out"]
+    many = subprocess.run([*job, str(tmp_path / "a.npz")], cwd=ROOT, check=True, capture_output=True, text=True)
+    one = [
+        sys.executable,
+        "-c",
+        f"import os, runpy, sys; os.cpu_count = lambda: 1; sys.argv = {['main.py', *job[4:]]!r}",
+    ]
+    one[-1] += f" + [{str(tmp_path / 'b.npz')!r}]; runpy.run_path('main.py', run_name='__main__')"
+    subprocess.run([one[0], "-X", "pigaming", *one[1:]], cwd=ROOT, check=True, capture_output=True)
+    assert weights(tmp_path / "a.npz") == weights(tmp_path / "b.npz")
+    assert json.loads(many.stdout)["rivals"]["hand3"]["wins"] > 20
